@@ -1,0 +1,1 @@
+"""Nodes for ComfyUI: each converts the host's values, calls physics or rendering, and wraps the result."""

@@ -1,0 +1,79 @@
+"""Materials: what a body is made of, and presets under the names that artists use.
+
+Units: the longest side of the illustration is 1 side, density is 1 for every ordinary body, time is seconds.
+A look therefore survives a change of resolution.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import InvalidInputError, require
+
+__all__ = ["PRESETS", "Material", "preset"]
+
+
+@dataclass(frozen=True, eq=False)
+class Material:
+    """An isotropic fixed corotated solid (paper, Method, "Deformable Body Model").
+
+    Attributes:
+        youngs_modulus: stiffness against stretching [density side^2 / s^2].
+        poisson_ratio: how much a pull in one direction narrows the other, 0 to below 0.5.
+        density: mass per area [1].
+        damping: rate alpha of the velocity's decay, v(t) = v(0) exp(-alpha t) [1/s].
+        sway_frequency: when set, Young's modulus is chosen for each connected part of the body so that it sways
+            this often about its pinned points [Hz]; parts without a pinned point keep ``youngs_modulus``.
+        stiffness_scale: factor on Young's modulus for each triangle, shape [t]; None means 1 everywhere.
+    """
+
+    youngs_modulus: float = 500.0
+    poisson_ratio: float = 0.3
+    density: float = 1.0
+    damping: float = 1.5
+    sway_frequency: float | None = None
+    stiffness_scale: NDArray[np.float64] | None = None
+
+    def __post_init__(self) -> None:
+        require("youngs_modulus", self.youngs_modulus, 0 < self.youngs_modulus < np.inf, "above 0")
+        require("poisson_ratio", self.poisson_ratio, 0 <= self.poisson_ratio < 0.5, "at least 0 and below 0.5")
+        require("density", self.density, 0 < self.density < np.inf, "above 0")
+        require("damping", self.damping, 0 <= self.damping < np.inf, "at least 0 per second")
+        if self.sway_frequency is not None:
+            require("sway_frequency", self.sway_frequency, 0 < self.sway_frequency < np.inf, "above 0 Hz")
+        if self.stiffness_scale is not None:
+            scale = np.array(self.stiffness_scale, dtype=np.float64)
+            if scale.ndim != 1 or not np.isfinite(scale).all() or (scale <= 0).any():
+                raise InvalidInputError(f"stiffness_scale must hold one factor above 0 a triangle. Got: {scale}")
+            scale.setflags(write=False)
+            object.__setattr__(self, "stiffness_scale", scale)
+
+    @property
+    def lame(self) -> tuple[float, float]:
+        """Lame parameters (mu, lambda) in plane strain [density side^2 / s^2]."""
+        e, nu = self.youngs_modulus, self.poisson_ratio
+        return e / (2 * (1 + nu)), e * nu / ((1 + nu) * (1 - 2 * nu))
+
+
+PRESETS: dict[str, Material] = {
+    "hair": Material(youngs_modulus=400.0, damping=1.4, sway_frequency=0.9),
+    "ribbon": Material(youngs_modulus=250.0, damping=1.2, sway_frequency=1.1),
+    "cloth": Material(youngs_modulus=300.0, damping=1.6, sway_frequency=1.0),
+    "leaf": Material(youngs_modulus=900.0, damping=1.8, sway_frequency=1.4),
+    "jelly": Material(youngs_modulus=150.0, poisson_ratio=0.42, damping=1.2, sway_frequency=2.2),
+}
+
+
+def preset(name: str, **changes: Any) -> Material:
+    """The preset called ``name`` with fields replaced by ``changes``.
+
+    Raises:
+        InvalidInputError: there is no such preset.
+    """
+    if name not in PRESETS:
+        raise InvalidInputError(f"preset must be one of {', '.join(PRESETS)}. Got: {name!r}")
+    return replace(PRESETS[name], **changes)

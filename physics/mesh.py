@@ -1,0 +1,128 @@
+"""TriangleMesh: the simulated shape of one body, in pixels of the illustration."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import InvalidInputError
+
+__all__ = ["TriangleMesh"]
+
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.int32]
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleMesh:
+    """A planar triangle mesh over an illustration.
+
+    Coordinates are pixels, x right and y down, pixel centres at integer + 0.5. Triangles wind so that the
+    shoelace area ``0.5 * cross(b - a, c - a)`` computed on these y-down coordinates is negative, which is
+    counter-clockwise in y-up terms. This is the one place where the convention is stated.
+
+    Attributes:
+        vertices: rest positions [px], float64, shape [v, 2]; may lie outside the picture.
+        triangles: vertex indices, int32, shape [t, 3].
+        width: width of the illustration [px].
+        height: height of the illustration [px].
+    """
+
+    vertices: FloatArray
+    triangles: IndexArray
+    width: int
+    height: int
+
+    def __post_init__(self) -> None:
+        vertices = np.array(self.vertices, dtype=np.float64, order="C")
+        triangles = np.array(self.triangles, dtype=np.int32, order="C")
+        if vertices.ndim != 2 or vertices.shape[1] != 2 or len(vertices) < 3:
+            raise InvalidInputError(f"vertices must have shape [v, 2] with v >= 3. Got: {vertices.shape}")
+        if triangles.ndim != 2 or triangles.shape[1] != 3 or len(triangles) < 1:
+            raise InvalidInputError(f"triangles must have shape [t, 3] with t >= 1. Got: {triangles.shape}")
+        if not np.isfinite(vertices).all():
+            raise InvalidInputError("vertices must be finite. Got: NaN or infinity")
+        if triangles.min() < 0 or triangles.max() >= len(vertices):
+            raise InvalidInputError(
+                f"triangles must index the {len(vertices)} vertices. Got: {triangles.min()} to {triangles.max()}"
+            )
+        if self.width < 1 or self.height < 1:
+            raise InvalidInputError(f"width and height must be at least 1 px. Got: {self.width} x {self.height}")
+        a, b, c = (vertices[triangles[:, k]] for k in range(3))
+        signed = _signed_areas(a, b, c)
+        if (signed == 0).any():
+            raise InvalidInputError(f"triangles must have an area. Got: {(signed == 0).sum()} degenerate ones")
+        flip = signed > 0
+        triangles[flip] = triangles[flip][:, [0, 2, 1]]
+        for name, array in (("vertices", vertices), ("triangles", triangles)):
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+
+    @property
+    def longest_side(self) -> float:
+        """Length of the illustration's longer side [px]: the unit of length in the physics."""
+        return float(max(self.width, self.height))
+
+    @cached_property
+    def areas(self) -> FloatArray:
+        """Rest area of each triangle [px^2], shape [t]."""
+        a, b, c = (self.vertices[self.triangles[:, k]] for k in range(3))
+        return np.abs(_signed_areas(a, b, c))
+
+    @cached_property
+    def edges(self) -> IndexArray:
+        """Every edge once, lower index first, shape [e, 2]."""
+        return np.unique(np.sort(self._half_edges, axis=1), axis=0).astype(np.int32)
+
+    @cached_property
+    def boundary_edges(self) -> IndexArray:
+        """Edges of exactly one triangle, in that triangle's winding, shape [b, 2]."""
+        half = self._half_edges
+        _, inverse, counts = np.unique(np.sort(half, axis=1), axis=0, return_inverse=True, return_counts=True)
+        return half[counts[inverse.reshape(-1)] == 1]
+
+    @cached_property
+    def boundary_triangles(self) -> IndexArray:
+        """The triangle to which each of ``boundary_edges`` belongs, shape [b]."""
+        half = np.sort(self._half_edges, axis=1)
+        _, inverse, counts = np.unique(half, axis=0, return_inverse=True, return_counts=True)
+        owner = np.tile(np.arange(len(self.triangles), dtype=np.int32), 3)
+        return owner[counts[inverse.reshape(-1)] == 1]
+
+    @cached_property
+    def components(self) -> IndexArray:
+        """Number of the connected component of each vertex, from 0, shape [v]."""
+        from scipy.sparse import coo_matrix
+        from scipy.sparse.csgraph import connected_components
+
+        edges = self.edges
+        graph = coo_matrix((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(len(self.vertices),) * 2)
+        return connected_components(graph, directed=False)[1].astype(np.int32)
+
+    @cached_property
+    def content_hash(self) -> str:
+        """Hexadecimal digest that is equal for equal meshes."""
+        digest = hashlib.sha256()
+        digest.update(np.array([self.width, self.height], dtype=np.int64).tobytes())
+        digest.update(self.vertices.tobytes())
+        digest.update(self.triangles.tobytes())
+        return digest.hexdigest()
+
+    def rescaled(self, width: int, height: int) -> TriangleMesh:
+        """The same shape over the illustration at another size."""
+        scale = np.array([width / self.width, height / self.height])
+        return TriangleMesh(self.vertices * scale, self.triangles, width, height)
+
+    @cached_property
+    def _half_edges(self) -> IndexArray:
+        t = self.triangles
+        return np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]])
+
+
+def _signed_areas(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+    u, v = b - a, c - a
+    return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])

@@ -1,0 +1,68 @@
+"""Motion: where every vertex is in every frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import InvalidInputError
+from .scene import Body
+
+__all__ = ["Motion"]
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """The result of a simulation.
+
+    Attributes:
+        bodies: the simulated bodies, in the order of their vertices in ``positions``.
+        positions: vertex positions [px], float32, shape [f, v, 2]; frame 0 is the drawing (rest).
+        frame_rate: frames a second.
+    """
+
+    bodies: tuple[Body, ...]
+    positions: NDArray[np.float32]
+    frame_rate: float
+
+    def __post_init__(self) -> None:
+        count = sum(len(body.mesh.vertices) for body in self.bodies)
+        positions = np.ascontiguousarray(self.positions, dtype=np.float32)
+        if not self.bodies:
+            raise InvalidInputError("a motion needs at least one body. Got: none")
+        if positions.ndim != 3 or positions.shape[1:] != (count, 2) or len(positions) < 1:
+            raise InvalidInputError(f"positions must have shape [f, {count}, 2] with f >= 1. Got: {positions.shape}")
+        if positions is self.positions:
+            positions = positions.view()
+        positions.setflags(write=False)
+        object.__setattr__(self, "positions", positions)
+
+    def __len__(self) -> int:
+        """Number of frames."""
+        return len(self.positions)
+
+    @property
+    def width(self) -> int:
+        """Width of the illustration [px]."""
+        return self.bodies[0].mesh.width
+
+    @property
+    def height(self) -> int:
+        """Height of the illustration [px]."""
+        return self.bodies[0].mesh.height
+
+    @property
+    def duration(self) -> float:
+        """Time from the first frame to the last [s]."""
+        return (len(self) - 1) / self.frame_rate
+
+    def of_body(self, index: int) -> NDArray[np.float32]:
+        """Positions of one body's vertices [px], shape [f, v_body, 2] (a view)."""
+        starts = np.cumsum([0] + [len(body.mesh.vertices) for body in self.bodies])
+        return self.positions[:, starts[index] : starts[index + 1]]
+
+    def __getitem__(self, frames: slice) -> Motion:
+        """The motion of a range of frames; its first frame need not be the drawing."""
+        return Motion(self.bodies, self.positions[frames], self.frame_rate)

@@ -1,0 +1,1 @@
+"""Pictures from motion: masks, line drawings, warping, compositing, interpolation. Knows no host."""
