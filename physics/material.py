@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import InvalidInputError, require
+from .limits import LARGEST, STIFFEST
 
 __all__ = ["PRESETS", "Material", "preset"]
 
@@ -27,8 +28,9 @@ class Material:
         density: mass per area [1].
         damping: rate alpha of the velocity's decay, v(t) = v(0) exp(-alpha t) [1/s].
         sway_frequency: when set, Young's modulus is chosen for each connected part of the body so that it sways
-            this often about its pinned points [Hz]; parts without a pinned point keep ``youngs_modulus``.
+            this often about its pinned points [Hz], 0.001 to 1000; parts without one keep ``youngs_modulus``.
         stiffness_scale: factor on Young's modulus for each triangle, shape [t]; None means 1 everywhere.
+        name: the preset it came from, or empty; the automatic scene reads from it how such bodies are attached.
     """
 
     youngs_modulus: float = 500.0
@@ -37,18 +39,22 @@ class Material:
     damping: float = 1.5
     sway_frequency: float | None = None
     stiffness_scale: NDArray[np.float64] | None = None
+    name: str = ""
 
     def __post_init__(self) -> None:
-        require("youngs_modulus", self.youngs_modulus, 0 < self.youngs_modulus < np.inf, "above 0")
+        bounded = 0 < self.youngs_modulus <= STIFFEST
+        require("youngs_modulus", self.youngs_modulus, bounded, f"above 0 and at most {STIFFEST:g}")
         require("poisson_ratio", self.poisson_ratio, 0 <= self.poisson_ratio < 0.5, "at least 0 and below 0.5")
-        require("density", self.density, 0 < self.density < np.inf, "above 0")
-        require("damping", self.damping, 0 <= self.damping < np.inf, "at least 0 per second")
+        require("density", self.density, 0 < self.density <= LARGEST, f"above 0 and at most {LARGEST}")
+        require("damping", self.damping, 0 <= self.damping <= LARGEST, f"0 to {LARGEST} per second")
         if self.sway_frequency is not None:
-            require("sway_frequency", self.sway_frequency, 0 < self.sway_frequency < np.inf, "above 0 Hz")
+            require("sway_frequency", self.sway_frequency, 0.001 <= self.sway_frequency <= 1_000, "0.001 to 1000 Hz")
         if self.stiffness_scale is not None:
             scale = np.array(self.stiffness_scale, dtype=np.float64)
-            if scale.ndim != 1 or not np.isfinite(scale).all() or (scale <= 0).any():
-                raise InvalidInputError(f"stiffness_scale must hold one factor above 0 a triangle. Got: {scale}")
+            if scale.ndim != 1 or not ((scale > 0) & (scale <= LARGEST)).all():
+                raise InvalidInputError(
+                    f"stiffness_scale must be one factor a triangle, above 0 and at most {LARGEST}. Got: {scale}"
+                )
             scale.setflags(write=False)
             object.__setattr__(self, "stiffness_scale", scale)
 
@@ -60,11 +66,11 @@ class Material:
 
 
 PRESETS: dict[str, Material] = {
-    "hair": Material(youngs_modulus=400.0, damping=1.4, sway_frequency=0.9),
-    "ribbon": Material(youngs_modulus=250.0, damping=1.2, sway_frequency=1.1),
-    "cloth": Material(youngs_modulus=300.0, damping=1.6, sway_frequency=1.0),
-    "leaf": Material(youngs_modulus=900.0, damping=1.8, sway_frequency=1.4),
-    "jelly": Material(youngs_modulus=150.0, poisson_ratio=0.42, damping=1.2, sway_frequency=2.2),
+    "hair": Material(youngs_modulus=400.0, damping=1.4, sway_frequency=0.9, name="hair"),
+    "ribbon": Material(youngs_modulus=250.0, damping=1.2, sway_frequency=1.1, name="ribbon"),
+    "cloth": Material(youngs_modulus=300.0, damping=1.6, sway_frequency=1.0, name="cloth"),
+    "leaf": Material(youngs_modulus=900.0, damping=1.8, sway_frequency=1.4, name="leaf"),
+    "jelly": Material(youngs_modulus=150.0, poisson_ratio=0.42, damping=1.2, sway_frequency=2.2, name="jelly"),
 }
 
 

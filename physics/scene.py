@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-import numpy as np
-
-from .errors import InvalidInputError
+from .errors import InvalidInputError, require
+from .limits import LARGEST, MAX_BODIES, MAX_PARTICLES, MAX_RIG_POINTS, MAX_STROKES
 from .material import Material
 from .mesh import TriangleMesh
 from .rig import RigPoint
@@ -59,23 +58,25 @@ class Scene:
     frame_rate: float = 24.0
 
     def __post_init__(self) -> None:
-        for name in ("bodies", "strokes", "rig_points"):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
+        for name, most in (("bodies", MAX_BODIES), ("strokes", MAX_STROKES), ("rig_points", MAX_RIG_POINTS)):
+            entries = tuple(getattr(self, name))
+            require(name, f"{len(entries)} entries", len(entries) <= most, f"at most {most} entries")
+            object.__setattr__(self, name, entries)
         if not self.bodies:
             raise InvalidInputError("a scene needs at least one body. Got: none")
         sizes = {(body.mesh.width, body.mesh.height) for body in self.bodies}
         if len(sizes) > 1:
             raise InvalidInputError(f"all bodies must belong to a picture of one size. Got: {sorted(sizes)}")
-        if len(self.gravity) != 2 or not np.isfinite(self.gravity).all():
-            raise InvalidInputError(f"gravity must be two finite numbers. Got: {self.gravity}")
-        if not 1 <= self.frame_rate <= 240:
-            raise InvalidInputError(f"frame_rate must be 1 to 240 frames a second. Got: {self.frame_rate}")
+        gravity = tuple(float(value) for value in self.gravity)
+        bounded = len(gravity) == 2 and all(abs(value) <= LARGEST for value in gravity)
+        require("gravity", gravity, bounded, f"two numbers from -{LARGEST} to {LARGEST} side/s^2")
+        object.__setattr__(self, "gravity", gravity)
+        require("frame_rate", self.frame_rate, 1 <= self.frame_rate <= 240, "1 to 240 frames a second")
+        count = len(self.bodies)
         for number, rig_point in enumerate(self.rig_points):
-            if rig_point.body is not None and rig_point.body >= len(self.bodies):
-                raise InvalidInputError(
-                    f"rig_points[{number}].body must be below the number of bodies ({len(self.bodies)})."
-                    f" Got: {rig_point.body}"
-                )
+            known = rig_point.body is None or rig_point.body < count
+            require(f"rig_points[{number}].body", rig_point.body, known, f"below the number of bodies ({count})")
+        self._require_few_particles()
 
     @property
     def width(self) -> int:
@@ -86,3 +87,25 @@ class Scene:
     def height(self) -> int:
         """Height of the illustration [px]."""
         return self.bodies[0].mesh.height
+
+    def rescaled(self, width: int, height: int) -> Scene:
+        """The same scene over the illustration at another size.
+
+        Positions scale in x and y, radii and speeds with the longest side; what is measured in sides stays.
+        """
+        scale = (width / self.width, height / self.height, max(width, height) / max(self.width, self.height))
+        return replace(
+            self,
+            bodies=tuple(replace(body, mesh=body.mesh.rescaled(width, height)) for body in self.bodies),
+            strokes=tuple(stroke.rescaled(scale) for stroke in self.strokes),
+            rig_points=tuple(rig_point.rescaled(scale) for rig_point in self.rig_points),
+        )
+
+    def _require_few_particles(self) -> None:
+        most = sum(stroke.most_particles for stroke in self.strokes)
+        require(
+            "strokes",
+            f"{most:.0f}",
+            most <= MAX_PARTICLES,
+            f"few enough, or their intervals so long, that at most {MAX_PARTICLES} particles are under way at once",
+        )

@@ -6,17 +6,47 @@ the radius.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal, get_args
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import require
+from .limits import LARGEST, MAX_PARTICLES_OF_STROKE
+from .points import Point, Scale, checked_points, scaled_points
 
-__all__ = ["STROKE_KINDS", "EnergyStroke", "StrokeKind"]
+__all__ = ["ROUNDING", "STROKE_KINDS", "EnergyStroke", "Polyline", "StrokeKind"]
 
 StrokeKind = Literal["wind", "repel", "attract"]
 STROKE_KINDS: tuple[StrokeKind, ...] = get_args(StrokeKind)
+
+ROUNDING = 1e-9
+"""Slack in counting intervals [intervals]: 0.3 s / 0.1 s must give three, whatever float64 makes of it."""
+
+_REPEATED = 1e-9  # [px]: nearer neighbours are one point, drawn twice
+
+
+@dataclass(frozen=True, eq=False)
+class Polyline:
+    """A path by arc length, without its repeated points.
+
+    Attributes:
+        points: corners [px], shape [k, 2], no two neighbours alike.
+        arc_lengths: distance of each corner from the first along the path [px], shape [k].
+        directions: unit direction of each segment, shape [k - 1, 2].
+    """
+
+    points: NDArray[np.float64]
+    arc_lengths: NDArray[np.float64]
+    directions: NDArray[np.float64]
+
+    @property
+    def length(self) -> float:
+        """Length of the whole path [px]."""
+        return float(self.arc_lengths[-1])
 
 
 @dataclass(frozen=True)
@@ -29,7 +59,7 @@ class EnergyStroke:
 
     Attributes:
         kind: wind pushes along the particle's direction, repel pushes away from it, attract pulls towards it.
-        path: points of the stroke [px], at least one (two for wind).
+        path: points of the stroke [px], at least one (two different ones for wind).
         radius: a particle acts up to this distance [px].
         speed: how fast particles travel along the path [px/s].
         strength: acceleration at full effect [side/s^2], a side being the picture's longest; negative reverses it.
@@ -39,7 +69,7 @@ class EnergyStroke:
     """
 
     kind: StrokeKind = "wind"
-    path: tuple[tuple[float, float], ...] = ((0.0, 0.0), (1.0, 0.0))
+    path: tuple[Point, ...] = ((0.0, 0.0), (1.0, 0.0))
     radius: float = 200.0
     speed: float = 600.0
     strength: float = 2.0
@@ -48,16 +78,67 @@ class EnergyStroke:
     interval: float = 0.5
 
     def __post_init__(self) -> None:
-        path = tuple((float(x), float(y)) for x, y in self.path)
-        object.__setattr__(self, "path", path)
         require("kind", self.kind, self.kind in STROKE_KINDS, f"one of {', '.join(STROKE_KINDS)}")
-        shortest = 2 if self.kind == "wind" else 1
-        require("path", len(path), len(path) >= shortest, f"at least {shortest} points for {self.kind}")
-        require("path", path, bool(np.isfinite(path).all()), "finite pixel coordinates")
-        require("radius", self.radius, 0 < self.radius < np.inf, "above 0 px")
-        require("speed", self.speed, 0 <= self.speed < np.inf, "at least 0 px/s")
-        require("strength", self.strength, bool(np.isfinite(self.strength)), "finite")
-        require("start", self.start, 0 <= self.start < np.inf, "at least 0 s")
-        require("interval", self.interval, 0.01 <= self.interval < np.inf, "at least 0.01 s")
+        path = checked_points("path", self.path, least=1)
+        object.__setattr__(self, "path", path)
+        require("radius", self.radius, 0 < self.radius <= LARGEST, f"above 0 and at most {LARGEST} px")
+        require("speed", self.speed, 0 <= self.speed <= LARGEST, f"0 to {LARGEST} px/s")
+        require("strength", self.strength, -LARGEST <= self.strength <= LARGEST, f"-{LARGEST} to {LARGEST} side/s^2")
+        require("start", self.start, 0 <= self.start <= LARGEST, f"0 to {LARGEST} s")
+        require("interval", self.interval, 0.01 <= self.interval <= LARGEST, f"0.01 to {LARGEST} s")
         if self.end is not None:
-            require("end", self.end, self.start < self.end < np.inf, f"after start ({self.start} s)")
+            after_start = self.start < self.end <= LARGEST
+            require("end", self.end, after_start, f"after start ({self.start} s) and at most {LARGEST} s")
+        if self.kind == "wind":
+            direction = self.polyline.length > 0
+            require("path", path[:2], direction, "at least 2 different points, to give the wind a direction")
+        self._require_few_particles()
+
+    @cached_property
+    def polyline(self) -> Polyline:
+        """The path by arc length."""
+        points = np.array(self.path)
+        moves = np.hypot(*np.diff(points, axis=0).T) > _REPEATED
+        points = points[np.concatenate([[True], moves])]
+        steps = np.diff(points, axis=0)
+        lengths = np.hypot(*steps.T)
+        directions = steps / lengths[:, None]
+        line = Polyline(points, np.concatenate([[0.0], np.cumsum(lengths)]), directions)
+        for array in (line.points, line.arc_lengths, line.directions):
+            array.setflags(write=False)
+        return line
+
+    @property
+    def rests(self) -> bool:
+        """Whether the stroke is a single resting particle."""
+        return self.speed == 0 or self.polyline.length == 0
+
+    @property
+    def emissions(self) -> float:
+        """How many particles leave in all; infinite without an end."""
+        if self.end is None:
+            return math.inf
+        return math.ceil((self.end - self.start) / self.interval - ROUNDING)
+
+    @property
+    def most_particles(self) -> float:
+        """The largest number of particles that are alive at once; infinite for a crawl without an end."""
+        if self.rests:
+            return 1
+        lifetime = self.polyline.length / self.speed / self.interval
+        return min(self.emissions, math.ceil(lifetime - ROUNDING) if lifetime < math.inf else math.inf)
+
+    def rescaled(self, scale: Scale) -> EnergyStroke:
+        """The same stroke over the picture at another size."""
+        path = scaled_points(self.path, scale)
+        return replace(self, path=path, radius=self.radius * scale[2], speed=self.speed * scale[2])
+
+    def _require_few_particles(self) -> None:
+        most = self.most_particles
+        require(
+            "interval",
+            f"{self.interval} s, with {most:.0f} particles under way at once",
+            most <= MAX_PARTICLES_OF_STROKE,
+            f"so long, or the speed ({self.speed} px/s) so high, that at most {MAX_PARTICLES_OF_STROKE} particles"
+            f" are under way at once on a path of {self.polyline.length:.0f} px",
+        )

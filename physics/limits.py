@@ -1,0 +1,53 @@
+"""Bounds of what a scene may hold, in one place: what lies beyond them is a slip of the pen or a hostile file."""
+
+from __future__ import annotations
+
+__all__ = [
+    "LARGEST",
+    "MAX_BODIES",
+    "MAX_DOCUMENT_BYTES",
+    "MAX_MASK_PIXELS",
+    "MAX_PARTICLES",
+    "MAX_PARTICLES_OF_STROKE",
+    "MAX_POINTS",
+    "MAX_RIG_POINTS",
+    "MAX_SIDE",
+    "MAX_STROKES",
+    "MAX_TRIANGLES",
+    "MAX_VERTICES",
+    "STIFFEST",
+]
+
+LARGEST = 1_000_000
+"""Largest coordinate [px], radius [px], speed [px/s], acceleration [side/s^2] or time [s], without its sign."""
+
+STIFFEST = 1e12
+"""Largest Young's modulus [density side^2 / s^2]."""
+
+MAX_BODIES = 100
+MAX_STROKES = 1_000
+MAX_RIG_POINTS = 1_000
+
+MAX_POINTS = 10_000
+"""Points of one stroke, polygon or keyed path."""
+
+MAX_DOCUMENT_BYTES = 64 * 2**20
+"""Size of a scene document as text."""
+
+MAX_SIDE = 65_536
+"""Width and height of the illustration in a scene document [px]."""
+
+MAX_VERTICES = 500_000
+"""Vertices of one body in a scene document."""
+
+MAX_TRIANGLES = 1_000_000
+"""Triangles of one body in a scene document."""
+
+MAX_MASK_PIXELS = 2**28
+"""Pixels of all the mask regions in a scene document together."""
+
+MAX_PARTICLES_OF_STROKE = 4_096
+"""Flow particles of one stroke that are alive at once."""
+
+MAX_PARTICLES = 16_384
+"""Flow particles of all strokes that are alive at once."""

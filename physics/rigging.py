@@ -1,0 +1,183 @@
+"""Rigging: which vertices follow a rig point, and where it leads them.
+
+Paper, Appendix "Details of Interactive Animation": the region follows the rig point's motion rigidly, by translation.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .mesh import TriangleMesh
+from .rig import Circle, KeyedPath, Polygon, RigMotion, RigPoint, Wave
+from .scene import Scene
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
+
+__all__ = ["displacement", "leaders_of", "unused_rig_points", "velocity", "vertices_of"]
+
+FloatArray = NDArray[np.float64]
+
+_EDGE = 1e-6  # [px]: vertices that rounding puts this far outside a region still lie on its edge
+
+
+def vertices_of(rig_point: RigPoint, mesh: TriangleMesh) -> NDArray[np.bool_]:
+    """Whether each vertex of a mesh lies in a rig point's region, the region's edge included.
+
+    A polygon is filled by the even-odd rule. A mask of another size than the mesh's picture is stretched over it;
+    vertices outside the picture follow the mask's nearest pixel.
+
+    Returns:
+        bool, shape [v].
+    """
+    region = rig_point.region
+    if isinstance(region, Circle):
+        return _outside_circle(rig_point.position, region.radius, mesh.vertices) <= _EDGE
+    if isinstance(region, Polygon):
+        return _outside_polygon(region.points, mesh.vertices) <= _EDGE
+    return _in_mask(region.mask, mesh)
+
+
+def leaders_of(rig_points: Sequence[RigPoint], mesh: TriangleMesh, *, body: int = 0) -> NDArray[np.int32]:
+    """Index of the rig point that leads each vertex of a body, -1 where the vertex is free.
+
+    Where several rig points select a vertex, the later one wins.
+
+    Args:
+        rig_points: all rig points of the scene.
+        mesh: the body's mesh.
+        body: the body's number; rig points of other bodies are passed over.
+
+    Returns:
+        int32, shape [v].
+    """
+    leaders = np.full(len(mesh.vertices), -1, dtype=np.int32)
+    for index, rig_point in enumerate(rig_points):
+        if rig_point.body is None or rig_point.body == body:
+            leaders[vertices_of(rig_point, mesh)] = index
+    return leaders
+
+
+def displacement(motion: RigMotion, t: ArrayLike) -> FloatArray:
+    """How far a motion has led its region from where it was drawn.
+
+    Args:
+        motion: pinned stays; a keyed path runs smoothly through its keys without overshoot (monotone cubic, each
+            coordinate for itself), relative to the first; a wave swings as amplitude sin(2 pi t / period) direction.
+        t: time [s], a number or shape [n].
+
+    Returns:
+        [px], shape [2] or [n, 2].
+    """
+    times = np.asarray(t, dtype=np.float64)
+    if isinstance(motion, Wave):
+        swing = motion.amplitude * np.sin(2 * np.pi * times / motion.period)
+        return swing[..., None] * np.array(motion.direction)
+    if isinstance(motion, KeyedPath):
+        inside = np.clip(times, motion.times[0], motion.times[-1])
+        return np.asarray(_interpolator(motion)(inside)) - np.array(motion.points[0])
+    return np.zeros((*times.shape, 2))
+
+
+def velocity(motion: RigMotion, t: ArrayLike) -> FloatArray:
+    """The time derivative of ``displacement``.
+
+    A keyed path rests before its first key and from its last key on.
+
+    Args:
+        motion: the motion.
+        t: time [s], a number or shape [n].
+
+    Returns:
+        [px/s], shape [2] or [n, 2].
+    """
+    times = np.asarray(t, dtype=np.float64)
+    if isinstance(motion, Wave):
+        rate = 2 * np.pi / motion.period
+        return (motion.amplitude * rate * np.cos(rate * times))[..., None] * np.array(motion.direction)
+    if isinstance(motion, KeyedPath):
+        moving = (motion.times[0] <= times) & (times < motion.times[-1])
+        inside = np.clip(times, motion.times[0], motion.times[-1])
+        return np.where(moving[..., None], _interpolator(motion)(inside, 1), 0.0)
+    return np.zeros((*times.shape, 2))
+
+
+@lru_cache(maxsize=1024)
+def _interpolator(path: KeyedPath) -> PchipInterpolator:
+    from scipy.interpolate import PchipInterpolator
+
+    return PchipInterpolator(path.times, path.points, axis=0)
+
+
+def unused_rig_points(scene: Scene) -> list[str]:
+    """A sentence for each rig point whose region selects no vertex, to show as a warning."""
+    sentences = []
+    for index, rig_point in enumerate(scene.rig_points):
+        bodies = scene.bodies if rig_point.body is None else (scene.bodies[rig_point.body],)
+        if not any(vertices_of(rig_point, body.mesh).any() for body in bodies):
+            touched = "no body" if rig_point.body is None else f"no vertex of body {rig_point.body}"
+            where = _whereabouts(rig_point, [body.mesh for body in bodies])
+            sentences.append(f"rig_points[{index}] touches {touched}: {where}")
+    return sentences
+
+
+def _whereabouts(rig_point: RigPoint, meshes: Sequence[TriangleMesh]) -> str:
+    region = rig_point.region
+    if isinstance(region, Circle):
+        distance = min(float(_outside_circle(rig_point.position, region.radius, m.vertices).min()) for m in meshes)
+        away = f"its region of radius {region.radius:g} px lies {round(distance, 1):g} px away"
+        return f"{away}; a radius of {math.ceil(region.radius + distance)} px would reach it"
+    if isinstance(region, Polygon):
+        distance = min(float(_outside_polygon(region.points, mesh.vertices).min()) for mesh in meshes)
+        return f"its polygon lies {round(distance, 1):g} px away from the nearest vertex"
+    if not region.mask.any():
+        return "nothing is painted in its mask"
+    distance = min(_distance_to_mask(region.mask, mesh) for mesh in meshes)
+    return f"its mask lies about {round(distance, 1):g} px away from the nearest vertex"
+
+
+def _outside_circle(centre: tuple[float, float], radius: float, points: FloatArray) -> FloatArray:
+    """Distance of each point from a disc's edge [px], negative inside, shape [n]."""
+    return np.hypot(points[:, 0] - centre[0], points[:, 1] - centre[1]) - radius
+
+
+def _outside_polygon(corners: Sequence[tuple[float, float]], points: FloatArray) -> FloatArray:
+    """Distance of each point from a polygon filled by the even-odd rule [px], 0 inside, shape [n]."""
+    x, y = points.T
+    nearest = np.full(len(points), np.inf)
+    inside = np.zeros(len(points), dtype=bool)
+    for (ax, ay), (bx, by) in zip(corners, (*corners[1:], corners[0]), strict=True):
+        ux, uy = bx - ax, by - ay
+        squared = ux * ux + uy * uy
+        along = np.clip(((x - ax) * ux + (y - ay) * uy) / squared, 0.0, 1.0) if squared > 0 else 0.0
+        nearest = np.minimum(nearest, np.hypot(x - ax - along * ux, y - ay - along * uy))
+        if uy != 0:
+            crosses = (ay > y) != (by > y)
+            inside ^= crosses & (x < ax + (y - ay) * (ux / uy))
+    return np.where(inside, 0.0, nearest)
+
+
+def _in_mask(mask: NDArray[np.bool_], mesh: TriangleMesh) -> NDArray[np.bool_]:
+    """Whether each vertex lies in a painted pixel or on its edge, shape [v]."""
+    size = np.array([mask.shape[1], mask.shape[0]])
+    scaled = mesh.vertices * (size / [mesh.width, mesh.height])
+    low = np.clip(np.floor(scaled - _EDGE), 0, size - 1).astype(np.int64)
+    high = np.clip(np.floor(scaled + _EDGE), 0, size - 1).astype(np.int64)
+    return np.logical_or.reduce([mask[y[:, 1], x[:, 0]] for x in (low, high) for y in (low, high)])
+
+
+def _distance_to_mask(mask: NDArray[np.bool_], mesh: TriangleMesh) -> float:
+    """Distance of the painted pixels from the nearest vertex, to about a pixel [px]."""
+    import cv2
+
+    size = np.array([mask.shape[1], mask.shape[0]])
+    scaled = mesh.vertices * (size / [mesh.width, mesh.height])
+    column, row = np.clip(np.floor(scaled), 0, size - 1).astype(np.int64).T
+    distances = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    return float(distances[row, column].min()) * mesh.longest_side / float(size.max())

@@ -1,0 +1,72 @@
+"""The JSON form of a scene and its parts."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+
+from .material import Material
+from .rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
+from .run_lengths import runs_of
+from .scene import Body, Scene
+from .strokes import EnergyStroke
+
+__all__ = ["MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "encode", "scene_to_dict"]
+
+SCENE_VERSION = 1
+"""Version of the document's format; a reader refuses what is newer."""
+
+REGION_TYPES: dict[str, type] = {"circle": Circle, "polygon": Polygon, "mask": MaskRegion}
+MOTION_TYPES: dict[str, type] = {"pinned": Pinned, "path": KeyedPath, "wave": Wave}
+
+_TYPE_NAMES = {kind: name for name, kind in (REGION_TYPES | MOTION_TYPES).items()}
+
+
+def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
+    """A scene as plain JSON data, every value written out.
+
+    Args:
+        scene: the scene.
+        meshes: whether to include the bodies' meshes; without, reading it again needs them.
+    """
+    return {
+        "version": SCENE_VERSION,
+        "width": int(scene.width),
+        "height": int(scene.height),
+        "frame_rate": float(scene.frame_rate),
+        "gravity": encode(scene.gravity),
+        "bodies": [_encode_body(body, mesh=meshes) for body in scene.bodies],
+        "strokes": encode(scene.strokes),
+        "rig_points": encode(scene.rig_points),
+    }
+
+
+def encode(value: Any) -> Any:
+    """The JSON form of a value or of a part of a scene; fields that are None are left out."""
+    if value is None or isinstance(value, str):
+        return value
+    if isinstance(value, int | np.integer):
+        return int(value)
+    if isinstance(value, float | np.floating):
+        return float(value)
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, tuple):
+        return [encode(entry) for entry in value]
+    tag = {"type": _TYPE_NAMES[type(value)]} if type(value) in _TYPE_NAMES else {}
+    if isinstance(value, MaskRegion):
+        height, width = value.mask.shape
+        return {**tag, "width": width, "height": height, "runs": runs_of(value.mask)}
+    if not isinstance(value, Material | EnergyStroke | RigPoint | Circle | Polygon | Pinned | KeyedPath | Wave):
+        raise TypeError(f"a scene holds no {type(value).__name__}")
+    entries = {field.name: encode(getattr(value, field.name)) for field in fields(value)}
+    return {**tag, **{name: entry for name, entry in entries.items() if entry is not None}}
+
+
+def _encode_body(body: Body, *, mesh: bool) -> dict[str, Any]:
+    encoded = {"name": body.name, "layer": int(body.layer), "material": encode(body.material)}
+    if mesh:
+        encoded["mesh"] = {"vertices": body.mesh.vertices.tolist(), "triangles": body.mesh.triangles.tolist()}
+    return encoded

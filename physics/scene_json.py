@@ -1,0 +1,188 @@
+"""Scenes as versioned JSON documents, in and out.
+
+Reading checks everything against the published schema (``scene.schema.json``) and never runs anything; whatever is
+wrong is a SceneError that names its place.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, TypeVar
+
+import numpy as np
+
+from .errors import InvalidInputError, SceneError
+from .json_text import read_json, write_json
+from .limits import MAX_MASK_PIXELS
+from .material import Material, preset
+from .mesh import TriangleMesh
+from .points import Scale
+from .rig import MaskRegion, RigPoint
+from .run_lengths import mask_of
+from .scene import Body, Scene
+from .scene_checking import check_document, join_path
+from .scene_encoding import MOTION_TYPES, REGION_TYPES, SCENE_VERSION, scene_to_dict
+from .scene_schema import scene_schema
+from .strokes import EnergyStroke
+
+__all__ = ["SCENE_VERSION", "dumps", "loads", "scene_from_dict", "scene_schema", "scene_to_dict"]
+
+T = TypeVar("T")
+S = TypeVar("S", EnergyStroke, RigPoint)
+
+_NAMED = re.compile(r"([a-z_]+(?:\[\d+\])?(?:\.[a-z_]+)?) (must .*)", re.DOTALL)  # as `require` words it
+
+
+def dumps(scene: Scene, *, meshes: bool = True) -> str:
+    """A scene as JSON text that a person can edit.
+
+    Args:
+        scene: the scene.
+        meshes: whether to include the bodies' meshes; without, reading it again needs them.
+
+    Raises:
+        SceneError: the text would be too long to be read again.
+    """
+    return write_json(scene_to_dict(scene, meshes=meshes))
+
+
+def loads(text: str | bytes, *, meshes: Sequence[TriangleMesh] | None = None) -> Scene:
+    """The scene that a JSON text describes.
+
+    Args:
+        text: the document; bytes are UTF-8.
+        meshes: as for ``scene_from_dict``.
+
+    Raises:
+        SceneError: the text is not JSON (with line and column) or not a scene (with the path of the wrong value).
+    """
+    return scene_from_dict(read_json(text), meshes=meshes)
+
+
+def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = None) -> Scene:
+    """The scene that plain JSON data describes.
+
+    Args:
+        data: the document.
+        meshes: for the bodies that have none in the document, in order; what is left over makes further bodies of
+            default material. Where they belong to a picture of another size than the document, the document's
+            strokes, rig points and meshes are scaled to theirs.
+
+    Raises:
+        SceneError: a value is wrong; ``path`` says which, such as ``strokes[2].radius``.
+    """
+    document = check_document(data)
+    supply = list(meshes or ())
+    size = (int(document["width"]), int(document["height"]))
+    target = (supply[0].width, supply[0].height) if supply else size
+    bodies = _read_bodies(document.get("bodies", []), supply, size, target)
+    strokes = _each("strokes", document, _read_stroke)
+    _require_small_masks(document.get("rig_points", []))
+    rig_points = _each("rig_points", document, _read_rig_point)
+    if target != size:
+        scale = (target[0] / size[0], target[1] / size[1], max(target) / max(size))
+        strokes = _rescaled("strokes", strokes, scale)
+        rig_points = _rescaled("rig_points", rig_points, scale)
+    options = _floats({name: value for name, value in document.items() if name in ("gravity", "frame_rate")})
+    with _located(""):
+        return Scene(tuple(bodies), tuple(strokes), tuple(rig_points), **options)
+
+
+def _read_bodies(
+    entries: list[dict[str, Any]], supply: list[TriangleMesh], size: tuple[int, int], target: tuple[int, int]
+) -> list[Body]:
+    spare = iter(supply)
+    bodies = []
+    for index, entry in enumerate(entries):
+        path = join_path("bodies", index)
+        mesh = _read_mesh(entry["mesh"], path, size).rescaled(*target) if "mesh" in entry else next(spare, None)
+        if mesh is None:
+            raise SceneError(f"{path}.mesh", f"is missing. Meshes given beside the scene: {len(supply)}")
+        material = _read_material(entry.get("material", {}), f"{path}.material")
+        options = {name: value for name, value in entry.items() if name not in ("mesh", "material")}
+        if "layer" in options:
+            options["layer"] = int(options["layer"])
+        with _located(f"{path}.material"):
+            bodies.append(Body(mesh, material, **options))
+    return bodies + [Body(mesh) for mesh in spare]
+
+
+def _read_mesh(entry: dict[str, Any], path: str, size: tuple[int, int]) -> TriangleMesh:
+    vertices = np.array(entry["vertices"], dtype=np.float64)
+    with _located(f"{path}.mesh"):
+        return TriangleMesh(vertices, np.array(entry["triangles"], dtype=np.int32), *size)
+
+
+def _read_material(entry: dict[str, Any], path: str) -> Material:
+    values = _floats(entry)
+    name = values.pop("preset", None)
+    with _located(path):
+        return preset(name, **values) if name else Material(**values)
+
+
+def _read_stroke(entry: dict[str, Any], path: str) -> EnergyStroke:
+    with _located(path):
+        return EnergyStroke(**_floats(entry))
+
+
+def _read_rig_point(entry: dict[str, Any], path: str) -> RigPoint:
+    values = dict(entry)
+    if "region" in entry:
+        values["region"] = _read_typed(entry["region"], REGION_TYPES, f"{path}.region")
+    if "motion" in entry:
+        values["motion"] = _read_typed(entry["motion"], MOTION_TYPES, f"{path}.motion")
+    if entry.get("body") is not None:
+        values["body"] = int(entry["body"])
+    with _located(path):
+        return RigPoint(**values)
+
+
+def _read_typed(entry: dict[str, Any], types: dict[str, type], path: str) -> Any:
+    values = _floats({name: value for name, value in entry.items() if name != "type"})
+    kind = types[entry["type"]]
+    with _located(path):
+        if kind is MaskRegion:
+            return MaskRegion(mask_of(values["runs"], width=int(values["width"]), height=int(values["height"])))
+        return kind(**values)
+
+
+def _require_small_masks(entries: list[dict[str, Any]]) -> None:
+    """Refuse before unpacking: a few characters can ask for any number of pixels."""
+    total = 0
+    for index, entry in enumerate(entries):
+        region = entry.get("region", {})
+        total += int(region["width"] * region["height"]) if region.get("type") == "mask" else 0
+        if total > MAX_MASK_PIXELS:
+            path = join_path("rig_points", index, "region")
+            raise SceneError(path, f"all masks together must have at most {MAX_MASK_PIXELS} pixels. Got: {total}")
+
+
+def _each(name: str, document: dict[str, Any], read: Callable[[dict[str, Any], str], T]) -> list[T]:
+    return [read(entry, join_path(name, index)) for index, entry in enumerate(document.get(name, []))]
+
+
+def _rescaled(name: str, entries: list[S], scale: Scale) -> list[S]:
+    result = []
+    for index, entry in enumerate(entries):
+        with _located(join_path(name, index)):
+            result.append(entry.rescaled(scale))
+    return result
+
+
+def _floats(entry: dict[str, Any]) -> dict[str, Any]:
+    """Whole numbers as floats: a person writes 2 for 2.0."""
+    return {name: float(value) if type(value) is int else value for name, value in entry.items()}
+
+
+@contextmanager
+def _located(path: str) -> Iterator[None]:
+    """Errors of the dataclasses as errors of the document, at the path of the value that they begin with."""
+    try:
+        yield
+    except SceneError:
+        raise
+    except InvalidInputError as error:
+        named = _NAMED.fullmatch(str(error))
+        raise SceneError(join_path(path, named[1]) if named else path, named[2] if named else str(error)) from error
