@@ -1,0 +1,153 @@
+"""Masks made ready for meshing: read, fitted to the picture, continued past its border, freed of too fine details."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import MeshingError
+
+__all__ = ["continued", "coverage_of", "distance_to_zero", "fitted", "with_sound_details", "without_specks"]
+
+Coverage = NDArray[np.float32]
+"""A soft mask in 0 to 1, shape [h, w]; what is above one half belongs to the shape."""
+
+_TOLERANCE = 1e-3
+_ASPECT_TOLERANCE = 0.01
+# A disc of radius r leaves a square corner uncovered up to 0.41 r away; such corners are not thin parts.
+_CORNER = 0.5
+_PIXELATION = 0.25
+
+
+def coverage_of(mask: ArrayLike) -> Coverage:
+    """A mask as numbers from 0 to 1.
+
+    Args:
+        mask: bool, integers 0 to 255 (or all 0 and 1), or floats 0 to 1, shape [h, w].
+
+    Raises:
+        MeshingError: it is none of these.
+    """
+    values = np.asarray(mask)
+    if values.ndim != 2 or values.size == 0:
+        raise MeshingError(f"mask must be one plane of shape [height, width]. Got: shape {values.shape}")
+    if values.dtype == np.bool_:
+        return values.astype(np.float32)
+    if np.issubdtype(values.dtype, np.integer):
+        low, high = int(values.min()), int(values.max())
+        if low < 0 or high > 255:
+            raise MeshingError(f"mask must hold integers from 0 to 255. Got: {low} to {high}")
+        return values.astype(np.float32) / np.float32(255 if high > 1 else 1)
+    if not np.issubdtype(values.dtype, np.floating):
+        raise MeshingError(f"mask must hold booleans, integers or floating-point numbers. Got: {values.dtype}")
+    if not np.isfinite(values).all():
+        raise MeshingError("mask must hold finite numbers. Got: NaN or infinity")
+    if values.min() < -_TOLERANCE or values.max() > 1 + _TOLERANCE:
+        raise MeshingError(
+            f"mask must hold floating-point numbers from 0 to 1. Got: {values.min():g} to {values.max():g}"
+        )
+    return values.astype(np.float32)
+
+
+def fitted(coverage: Coverage, width: int, height: int) -> Coverage:
+    """The mask at the picture's size [px].
+
+    Raises:
+        MeshingError: its proportions differ from the picture's by more than a hundredth.
+    """
+    rows, columns = coverage.shape
+    if (rows, columns) == (height, width):
+        return coverage
+    if abs(columns * height / (rows * width) - 1) > _ASPECT_TOLERANCE:
+        raise MeshingError(
+            f"mask must have the picture's size or at least its proportions ({width} x {height} px)."
+            f" Got: {columns} x {rows} px"
+        )
+    method = cv2.INTER_AREA if columns > width else cv2.INTER_LINEAR
+    return np.asarray(cv2.resize(coverage, (width, height), interpolation=method), dtype=np.float32)
+
+
+def without_specks(coverage: Coverage, smallest_part: float) -> Coverage:
+    """The mask without connected parts below an area [px^2].
+
+    Raises:
+        MeshingError: nothing remains.
+    """
+    inside = coverage > 0.5
+    if not inside.any():
+        raise MeshingError("mask must show what is to move in white. Got: a mask without any white")
+    labels, areas = _parts(inside, connectivity=8)
+    small = areas < smallest_part
+    if small.all():
+        raise MeshingError(
+            f"mask must have a white part of at least {smallest_part:g} px^2. Got: the largest has {areas.max()} px^2"
+        )
+    return np.where(np.append(False, small)[labels], np.float32(0), coverage) if small.any() else coverage
+
+
+def continued(coverage: Coverage, margin: int, room: int) -> tuple[Coverage, NDArray[np.float64]]:
+    """The mask continued past the picture's border, cropped to what is white, with room around it.
+
+    Args:
+        coverage: the mask, not empty.
+        margin: how far white that touches the border goes on beyond it [px].
+        room: width of the black frame around the white [px].
+
+    Returns:
+        The crop, and the position of its upper left corner [px], shape [2].
+    """
+    inside = coverage > 0.5
+    rows, columns = np.nonzero(inside.any(axis=1))[0], np.nonzero(inside.any(axis=0))[0]
+    low, high = np.array([rows[0], columns[0]]), np.array([rows[-1], columns[-1]]) + 1
+    limit = np.array(coverage.shape)
+    # One pixel more than the white keeps the soft outer half of its edge.
+    first, last = np.maximum(low - 1, 0), np.minimum(high + 1, limit)
+    before, after = margin * (low == 0), margin * (high == limit)
+    crop = coverage[first[0] : last[0], first[1] : last[1]]
+    crop = np.pad(crop, tuple(zip(before, after, strict=True)), mode="edge")
+    return np.pad(crop, room), (first - before - room)[::-1].astype(np.float64)
+
+
+def with_sound_details(coverage: Coverage, *, thinnest: float, narrowest: float, smallest_hole: float) -> Coverage:
+    """The mask with nothing finer than triangles can follow.
+
+    Parts thinner than ``thinnest`` [px] are widened to it rather than dropped, so that nothing loses its hold; gaps
+    narrower than ``narrowest`` [px] and holes below ``smallest_hole`` [px^2] are filled. All else stays as it is,
+    at sub-pixel accuracy. The mask must have a black frame.
+    """
+    inside = coverage > 0.5
+    wanted = _without_narrow_gaps(_without_thin_parts(inside, thinnest / 2), narrowest / 2)
+    labels, areas = _parts(~wanted, connectivity=4)
+    wanted |= np.append(False, areas < smallest_hole)[labels]
+    added = wanted & ~inside
+    return np.where(added, np.float32(1), coverage) if added.any() else coverage
+
+
+def distance_to_zero(shape: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """Distance from each cell's centre to the nearest centre of a false cell [cells] within 2 %, shape [h, w]."""
+    distance = cv2.distanceTransform(shape.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    return np.asarray(distance, dtype=np.float32)
+
+
+def _without_thin_parts(inside: NDArray[np.bool_], radius: float) -> NDArray[np.bool_]:
+    """The shape united with discs along the middle of its parts into which no such disc fits."""
+    depth = distance_to_zero(inside) - 0.5
+    core = depth >= radius
+    thin = inside & (distance_to_zero(~core) > (1 + _CORNER) * radius + _PIXELATION) if core.any() else inside
+    if not thin.any():
+        return inside
+    middle = thin & (depth >= cv2.dilate(depth, np.ones((3, 3), np.uint8)) - 0.3)
+    return inside | (distance_to_zero(~middle) <= radius)
+
+
+def _without_narrow_gaps(inside: NDArray[np.bool_], radius: float) -> NDArray[np.bool_]:
+    """The shape united with all outside of it that no disc reaches which stays outside."""
+    free = distance_to_zero(~inside) - 0.5 >= radius
+    return inside | (distance_to_zero(~free) > radius + 0.5)
+
+
+def _parts(shape: NDArray[np.bool_], *, connectivity: int) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+    """Number of the connected part at each pixel (0: none), shape [h, w], and the area of part 1, 2, ... [px^2]."""
+    count, labels = cv2.connectedComponents(shape.astype(np.uint8), connectivity=connectivity)
+    return np.asarray(labels, dtype=np.int32), np.bincount(labels.reshape(-1), minlength=count)[1:]

@@ -1,0 +1,189 @@
+"""Mask -> TriangleMesh: contours, spacing by local width, conforming Delaunay triangulation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .contours import contours_at_half, resampled, smoothed
+from .errors import MeshingError, require
+from .masks import continued, coverage_of, fitted, with_sound_details, without_specks
+from .mesh import TriangleMesh
+from .spacing import GAP_FACTOR, SpacingField, spacing_field
+from .triangulation import CrossingEdgesError, interior_seeds, morton_order, triangulate
+
+__all__ = ["MOST_TRIANGLES", "mesh_from_mask"]
+
+FloatArray = NDArray[np.float64]
+
+MOST_TRIANGLES = 200_000
+"""A mesh that would have more is refused."""
+
+_WANTED_TRIANGLES = 2000
+_EQUILATERAL = np.sqrt(3) / 4
+# Bounds of the spacings that are chosen here, in pixels and in longest sides of the picture.
+_LEAST_SPACING_PX, _LEAST_SPACING = 5.0, 0.0075
+_LEAST_FLOOR_PX, _MOST_FLOOR = 2.5, 0.0075
+# Coarser triangles cannot make up for more thin parts than this.
+_MOST_COARSENING = 2.0
+_MARGIN = 0.04
+# Thinnest part and smoothing of outlines, in smallest spacings.
+_THINNEST = 0.9
+_SMOOTHING = 0.35
+# Outlines that cross are sampled anew, so many times, each time at this fraction of the spacing.
+_ATTEMPTS, _TIGHTER = 8, 0.7
+
+
+def mesh_from_mask(
+    mask: ArrayLike,
+    *,
+    spacing: float | None = None,
+    width: int | None = None,
+    height: int | None = None,
+    min_angle: float = 25.0,
+    elements_across: int = 3,
+    smallest_spacing: float | None = None,
+    border_margin: float | None = None,
+    smallest_part: float = 16.0,
+    smallest_hole: float | None = None,
+) -> TriangleMesh:
+    """A triangle mesh of the white parts of a mask (paper, Method, "Deformable Body Model").
+
+    Outlines follow the mask at sub-pixel accuracy and are sampled evenly by arc length. The spacing shrinks where a
+    part is thinner than ``elements_across`` elements, but never below ``smallest_spacing``, because the smallest
+    triangle decides how many steps a simulation needs; parts thinner than that spacing are widened to it.
+
+    Args:
+        mask: bool, integers 0 to 255 or floats 0 to 1, shape [h, w]; white moves.
+        spacing: largest distance between neighbouring vertices [px]; None chooses it for about
+            2000 triangles or fewer, more where many parts are thin.
+        width: width of the picture [px]; None means that of the mask.
+        height: height of the picture [px]; None means that of the mask.
+        min_angle: smallest angle of a triangle [degrees], except at sharp corners.
+        elements_across: how many triangles thin strands get across.
+        smallest_spacing: lower bound of the spacing in thin parts [px]; None chooses it from ``spacing``.
+        border_margin: how far parts that touch the picture's border are continued past it [px], so that they can
+            sway without opening a gap there; None chooses twice the spacing or 4 % of the longest side.
+        smallest_part: white parts below this area [px^2] are dropped.
+        smallest_hole: holes below this area [px^2] are filled; None means half of spacing squared.
+
+    Raises:
+        InvalidInputError: an option is out of range.
+        MeshingError: the mask is unusable, holds no white part that is large enough, does not have the picture's
+            proportions, or would need too many triangles.
+    """
+    options = _Options(
+        spacing, min_angle, elements_across, smallest_spacing, border_margin, smallest_part, smallest_hole
+    )
+    coverage = coverage_of(mask)
+    height = coverage.shape[0] if height is None else height
+    width = coverage.shape[1] if width is None else width
+    for name, size in (("width", width), ("height", height)):
+        require(name, size, size >= 1, "at least 1 px")
+    coverage = without_specks(fitted(coverage, width, height), smallest_part)
+    shape = _prepared(coverage, spacing, options) if spacing else _for_wanted_triangles(coverage, options)
+    if shape.expected_triangles > MOST_TRIANGLES:
+        raise MeshingError(
+            f"spacing must be larger: a mesh may have at most {MOST_TRIANGLES} triangles."
+            f" Got: {shape.field.values.max():.4g} px, which makes about {shape.expected_triangles:.0f}"
+        )
+    return _in_morton_order(*_meshed(shape, options), shape.origin, width, height)
+
+
+@dataclass(frozen=True)
+class _Options:
+    spacing: float | None
+    min_angle: float
+    elements_across: int
+    smallest_spacing: float | None
+    border_margin: float | None
+    smallest_part: float
+    smallest_hole: float | None
+
+    def __post_init__(self) -> None:
+        for name in ("spacing", "smallest_spacing"):
+            value = getattr(self, name)
+            require(name, value, value is None or 2 <= value < np.inf, "at least 2 px")
+        require("min_angle", self.min_angle, 0 <= self.min_angle <= 30, "0 to 30 degrees")
+        require("elements_across", self.elements_across, 1 <= self.elements_across <= 20, "1 to 20")
+        require("smallest_part", self.smallest_part, 0 <= self.smallest_part < np.inf, "at least 0 px^2")
+        for name, unit in (("border_margin", "px"), ("smallest_hole", "px^2")):
+            value = getattr(self, name)
+            require(name, value, value is None or 0 <= value < np.inf, f"at least 0 {unit}")
+
+
+@dataclass(frozen=True, eq=False)
+class _Shape:
+    """What is to be meshed: a soft mask, where its corner lies in the picture [px], and the wanted spacing."""
+
+    coverage: NDArray[np.float32]
+    origin: FloatArray
+    field: SpacingField
+    floor: float
+
+    @property
+    def inside(self) -> NDArray[np.bool_]:
+        return self.coverage > 0.5
+
+    @property
+    def expected_triangles(self) -> float:
+        return self.field.expected_triangles(self.inside)
+
+
+def _prepared(coverage: NDArray[np.float32], spacing: float, options: _Options) -> _Shape:
+    """The shape at one spacing [px]: continued past the border and freed of details below its triangles."""
+    side = max(coverage.shape)
+    across, floor = options.elements_across, options.smallest_spacing
+    if floor is None:
+        floor = max(_LEAST_FLOOR_PX, min(spacing / across, _MOST_FLOOR * side))
+    floor = min(floor, spacing)
+    margin = max(2 * spacing, _MARGIN * side) if options.border_margin is None else options.border_margin
+    smallest_hole = spacing**2 / 2 if options.smallest_hole is None else options.smallest_hole
+    around, origin = continued(coverage, int(np.ceil(margin)), int(np.ceil(spacing)) + 2)
+    sound = with_sound_details(
+        around, thinnest=_THINNEST * floor, narrowest=floor / GAP_FACTOR, smallest_hole=smallest_hole
+    )
+    field = spacing_field(sound > 0.5, spacing=spacing, floor=floor, elements_across=across)
+    return _Shape(sound, origin, field, floor)
+
+
+def _for_wanted_triangles(coverage: NDArray[np.float32], options: _Options) -> _Shape:
+    """The shape at a spacing that needs no more triangles than wanted, or few more."""
+    area = float(np.count_nonzero(coverage > 0.5))
+    least = max(_LEAST_SPACING_PX, _LEAST_SPACING * max(coverage.shape), options.smallest_spacing or 0)
+    first = spacing = max(least, float(np.sqrt(area / (_WANTED_TRIANGLES * _EQUILATERAL))))
+    shape = _prepared(coverage, spacing, options)
+    while shape.expected_triangles > _WANTED_TRIANGLES and spacing < _MOST_COARSENING * first:
+        spacing *= 1.02 * np.sqrt(shape.expected_triangles / _WANTED_TRIANGLES)
+        spacing = min(spacing, _MOST_COARSENING * first)
+        shape = _prepared(coverage, spacing, options)
+    return shape
+
+
+def _meshed(shape: _Shape, options: _Options) -> tuple[FloatArray, NDArray[np.int64]]:
+    """Vertices [px in the shape's mask] and triangles."""
+    outlines = [smoothed(loop, _SMOOTHING * shape.floor) for loop in contours_at_half(shape.coverage)]
+    field = shape.field
+    for _ in range(_ATTEMPTS):
+        loops = [resampled(outline, field.at) for outline in outlines]
+        seeds = interior_seeds(loops, field, shape.inside)
+        try:
+            return triangulate(loops, seeds, field, min_angle=options.min_angle)
+        except CrossingEdgesError:
+            field = SpacingField(field.values * _TIGHTER, field.cell)
+    raise MeshingError("mask must have outlines that do not cross at this spacing; use a smaller spacing")
+
+
+def _in_morton_order(
+    points: FloatArray, triangles: NDArray[np.int64], origin: FloatArray, width: int, height: int
+) -> TriangleMesh:
+    """The mesh without unused points, with neighbours in the plane near each other in memory."""
+    used = np.unique(triangles)
+    order = used[morton_order(points[used])]
+    number = np.empty(len(points), dtype=np.int64)
+    number[order] = np.arange(len(order))
+    points, triangles = points[order], number[triangles]
+    triangles = triangles[morton_order(points[triangles].mean(axis=1))]
+    return TriangleMesh(points + origin, triangles.astype(np.int32), width, height)
