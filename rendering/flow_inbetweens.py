@@ -1,0 +1,88 @@
+"""In-betweens along the optical flow that is seen between two keyframes, for clips whose motion is not known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from .inbetweening import Clip, FloatImage, ModelFile, as_float, like
+from .warp import forward_warp
+
+__all__ = ["FlowInterpolator"]
+
+# A pixel whose flow there and back ends this far from its start is probably hidden in the other keyframe [px].
+_OCCLUSION = 2.0
+# Flow below this is the noise of a still picture [px].
+_STILL = 0.1
+
+
+class FlowInterpolator:
+    """In-betweens along dense optical flow (Kroeger et al., "Fast optical flow using dense inverse search", 2016).
+
+    Both flows are splatted to the in-between's time, as in softmax splatting (Niklaus and Liu, 2020), where flow that
+    leads to a pixel hidden in the other keyframe yields to flow that both keyframes agree on.
+    """
+
+    name = "flow"
+    description = "Follows the optical flow between the keyframes: for clips from elsewhere, without files"
+    requires: tuple[ModelFile, ...] = ()
+
+    def in_betweens(self, clip: Clip, number: int) -> Iterator[NDArray[Any]]:
+        """Yield the frames between two keyframes."""
+        first, last = (as_float(clip.keyframes[number + k]) for k in (0, 1))
+        forth, back = _flow(first, last), _flow(last, first)
+        seen_first, seen_last = _consistency(forth, back), _consistency(back, forth)
+        for _, place in clip.times(number):
+            flow = _flow_at(place, (forth, seen_first), (back, seen_last))
+            picture = _fetch(first, -place * flow)
+            picture += np.float32(place) * (_fetch(last, (1 - place) * flow) - picture)
+            yield like(picture, clip.keyframes[number])
+
+
+def _flow(start: FloatImage, end: FloatImage) -> FloatImage:
+    """Displacement from one picture to another [px], shape [h, w, 2]."""
+    greys = [cv2.cvtColor(np.rint(picture * 255).astype(np.uint8), cv2.COLOR_RGB2GRAY) for picture in (start, end)]
+    if min(greys[0].shape) < 16:
+        return np.zeros((*greys[0].shape, 2), np.float32)
+    search = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM)
+    flow = search.calc(greys[0], greys[1], None)
+    flow[cv2.magnitude(*cv2.split(flow)) < _STILL] = 0
+    return flow
+
+
+def _fetch(picture: FloatImage, displacement: FloatImage) -> FloatImage:
+    """The picture read beside each pixel."""
+    height, width = displacement.shape[:2]
+    columns, rows = np.meshgrid(np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32))
+    at = (np.dstack([columns, rows]) + displacement).astype(np.float32)
+    return cv2.remap(picture, at, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+
+
+def _consistency(flow: FloatImage, back: FloatImage) -> FloatImage:
+    """How surely each pixel is shown in the other picture too, above 0 to 1, shape [h, w]."""
+    error = flow + _fetch(back, flow)
+    length = cv2.magnitude(*cv2.split(error))
+    return np.exp(-np.square(length / _OCCLUSION)).astype(np.float32) + np.float32(1e-3)
+
+
+def _flow_at(place: float, first: tuple[FloatImage, FloatImage], last: tuple[FloatImage, FloatImage]) -> FloatImage:
+    """Flow from the first to the last keyframe through each pixel of the in-between, shape [h, w, 2]."""
+    total = np.zeros_like(first[0])
+    weights = np.zeros(total.shape[:2], np.float32)
+    for flow, seen, share, sign in ((*first, place, 1), (*last, 1 - place, -1)):
+        values = np.dstack([sign * flow, seen])
+        moved, coverage = forward_warp(values, np.float32(share) * flow, seen)
+        weight = np.minimum(coverage, 1) * moved[..., 2] * np.float32(1 - share)
+        total += moved[..., :2] * weight[..., None]
+        weights += weight
+    # Where nothing arrives, the flow around fills in.
+    spread = cv2.GaussianBlur(np.dstack([total, weights + np.float32(1e-9)]), (0, 0), 9)
+    weights = weights[..., None]
+    around = spread[..., :2] / spread[..., 2:]
+    flow = np.where(weights > 1e-3, total / np.maximum(weights, 1e-9), around).astype(np.float32)
+    # Pixels at which unlike flows met would show as specks.
+    return np.dstack([cv2.medianBlur(plane, 5) for plane in cv2.split(flow)])

@@ -1,0 +1,98 @@
+"""What an in-betweening backend is: the clip it is given, the files it may need, and what it has to do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..physics.motion import Motion
+
+__all__ = ["Clip", "Interpolator", "ModelFile", "as_float", "like"]
+
+FloatImage = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class ModelFile:
+    """A file that a backend cannot work without.
+
+    Attributes:
+        name: file name.
+        folder: kind of model, which is the folder's name under ``models``.
+        source: where people get it.
+    """
+
+    name: str
+    folder: str
+    source: str = ""
+
+    def __str__(self) -> str:
+        return f"models/{self.folder}/{self.name}" + (f" (from {self.source})" if self.source else "")
+
+
+@dataclass(frozen=True, eq=False)
+class Clip:
+    """Keyframes and everything that is known about what happens between them.
+
+    Attributes:
+        keyframes: RGB, uint8 or float in 0..1, each of shape [h, w, 3].
+        indices: frame number of each keyframe, increasing.
+        motion: positions of the bodies in every frame, if known.
+        masks: soft mask of each body in the drawing, shape [h, w]; empty when unknown.
+        files: path of each file that the backend requires, by its name.
+    """
+
+    keyframes: Sequence[NDArray[Any]]
+    indices: Sequence[int]
+    motion: Motion | None = None
+    masks: Sequence[NDArray[Any]] = ()
+    files: Mapping[str, Path] = field(default_factory=dict)
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the keyframes [px]."""
+        height, width = self.keyframes[0].shape[:2]
+        return width, height
+
+    def times(self, number: int) -> list[tuple[int, float]]:
+        """Frames between keyframe ``number`` and the next, each with its place between them in 0..1."""
+        first, last = self.indices[number], self.indices[number + 1]
+        return [(frame, (frame - first) / (last - first)) for frame in range(first + 1, last)]
+
+
+class Interpolator(Protocol):
+    """Draws in-betweens.
+
+    Attributes:
+        name: how people choose it.
+        description: one sentence for people.
+        requires: files without which it cannot work.
+    """
+
+    name: str
+    description: str
+    requires: tuple[ModelFile, ...]
+
+    def in_betweens(self, clip: Clip, number: int) -> Iterator[NDArray[Any]]:
+        """Yield the frames between keyframe ``number`` and the next, both excluded, in the keyframes' type."""
+        ...
+
+
+def as_float(image: NDArray[Any]) -> FloatImage:
+    """A picture as float32 in 0..1."""
+    if image.dtype == np.uint8:
+        return image.astype(np.float32) * np.float32(1 / 255)
+    return np.ascontiguousarray(image, dtype=np.float32)
+
+
+def like(image: FloatImage, original: NDArray[Any]) -> NDArray[Any]:
+    """A float picture in the type of another one."""
+    image = np.clip(image, 0, 1)
+    if original.dtype == np.uint8:
+        return np.rint(image * 255).astype(np.uint8)
+    return image.astype(original.dtype, copy=False)

@@ -1,0 +1,152 @@
+"""Keyframes and in-betweens (paper, Method, "Complementary Dynamics").
+
+Every n-th frame is a keyframe and stays as it is; a backend draws what lies between two of them. Backends are
+entries of ``BACKENDS`` and say which files they need.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..physics.errors import InvalidInputError, require
+from ..physics.motion import Motion
+from ..physics.progress import Progress
+from .flow_inbetweens import FlowInterpolator
+from .inbetweening import Clip, Interpolator, ModelFile, as_float, like
+from .motion_inbetweens import MotionInterpolator
+
+__all__ = [
+    "BACKENDS",
+    "DEFAULT_GAP",
+    "BlendInterpolator",
+    "Interpolator",
+    "ModelFile",
+    "interpolate",
+    "keyframe_indices",
+]
+
+DEFAULT_GAP = 15
+"""Frames from one keyframe to the next in the paper."""
+
+FileFinder = Callable[[ModelFile], Path | None]
+
+
+class BlendInterpolator:
+    """One keyframe fades into the next."""
+
+    name = "blend"
+    description = "Cross-dissolve: one keyframe fades into the next"
+    requires: tuple[ModelFile, ...] = ()
+
+    def in_betweens(self, clip: Clip, number: int) -> Iterator[NDArray[Any]]:
+        """Yield the weighted mean of both keyframes for every frame between them."""
+        first, last = as_float(clip.keyframes[number]), as_float(clip.keyframes[number + 1])
+        for _, place in clip.times(number):
+            yield like(first + np.float32(place) * (last - first), clip.keyframes[number])
+
+
+BACKENDS: dict[str, Interpolator] = {
+    backend.name: backend for backend in (MotionInterpolator(), FlowInterpolator(), BlendInterpolator())
+}
+"""Every available backend by its name; further ones register by adding themselves."""
+
+
+def keyframe_indices(count: int, every: int = DEFAULT_GAP) -> list[int]:
+    """Frames 0, n, 2n, ... of a clip, and always its last frame.
+
+    Args:
+        count: number of frames of the clip.
+        every: frames from one keyframe to the next.
+    """
+    require("count", count, count >= 1, "at least 1 frame")
+    require("every", every, every >= 1, "at least 1 frame")
+    return sorted({*range(0, count, every), count - 1})
+
+
+def interpolate(
+    keyframes: Sequence[NDArray[Any]],
+    indices: Sequence[int],
+    *,
+    backend: str = "motion",
+    motion: Motion | None = None,
+    masks: Sequence[NDArray[Any]] = (),
+    find_file: FileFinder | None = None,
+    progress: Progress | None = None,
+) -> Iterator[NDArray[Any]]:
+    """All frames from the first keyframe to the last; keyframes come out unchanged.
+
+    Args:
+        keyframes: RGB, uint8 or float in 0..1, of one size and type, shape [h, w, 3] each.
+        indices: frame number of each keyframe, increasing.
+        backend: name of an entry of ``BACKENDS``; "motion" without a known motion becomes "flow".
+        motion: positions of the bodies in every frame; needed by "motion".
+        masks: soft mask of each body in the drawing, in the order of the motion's bodies, shape [h, w]; with them
+            "motion" keeps soft edges exactly as soft as they were.
+        find_file: tells where a file lies that the backend requires, or None where it is missing.
+        progress: called after each frame.
+
+    Returns:
+        An iterator over indices[-1] - indices[0] + 1 frames. Bad input raises here, not at the first frame.
+
+    Raises:
+        InvalidInputError: keyframes and indices do not belong together, the backend is unknown, or its files are
+            missing.
+    """
+    _check(keyframes, indices)
+    chosen = _chosen("flow" if backend == "motion" and motion is None else backend)
+    if motion is not None:
+        expected = f"within the motion's frames 0 to {len(motion) - 1}"
+        require("indices", list(indices), indices[0] >= 0 and indices[-1] < len(motion), expected)
+        counted = len(masks) in (0, len(motion.bodies))
+        require("masks", f"{len(masks)}", counted, f"none or one per body ({len(motion.bodies)})")
+    clip = Clip(keyframes, tuple(indices), motion, tuple(masks), _files(chosen, find_file))
+    return _frames(chosen, clip, progress)
+
+
+def _frames(backend: Interpolator, clip: Clip, progress: Progress | None) -> Iterator[NDArray[Any]]:
+    total, done = clip.indices[-1] - clip.indices[0] + 1, 0
+    for number, keyframe in enumerate(clip.keyframes):
+        between = backend.in_betweens(clip, number) if number + 1 < len(clip.keyframes) else ()
+        for frame in _chain(keyframe, between):
+            done += 1
+            yield frame
+            if progress is not None:
+                progress(done, total)
+
+
+def _chain(first: NDArray[Any], rest: Any) -> Iterator[NDArray[Any]]:
+    yield first
+    yield from rest
+
+
+def _check(keyframes: Sequence[NDArray[Any]], indices: Sequence[int]) -> None:
+    require("keyframes", f"{len(keyframes)}", len(keyframes) >= 1, "at least one")
+    same = len(indices) == len(keyframes)
+    require("indices", f"{len(indices)}", same, f"one per keyframe ({len(keyframes)})")
+    rising = all(a < b for a, b in itertools.pairwise(indices))
+    require("indices", list(indices), rising, "increasing frame numbers")
+    kinds = {(keyframe.shape, keyframe.dtype) for keyframe in keyframes}
+    require("keyframes", sorted(map(str, kinds)), len(kinds) == 1, "of one size and type")
+    shape = keyframes[0].shape
+    require("keyframes", f"shape {shape}", len(shape) == 3 and shape[2] == 3, "RGB pictures of shape [h, w, 3]")
+
+
+def _chosen(name: str) -> Interpolator:
+    if name not in BACKENDS:
+        raise InvalidInputError(f"backend must be one of {', '.join(BACKENDS)}. Got: {name!r}")
+    return BACKENDS[name]
+
+
+def _files(backend: Interpolator, find_file: FileFinder | None) -> dict[str, Path]:
+    found = {file.name: find_file(file) if find_file is not None else None for file in backend.requires}
+    missing = [file for file in backend.requires if found[file.name] is None]
+    if missing:
+        listed = ", ".join(map(str, missing))
+        raise InvalidInputError(f"backend {backend.name!r} needs files that are missing: {listed}")
+    return {name: path for name, path in found.items() if path is not None}

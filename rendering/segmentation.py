@@ -1,0 +1,199 @@
+"""Masks from a few clicks: GrabCut on flat-coloured art, seeded by the regions that the clicks fall into.
+
+Drawn art is made of regions of slowly changing colour between outlines. Each query point therefore stands for the
+whole region around it, which gives GrabCut (Rother, Kolmogorov and Blake, 2004) far better colour models than
+the bare points would.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..physics.errors import InvalidInputError, require
+from .sketch import extract_sketch
+from .trimap import trimap_from_points
+
+__all__ = ["segment"]
+
+Mask = NDArray[np.bool_]
+Lab = NDArray[np.uint8]
+
+
+def segment(
+    image: NDArray[Any],
+    points: ArrayLike,
+    labels: ArrayLike,
+    *,
+    box: tuple[float, float, float, float] | None = None,
+    tolerance: int = 4,
+    iterations: int = 3,
+    largest_hole: float = 0.0005,
+    working_size: int = 640,
+) -> Mask:
+    """The object on which the positive points lie.
+
+    Every positive point is inside the mask and every negative point outside, whatever the colours say.
+
+    Args:
+        image: RGB, uint8 or float in 0..1, shape [h, w, 3].
+        points: x and y of each point [px], shape [k, 2].
+        labels: 1 for a point on the object, 0 for one beside it, shape [k].
+        box: x0, y0, x1, y1 [px]; nothing outside it is selected. May replace the positive points.
+        tolerance: how much colour may change from pixel to pixel within one region [8-bit Lab steps].
+        iterations: rounds of GrabCut.
+        largest_hole: gaps in the mask up to this share of the picture are closed.
+        working_size: longest side at which regions and colours are weighed [px].
+
+    Returns:
+        mask, bool, shape [h, w].
+
+    Raises:
+        InvalidInputError: no positive point and no box, a point outside the picture, or points that contradict.
+    """
+    picture = _as_uint8(image)
+    height, width = picture.shape[:2]
+    seeds, positive = _checked_points(points, labels, width, height)
+    require("points", f"{len(seeds)} points", bool(positive.any()) or box is not None, "at least one positive point")
+    limit = _box_mask(box, width, height)
+    for index in np.flatnonzero(positive):
+        x, y = seeds[index].astype(int)
+        if not limit[y, x]:
+            raise InvalidInputError(
+                f"points[{index}] must lie inside the box {box}, for it is positive. Got: ({x}, {y})"
+            )
+    scale = min(1.0, working_size / max(width, height))
+    small_size = (max(1, round(width * scale)), max(1, round(height * scale)))
+    lab = cv2.cvtColor(cv2.resize(picture, small_size, interpolation=cv2.INTER_AREA), cv2.COLOR_RGB2Lab)
+    small_limit = cv2.resize(limit.astype(np.uint8), small_size, interpolation=cv2.INTER_NEAREST) > 0
+    at = np.minimum((seeds * small_size / (width, height)).astype(int), np.array(small_size) - 1)
+
+    trimap = trimap_from_points(lab, at, positive, small_limit, tolerance, has_box=box is not None)
+    found = _grab_cut(lab, trimap, iterations)
+    found = _connected_to(found, at[positive])
+    mask = cv2.resize(found.astype(np.float32), (width, height), interpolation=cv2.INTER_LINEAR) > 0.5
+    mask = _sharpened(picture, mask, reach=max(2, round(2 / scale)))
+    mask = _with_outline(picture, mask) & limit
+    mask = _connected_to(mask, seeds[positive].astype(int))
+    return _honouring(_filled(mask, largest_hole) & limit, seeds.astype(int), positive)
+
+
+def _as_uint8(image: NDArray[Any]) -> NDArray[np.uint8]:
+    picture = np.asarray(image)
+    shape_ok = picture.ndim == 3 and picture.shape[2] == 3 and picture.size > 0
+    require("image", f"shape {picture.shape}", shape_ok, "an RGB picture of shape [h, w, 3]")
+    if picture.dtype == np.uint8:
+        return np.ascontiguousarray(picture)
+    return np.rint(np.clip(picture, 0, 1) * 255).astype(np.uint8)
+
+
+def _checked_points(
+    points: ArrayLike, labels: ArrayLike, width: int, height: int
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    seeds = np.asarray(points, dtype=np.float64).reshape(-1, 2)
+    positive = np.asarray(labels).reshape(-1).astype(bool)
+    require("labels", f"{len(positive)}", len(positive) == len(seeds), f"one per point ({len(seeds)})")
+    for index, (x, y) in enumerate(seeds):
+        if not (0 <= x <= width and 0 <= y <= height):
+            raise InvalidInputError(
+                f"points[{index}] must lie inside the picture of {width} x {height} px. Got: ({x:g}, {y:g})"
+            )
+    seeds = np.minimum(seeds, np.array([width, height]) - 0.5)
+    cells = [tuple(cell) for cell in seeds.astype(int)]
+    clash = {c for c, p in zip(cells, positive, strict=True) if p} & {
+        c for c, p in zip(cells, positive, strict=True) if not p
+    }
+    require("points", sorted(clash), not clash, "either positive or negative, not both at one pixel")
+    return seeds, positive
+
+
+def _box_mask(box: tuple[float, float, float, float] | None, width: int, height: int) -> Mask:
+    if box is None:
+        return np.ones((height, width), dtype=bool)
+    x0, y0, x1, y1 = box
+    inside = max(x0, 0) < min(x1, width) and max(y0, 0) < min(y1, height)
+    require("box", box, inside, f"x0, y0, x1, y1 with an area inside the picture of {width} x {height} px")
+    mask = np.zeros((height, width), dtype=bool)
+    mask[max(0, int(y0)) : int(np.ceil(y1)), max(0, int(x0)) : int(np.ceil(x1))] = True
+    return mask
+
+
+def _grab_cut(lab: Lab, trimap: NDArray[np.uint8], iterations: int) -> Mask:
+    """GrabCut within the window that is not sure background, the same on every call."""
+    rows, columns = _window(trimap != cv2.GC_BGD, margin=4)
+    found = np.zeros(trimap.shape, dtype=bool)
+    labels = np.ascontiguousarray(trimap[rows, columns])
+    background = (labels == cv2.GC_BGD) | (labels == cv2.GC_PR_BGD)
+    if background.any() and not background.all():
+        # The colour models start from random clusters: without a seed, equal clicks would give unequal masks.
+        cv2.setRNGSeed(0)
+        window = np.ascontiguousarray(lab[rows, columns])
+        models = np.zeros((1, 65)), np.zeros((1, 65))
+        cv2.grabCut(window, labels, None, *models, iterations, cv2.GC_INIT_WITH_MASK)
+    found[rows, columns] = (labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)
+    return found
+
+
+def _window(mask: Mask, *, margin: int) -> tuple[slice, slice]:
+    """Rows and columns that hold the mask and a margin."""
+    left, top, columns, rows = cv2.boundingRect(mask.astype(np.uint8))
+    return slice(max(0, top - margin), top + rows + margin), slice(max(0, left - margin), left + columns + margin)
+
+
+def _connected_to(mask: Mask, points: NDArray[np.int_]) -> Mask:
+    """The components that hold a point; everything where none does or no points are given."""
+    _, labels = cv2.connectedComponents(mask.astype(np.uint8), connectivity=4)
+    chosen = np.unique(labels[points[:, 1], points[:, 0]])
+    chosen = chosen[chosen > 0]
+    return np.isin(labels, chosen) if len(chosen) else mask
+
+
+def _sharpened(picture: NDArray[np.uint8], mask: Mask, *, reach: int) -> Mask:
+    """The mask with its edge laid again at full resolution, within ``reach`` pixels of where it is."""
+    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
+    core = cv2.erode(mask.astype(np.uint8), kernel, borderValue=1) > 0
+    shell = cv2.dilate(mask.astype(np.uint8), kernel) > 0
+    # Two rounds of dilation leave a rim of true background to learn from.
+    rim = cv2.dilate(shell.astype(np.uint8), kernel, iterations=2) > 0
+    trimap = np.full(mask.shape, cv2.GC_BGD, dtype=np.uint8)
+    trimap[shell] = cv2.GC_PR_BGD
+    trimap[mask] = cv2.GC_PR_FGD
+    trimap[core] = cv2.GC_FGD
+    rows, columns = _window(rim, margin=0)
+    lab = cv2.cvtColor(np.ascontiguousarray(picture[rows, columns]), cv2.COLOR_RGB2Lab)
+    found = np.zeros(mask.shape, dtype=bool)
+    found[rows, columns] = _grab_cut(lab, trimap[rows, columns], 1)
+    return found
+
+
+def _with_outline(picture: NDArray[np.uint8], mask: Mask, *, widest: int = 2) -> Mask:
+    """The mask with the drawn line around it: the outline belongs to the object."""
+    if not mask.any():
+        return mask
+    rows, columns = _window(mask, margin=4 * widest)
+    lines = extract_sketch(np.ascontiguousarray(picture[rows, columns])) < 0.5
+    grown = mask[rows, columns].astype(np.uint8)
+    cross = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))
+    for _ in range(widest):
+        grown |= cv2.dilate(grown, cross) & lines
+    result = mask.copy()
+    result[rows, columns] = grown > 0
+    return result
+
+
+def _filled(mask: Mask, largest_hole: float) -> Mask:
+    """The mask with its gaps up to a share of the picture closed."""
+    _, labels, stats, _ = cv2.connectedComponentsWithStats((~mask).astype(np.uint8), connectivity=8)
+    small = stats[:, cv2.CC_STAT_AREA] <= largest_hole * mask.size
+    small[0] = False
+    return mask | small[labels]
+
+
+def _honouring(mask: Mask, cells: NDArray[np.int_], positive: NDArray[np.bool_]) -> Mask:
+    """The mask with each point's own pixel as the point says."""
+    result = mask.copy()
+    result[cells[:, 1], cells[:, 0]] = positive
+    return result

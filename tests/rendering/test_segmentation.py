@@ -1,0 +1,157 @@
+"""Masks from clicks: near-exact on flat art, and never against a click."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from physanimator.physics.errors import InvalidInputError
+from physanimator.rendering.segmentation import segment
+
+WIDTH, HEIGHT = 200, 150
+Mask = NDArray[np.bool_]
+
+
+def overlap(a: Mask, b: Mask) -> float:
+    """Intersection over union."""
+    return float((a & b).sum() / (a | b).sum())
+
+
+def page(noise: float = 0.0) -> NDArray[np.uint8]:
+    picture = np.full((HEIGHT, WIDTH, 3), (120, 160, 220), np.float32)
+    picture[:, 120:] = (200, 190, 120)
+    picture += np.random.default_rng(0).normal(0, noise, picture.shape)
+    return np.clip(picture, 0, 255).astype(np.uint8)
+
+
+def disc(x: int, y: int, radius: int) -> Mask:
+    rows, columns = np.mgrid[:HEIGHT, :WIDTH]
+    return np.hypot(columns + 0.5 - x, rows + 0.5 - y) <= radius
+
+
+@pytest.mark.parametrize("noise", [0.0, 4.0])
+def test_a_flat_shape_from_one_click(noise: float) -> None:
+    picture, shape = page(noise), disc(90, 70, 40)
+    picture[shape] = (220, 80, 70)
+    mask = segment(picture, [(90, 70)], [1])
+    assert mask.dtype == bool
+    assert mask.shape == (HEIGHT, WIDTH)
+    assert overlap(mask, shape) > 0.97
+
+
+def test_the_outline_belongs_to_the_object() -> None:
+    picture, shape = page(), disc(90, 70, 42)
+    picture[shape] = (40, 20, 30)
+    picture[disc(90, 70, 40)] = (220, 80, 70)
+    assert overlap(segment(picture, [(90, 70)], [1]), shape) > 0.97
+
+
+def test_a_shaded_shape_in_two_halves_from_two_clicks() -> None:
+    picture, shape = page(), disc(90, 70, 40)
+    light = (np.linspace(0.6, 1.0, WIDTH)[None, :, None] * np.array([220.0, 80.0, 70.0])).astype(np.uint8)
+    picture[shape] = np.broadcast_to(light, picture.shape)[shape]
+    picture[shape & (np.arange(WIDTH) // 2 == 45)] = 30
+    assert overlap(segment(picture, [(70, 70), (110, 70)], [1, 1]), shape) > 0.95
+
+
+def test_a_shape_that_fills_most_of_the_picture() -> None:
+    picture, shape = page(), disc(100, 75, 74)
+    picture[shape] = (220, 80, 70)
+    assert overlap(segment(picture, [(90, 70)], [1]), shape) > 0.97
+
+
+def test_only_the_clicked_one_of_two_equal_shapes() -> None:
+    picture = page()
+    left, right = disc(50, 70, 30), disc(150, 70, 30)
+    picture[left | right] = (220, 80, 70)
+    assert overlap(segment(picture, [(50, 70)], [1]), left) > 0.97
+
+
+def test_a_small_gap_is_closed_and_a_large_one_stays() -> None:
+    picture, shape = page(), disc(90, 70, 50)
+    picture[shape] = (220, 80, 70)
+    speck, window = disc(60, 70, 2), disc(110, 70, 15)
+    picture[speck | window] = (250, 250, 250)
+    mask = segment(picture, [(90, 40)], [1], largest_hole=0.001)
+    assert mask[speck].all()
+    assert not mask[disc(110, 70, 10)].any()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_every_click_is_obeyed_whatever_the_colours_say(seed: int) -> None:
+    generator = np.random.default_rng(seed)
+    picture = cv2.GaussianBlur(generator.integers(0, 255, (HEIGHT, WIDTH, 3), np.uint8), (0, 0), 3)
+    picture = cv2.normalize(picture, None, 0, 255, cv2.NORM_MINMAX)
+    cells = generator.permutation(WIDTH * HEIGHT)[:8]
+    points = np.stack([cells % WIDTH, cells // WIDTH], axis=1) + 0.5
+    labels = [1, 0, 1, 0, 1, 0, 1, 0]
+    mask = segment(picture, points, labels)
+    rows, columns = points.astype(int)[:, 1], points.astype(int)[:, 0]
+    assert mask[rows, columns].tolist() == [bool(label) for label in labels]
+
+
+def test_a_picture_of_one_colour_still_obeys() -> None:
+    mask = segment(np.full((HEIGHT, WIDTH, 3), 90, np.uint8), [(10, 10), (150, 100)], [1, 0])
+    assert mask[10, 10]
+    assert not mask[100, 150]
+
+
+def test_a_box_alone_finds_the_shape_in_it() -> None:
+    picture, shape = page(), disc(90, 70, 30)
+    picture[shape] = (220, 80, 70)
+    mask = segment(picture, np.zeros((0, 2)), [], box=(50, 30, 130, 110))
+    assert overlap(mask, shape) > 0.95
+
+
+def test_nothing_outside_a_box_is_selected() -> None:
+    picture, shape = page(), disc(90, 70, 40)
+    picture[shape] = (220, 80, 70)
+    mask = segment(picture, [(80, 70)], [1], box=(0, 0, 90, HEIGHT))
+    assert not mask[:, 90:].any()
+    assert overlap(mask, shape & (np.arange(WIDTH) < 90)) > 0.95
+
+
+def test_equal_clicks_give_equal_masks_and_float_pictures_too() -> None:
+    generator = np.random.default_rng(3)
+    picture = cv2.GaussianBlur(generator.integers(0, 255, (HEIGHT, WIDTH, 3), np.uint8), (0, 0), 6)
+    picture = cv2.normalize(picture, None, 0, 255, cv2.NORM_MINMAX)
+    clicks = [(60, 60), (120, 90), (20, 20)], [1, 1, 0]
+    first = segment(picture, *clicks)
+    for seed in range(5):
+        cv2.setRNGSeed(seed)
+        np.testing.assert_array_equal(first, segment(picture, *clicks))
+    np.testing.assert_array_equal(first, segment(picture.astype(np.float32) / 255, *clicks))
+
+
+def test_a_large_picture_is_cut_at_its_own_resolution() -> None:
+    picture, shape = cv2.resize(page(), None, fx=6, fy=6), np.zeros((6 * HEIGHT, 6 * WIDTH), np.uint8)
+    angles = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    tips = np.where(np.arange(24) % 2, 120, 330)[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    cv2.fillPoly(shape, [np.rint(tips + np.array([560, 450])).astype(np.int32)], 1)
+    picture[shape > 0] = (220, 80, 70)
+    assert overlap(segment(picture, [(560, 450)], [1]), shape > 0) > 0.985
+
+
+@pytest.mark.parametrize(
+    ("points", "labels", "options", "message"),
+    [
+        ([(10, 10)], [0], {}, "at least one positive point"),
+        ([], [], {}, "at least one positive point"),
+        ([(10, 10), (300, 10)], [1, 1], {}, r"points\[1\] must lie inside the picture of 200 x 150 px"),
+        ([(10, 10)], [1, 0], {}, r"labels must be one per point \(1\)"),
+        ([(10.2, 10), (10.7, 10.4)], [1, 0], {}, "not both at one pixel"),
+        ([(10, 10)], [1], {"box": (300, 0, 400, 10)}, "box must be"),
+        ([(10, 10), (50, 50)], [1, 1], {"box": (0, 0, 20, 20)}, r"points\[1\] must lie inside the box"),
+    ],
+)
+def test_bad_input(points: Any, labels: Any, options: dict[str, Any], message: str) -> None:
+    with pytest.raises(InvalidInputError, match=message):
+        segment(page(), points, labels, **options)
+
+
+def test_a_grey_picture_is_refused() -> None:
+    with pytest.raises(InvalidInputError, match="image must be an RGB picture"):
+        segment(np.zeros((10, 10), np.uint8), [(5, 5)], [1])
