@@ -1,0 +1,181 @@
+"""A good scene without drawing one: hold each body where it is attached and let gusts of wind pass.
+
+Attachment is guessed from the shape alone: a body that reaches a border of the picture through a narrow neck
+continues outside it and is held there (a plant's stalk), anything else hangs from its top. Outlines run around
+every part of a drawing, so the colours along the contour say nothing about where a part is fixed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import InvalidInputError, require
+from .material import Material, preset
+from .mesh import TriangleMesh
+from .rig import Pinned, Polygon, RigPoint
+from .scene import Body, Scene
+from .strokes import EnergyStroke
+
+__all__ = [
+    "ATTACHMENTS",
+    "USUAL_LENGTH",
+    "Attachment",
+    "attachment_of",
+    "automatic_scene",
+    "gusts",
+    "pins",
+    "swaying_by_size",
+]
+
+Attachment = Literal["auto", "top", "bottom", "left", "right"]
+ATTACHMENTS: tuple[Attachment, ...] = get_args(Attachment)
+
+USUAL_LENGTH = 0.3
+"""Length of the body for which the presets' sway frequencies are meant [side]."""
+
+_OUTWARD: dict[str, tuple[float, float]] = {
+    "top": (0.0, -1.0),
+    "bottom": (0.0, 1.0),
+    "left": (-1.0, 0.0),
+    "right": (1.0, 0.0),
+}
+# Share of a part's extent that is held: a head of hair rests on the skull, a ribbon hangs from its knot.
+_HELD_SHARE = {"hair": 0.22, "ribbon": 0.1, "cloth": 0.08, "leaf": 0.05, "jelly": 0.1}
+_USUAL_SHARE = 0.1
+# A neck on a border is narrow when the body's widest section is at least this many times wider.
+_NECK_RATIO = 1.6
+
+
+def automatic_scene(
+    meshes: Sequence[TriangleMesh],
+    *,
+    materials: Sequence[Material] | None = None,
+    attach: Attachment = "auto",
+    frame_rate: float = 24.0,
+    wind_strength: float = 1.0,
+    wind_angle: float = 0.0,
+    natural_sway: bool = True,
+) -> Scene:
+    """Bodies pinned where they are attached, under gentle gusts.
+
+    Args:
+        meshes: one per body, later ones in front.
+        materials: one per body, or one for all; the preset "hair" when None.
+        attach: side at which the bodies are held; "auto" decides for each connected part.
+        frame_rate: frames a second.
+        wind_strength: factor on the usual wind; 0 is calm, 1 gentle, 3 a storm.
+        wind_angle: where the wind blows to [degrees]: 0 to the right, 90 up, 180 to the left.
+        natural_sway: take the materials' sway frequencies for a body of ``USUAL_LENGTH`` and let smaller bodies sway
+            faster and larger ones slower, as pendulums do; otherwise they hold as they are.
+
+    Raises:
+        InvalidInputError: no mesh, or a number of materials that fits neither one nor all bodies.
+    """
+    require("meshes", len(meshes), len(meshes) > 0, "at least one")
+    require("attach", attach, attach in ATTACHMENTS, f"one of {', '.join(ATTACHMENTS)}")
+    require("wind_strength", wind_strength, bool(np.isfinite(wind_strength)), "finite")
+    require("wind_angle", wind_angle, bool(np.isfinite(wind_angle)), "finite degrees")
+    chosen = [preset("hair")] if materials is None else list(materials)
+    if len(chosen) == 1:
+        chosen *= len(meshes)
+    if len(chosen) != len(meshes):
+        raise InvalidInputError(
+            f"materials must be one, or one for each of the {len(meshes)} bodies. Got: {len(chosen)}"
+        )
+    if natural_sway:
+        chosen = [swaying_by_size(material, mesh) for material, mesh in zip(chosen, meshes, strict=True)]
+    bodies = [Body(mesh, material, layer) for layer, (mesh, material) in enumerate(zip(meshes, chosen, strict=True))]
+    held = [pin for number, body in enumerate(bodies) for pin in pins(body, number, attach=attach)]
+    wind = gusts(meshes, strength=wind_strength, angle=wind_angle) if wind_strength else ()
+    return Scene(tuple(bodies), tuple(wind), tuple(held), frame_rate=frame_rate)
+
+
+def swaying_by_size(material: Material, mesh: TriangleMesh) -> Material:
+    """The material with its sway frequency f made that of the body's size, f sqrt(USUAL_LENGTH / length)."""
+    if material.sway_frequency is None:
+        return material
+    length = float(np.hypot(*np.ptp(mesh.vertices, axis=0))) / mesh.longest_side
+    return replace(material, sway_frequency=material.sway_frequency * float(np.sqrt(USUAL_LENGTH / length)))
+
+
+def pins(body: Body, number: int, *, attach: Attachment = "auto") -> list[RigPoint]:
+    """One pinned region for each connected part of a body, at the side where it is attached.
+
+    Args:
+        body: what to hold.
+        number: the body's number in the scene.
+        attach: side, or "auto" for each part's own.
+    """
+    share = _HELD_SHARE.get(body.material.name, _USUAL_SHARE)
+    mesh = body.mesh
+    points = []
+    for component in range(int(mesh.components.max()) + 1):
+        part = mesh.vertices[mesh.components == component]
+        side = attachment_of(part, mesh.width, mesh.height) if attach == "auto" else attach
+        region = _held_region(part, _OUTWARD[side], share)
+        centre = np.mean(region, axis=0)
+        points.append(RigPoint((centre[0], centre[1]), Polygon(region), Pinned(), body=number))
+    return points
+
+
+def attachment_of(part: NDArray[np.float64], width: int, height: int) -> Attachment:
+    """The side at which a connected part is attached.
+
+    Args:
+        part: its vertices [px], shape [v, 2].
+        width: of the picture [px].
+        height: of the picture [px].
+    """
+    reach = {"bottom": part[:, 1] >= height, "left": part[:, 0] <= 0, "right": part[:, 0] >= width}
+    for side, beyond in reach.items():
+        across = 0 if side == "bottom" else 1
+        widest = np.ptp(part[:, across])
+        if beyond.any() and np.ptp(part[beyond, across]) * _NECK_RATIO <= widest:
+            return side  # type: ignore[return-value]
+    return "top"
+
+
+def _held_region(
+    part: NDArray[np.float64], outward: tuple[float, float], share: float
+) -> tuple[tuple[float, float], ...]:
+    """Convex outline [px] around the vertices nearest the attached end; never fewer than three vertices."""
+    from scipy.spatial import ConvexHull
+
+    depth = -(part @ np.array(outward))
+    depth -= depth.min()
+    limit = max(share * float(depth.max()), float(np.sort(depth)[min(2, len(depth) - 1)]))
+    held = part[depth <= limit + 1e-9]
+    # A margin keeps the vertices inside the polygon in spite of rounding, and gives collinear ones an area.
+    corners = np.concatenate([held + np.array(offset) for offset in ((-1, -1), (-1, 1), (1, -1), (1, 1))])
+    return tuple((float(x), float(y)) for x, y in corners[ConvexHull(corners).vertices])
+
+
+def gusts(meshes: Sequence[TriangleMesh], *, strength: float = 1.0, angle: float = 0.0) -> tuple[EnergyStroke, ...]:
+    """Two trains of wind particles over all bodies, of incommensurable rhythm, so that the wind never seems to repeat.
+
+    Args:
+        meshes: the bodies.
+        strength: factor on the usual wind.
+        angle: where the wind blows to [degrees]: 0 to the right, 90 up.
+    """
+    vertices = np.concatenate([mesh.vertices for mesh in meshes])
+    radians = np.deg2rad(angle)
+    along = np.array([np.cos(radians), -np.sin(radians)])
+    across = np.array([-along[1], along[0]])
+    first, last = (vertices @ along).min(), (vertices @ along).max()
+    low, high = (vertices @ across).min(), (vertices @ across).max()
+    radius = max(high - low, 0.12 * meshes[0].longest_side)
+    speed = 2 * radius / 0.75
+    strokes = []
+    for rank, (force, interval, start, bend) in enumerate(((1.2, 1.37, 0.0, 0.12), (0.7, 2.23, 0.6, -0.18))):
+        distance = np.linspace(first - 0.85 * radius, last + radius, 17)
+        lift = bend * radius * np.sin(np.linspace(0, 2 * np.pi * (1 + rank), 17))
+        path = distance[:, None] * along + ((low + high) / 2 + lift)[:, None] * across
+        points = tuple((round(float(x), 1), round(float(y), 1)) for x, y in path)
+        strokes.append(EnergyStroke("wind", points, radius, speed, force * strength, start, None, interval))
+    return tuple(strokes)

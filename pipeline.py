@@ -1,0 +1,180 @@
+"""The whole way from an illustration to its animation, without a host.
+
+picture = load_image("girl.png")
+mask = load_mask("hair.png", width=picture.shape[1], height=picture.shape[0])
+animate(picture, [mask], preset="hair").save("girl.mp4")
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .physics.automatic import Attachment, automatic_scene
+from .physics.errors import InvalidInputError, require
+from .physics.material import Material
+from .physics.material import preset as material_preset
+from .physics.mesh import TriangleMesh
+from .physics.meshing import mesh_from_mask
+from .physics.progress import Progress
+from .physics.scene import Scene
+from .physics.simulation import simulate
+from .rendering.animation import Animation, StageProgress, timed
+
+__all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "Animation", "StageProgress", "animate"]
+
+Image = NDArray[Any]
+Mask = NDArray[Any]
+
+DEFAULT_FRAMES = 72
+DEFAULT_FRAME_RATE = 24.0
+
+
+def animate(
+    image: Image,
+    masks: Sequence[Mask] | None = None,
+    points: Sequence[Any] | None = None,
+    *,
+    scene: Scene | Mapping[str, Any] | None = None,
+    preset: str | Sequence[str] | None = None,
+    frames: int = DEFAULT_FRAMES,
+    frame_rate: float | None = None,
+    spacing: float | None = None,
+    sway: float | None = None,
+    attach: Attachment = "auto",
+    wind_strength: float = 1.0,
+    wind_angle: float = 0.0,
+    plate: Image | None = None,
+    progress: StageProgress | None = None,
+) -> Animation:
+    """Set parts of an illustration in motion.
+
+    Args:
+        image: the illustration, RGB, uint8 or 0..1 float, shape [h, w, 3].
+        masks: where each moving part is, bool, 0..1 or 0..255, each of shape [h, w]; later ones lie in front.
+        points: for each further part its query points, in any form that
+            :func:`~physanimator.rendering.points.parse_points` reads.
+        scene: what acts on the parts, as a ``Scene`` with one body for each part or as a decoded scene document;
+            without one, the parts are pinned where they are attached and a gentle wind blows.
+        preset: name of the material, one for all parts or one for each; replaces the scene's materials.
+            Without a scene it is "hair" unless said otherwise.
+        frames: length of the animation; frame 0 is the illustration.
+        frame_rate: frames a second; the scene's own, or 24, when None.
+        spacing: distance of the mesh's vertices [px]; chosen from each mask when None.
+        sway: how often a part sways to and fro in a second, instead of the preset's [Hz].
+        attach: side at which the parts are held when there is no scene.
+        wind_strength: factor on the wind when there is no scene.
+        wind_angle: where that wind blows to [degrees]; 0 is right, 90 up.
+        plate: the illustration without the moving parts, if it exists; painted in when None.
+        progress: called as the stages "simulate" and those of the frames advance.
+
+    Raises:
+        InvalidInputError: an input is unusable; the message names it.
+    """
+    seconds: dict[str, float] = {}
+    image = np.asarray(image)
+    require("image", f"shape {image.shape}", image.ndim == 3 and image.shape[2] == 3, "an RGB picture [h, w, 3]")
+    require("frames", frames, frames >= 1, "at least 1")
+    if isinstance(scene, Mapping):
+        from .physics.scene_checking import check_document
+
+        check_document(scene)
+    with timed(seconds, "segment"):
+        parts = (*(masks or ()), *_segmented(image, points or ()))
+    _check_parts(image, parts, plate)
+    with timed(seconds, "mesh"):
+        meshes = [mesh_from_mask(each, spacing=spacing) for each in parts]
+    with timed(seconds, "scene"):
+        if scene is None:
+            materials = _materials(preset or "hair", sway, len(parts))
+            rate = DEFAULT_FRAME_RATE if frame_rate is None else frame_rate
+            whole = automatic_scene(
+                meshes,
+                materials=materials,
+                attach=attach,
+                frame_rate=rate,
+                wind_strength=wind_strength,
+                wind_angle=wind_angle,
+            )
+        else:
+            whole = _given_scene(scene, meshes, preset, sway, frame_rate)
+    with timed(seconds, "simulate"):
+        motion = simulate(whole, frames=frames, progress=_stage("simulate", progress))
+    with timed(seconds, "prepare"):
+        from .rendering.composite import LayeredRenderer
+
+        renderer = LayeredRenderer(image, parts, motion, plate=plate)
+    return Animation(image, parts, whole, motion, renderer, seconds)
+
+
+def _segmented(image: Image, points: Sequence[Any]) -> Iterator[Mask]:
+    if not points:
+        return
+    from .rendering.points import parse_points
+    from .rendering.segmentation import segment
+
+    height, width = image.shape[:2]
+    for each in points:
+        clicked = parse_points(each, width=width, height=height)
+        yield segment(image, [(p.x, p.y) for p in clicked], [int(p.positive) for p in clicked])
+
+
+def _check_parts(image: Image, parts: Sequence[Mask], plate: Image | None) -> None:
+    height, width = image.shape[:2]
+    if not parts:
+        raise InvalidInputError("an animation needs at least one mask, or points on a part. Got: neither")
+    for number, mask in enumerate(parts):
+        if np.shape(mask) != (height, width):
+            raise InvalidInputError(
+                f"masks[{number}] must have the picture's shape, [{height}, {width}]. Got: {list(np.shape(mask))}"
+            )
+    if plate is not None and np.shape(plate) != image.shape:
+        raise InvalidInputError(f"plate must have the picture's shape, {image.shape}. Got: {np.shape(plate)}")
+
+
+def _given_scene(
+    scene: Scene | Mapping[str, Any],
+    meshes: list[TriangleMesh],
+    preset: str | Sequence[str] | None,
+    sway: float | None,
+    frame_rate: float | None,
+) -> Scene:
+    """A scene from outside, with what the caller changes in it."""
+    if not isinstance(scene, Scene):
+        from .physics.scene_json import scene_from_dict
+
+        scene = scene_from_dict(scene, meshes=_missing_meshes(scene, meshes))
+    if len(scene.bodies) != len(meshes):
+        raise InvalidInputError(
+            f"scene must have one body for each of the {len(meshes)} masks. Got: {len(scene.bodies)} bodies"
+        )
+    materials: Sequence[Material] = [body.material for body in scene.bodies]
+    if preset is not None:
+        materials = _materials(preset, None, len(meshes))
+    if sway is not None:
+        materials = [replace(each, sway_frequency=sway) for each in materials]
+    bodies = tuple(replace(body, material=each) for body, each in zip(scene.bodies, materials, strict=True))
+    return replace(scene, bodies=bodies, frame_rate=scene.frame_rate if frame_rate is None else frame_rate)
+
+
+def _missing_meshes(document: Mapping[str, Any], meshes: list[TriangleMesh]) -> list[TriangleMesh]:
+    """The meshes that a checked document does not bring itself."""
+    brought = [bool(body.get("mesh")) for body in document.get("bodies", [])]
+    return [mesh for number, mesh in enumerate(meshes) if not any(brought[number : number + 1])]
+
+
+def _materials(names: str | Sequence[str], sway: float | None, count: int) -> list[Material]:
+    chosen = [names] if isinstance(names, str) else list(names)
+    if len(chosen) not in (1, count):
+        raise InvalidInputError(f"preset must be named once, or once for each of the {count} masks. Got: {len(chosen)}")
+    changes = {} if sway is None else {"sway_frequency": sway}
+    materials = [material_preset(name, **changes) for name in chosen]
+    return materials * count if len(materials) == 1 else materials
+
+
+def _stage(name: str, progress: StageProgress | None) -> Progress | None:
+    return None if progress is None else lambda done, total: progress(name, done, total)

@@ -1,0 +1,178 @@
+"""Pictures and masks from files and into files."""
+
+from __future__ import annotations
+
+import io
+import os
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..physics.errors import InvalidInputError
+from .atomic import replacing
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+__all__ = ["LONGEST_SIDE", "load_image", "load_mask", "save_image", "to_uint8"]
+
+LONGEST_SIDE = 8192
+"""The longest side of a picture that is accepted [px]."""
+
+StrPath = str | os.PathLike[str]
+
+
+def load_image(path: StrPath) -> NDArray[np.uint8]:
+    """Read an illustration.
+
+    The orientation noted by a camera or scanner is applied, an embedded colour profile is converted to sRGB,
+    16-bit and grey pictures become 8-bit RGB, and transparent areas are laid over white. Of an animated file the
+    first frame is read.
+
+    Args:
+        path: a PNG, JPEG, WebP or any other file that Pillow reads.
+
+    Returns:
+        RGB, uint8, shape [h, w, 3].
+
+    Raises:
+        InvalidInputError: there is no such file, it is no picture, or it is too large.
+    """
+    from PIL import Image
+
+    picture = _in_srgb(_open(path))
+    if _has_transparency(picture):
+        picture = picture.convert("RGBA")
+        picture = Image.alpha_composite(Image.new("RGBA", picture.size, "white"), picture)
+    return np.array(_in_8_bits(picture).convert("RGB"))
+
+
+def load_mask(path: StrPath, *, width: int, height: int) -> NDArray[np.float32]:
+    """Read a mask: where a moving part is.
+
+    A picture with transparent areas counts by its opacity, so that a cut-out part serves as its own mask; any
+    other picture counts by its brightness, white being inside.
+
+    Args:
+        path: a picture file of any mode.
+        width: width of the illustration [px].
+        height: height of the illustration [px].
+
+    Returns:
+        Coverage from 0 to 1, float32, shape [h, w].
+
+    Raises:
+        InvalidInputError: the file cannot be read, has another size than the illustration, or is empty.
+    """
+    picture = _open(path)
+    if picture.size != (width, height):
+        raise InvalidInputError(
+            f"mask {path} must have the size of the picture, {width} x {height} px."
+            f" Got: {picture.size[0]} x {picture.size[1]} px"
+        )
+    grey = np.array(_in_8_bits(picture).convert("L"))
+    if _has_transparency(picture):
+        opacity = np.array(picture.convert("RGBA"))[..., 3]
+        grey = opacity if opacity.min() < 255 else grey
+    if grey.max() < 128:
+        raise InvalidInputError(f"mask {path} must be white (or opaque) where the part is. Got: an empty mask")
+    return grey.astype(np.float32) / np.float32(255)
+
+
+def save_image(path: StrPath, image: NDArray[Any]) -> None:
+    """Write a picture; its suffix names the format. An earlier file is replaced only by a complete one.
+
+    Args:
+        path: where to; the folder must exist.
+        image: grey, RGB or RGBA, uint8 or 0..1 float, shape [h, w], [h, w, 3] or [h, w, 4].
+
+    Raises:
+        InvalidInputError: the suffix is not that of a picture, or the folder does not exist.
+    """
+    from PIL import Image
+
+    target = Path(path)
+    if target.suffix.lower() not in Image.registered_extensions():
+        raise InvalidInputError(f"a picture's name must end in .png, .jpg or .webp. Got: {path}")
+    if not target.parent.is_dir():
+        raise InvalidInputError(f"the folder for {path} must exist. Got: no folder {target.parent}")
+    with replacing(target) as temporary:
+        Image.fromarray(to_uint8(image)).save(temporary)
+
+
+def to_uint8(image: NDArray[Any]) -> NDArray[np.uint8]:
+    """Values 0..1 as 0..255, rounded; uint8 passes unchanged.
+
+    Args:
+        image: uint8 or float, any shape.
+    """
+    if image.dtype == np.uint8:
+        return image
+    return np.rint(np.clip(image, 0, 1) * 255).astype(np.uint8)
+
+
+def _open(path: StrPath) -> Image.Image:
+    """The first frame of a picture file, upright."""
+    from PIL import Image, ImageOps, UnidentifiedImageError
+
+    try:
+        with warnings.catch_warnings():
+            # Pillow warns below our own limit and refuses above it; _check_size says it in our words.
+            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+            opened = Image.open(path)
+        with opened as picture:
+            _check_size(path, picture.size)
+            return ImageOps.exif_transpose(picture)
+    except FileNotFoundError:
+        raise InvalidInputError(f"picture must be an existing file. Got: {path}") from None
+    except Image.DecompressionBombError:
+        raise InvalidInputError(f"picture {path} must be at most {LONGEST_SIDE} px on a side. Got: more") from None
+    except UnidentifiedImageError:
+        raise InvalidInputError(f"picture must be a PNG, JPEG or WebP file. Got: {path}") from None
+    except InvalidInputError:
+        raise
+    except (OSError, SyntaxError, ValueError) as error:
+        raise InvalidInputError(f"picture {path} cannot be read: {error}") from error
+
+
+def _check_size(path: StrPath, size: tuple[int, int]) -> None:
+    if max(size) > LONGEST_SIDE:
+        raise InvalidInputError(
+            f"picture {path} must be at most {LONGEST_SIDE} px on a side. Got: {size[0]} x {size[1]} px"
+        )
+
+
+def _has_transparency(picture: Image.Image) -> bool:
+    return picture.mode in ("LA", "La", "PA", "RGBA", "RGBa") or "transparency" in picture.info
+
+
+def _in_8_bits(picture: Image.Image) -> Image.Image:
+    """The picture with 16-bit or float grey values brought to 0..255 (Pillow would clip them)."""
+    from PIL import Image
+
+    if picture.mode not in ("I", "F", "I;16", "I;16L", "I;16B", "I;16N"):
+        return picture
+    values = np.array(picture).astype(np.float64)
+    brightest = 65535.0 if picture.mode != "F" else max(float(values.max()), 1.0)
+    return Image.fromarray(to_uint8(values / brightest))
+
+
+def _in_srgb(picture: Image.Image) -> Image.Image:
+    """The picture's colours as sRGB values; drawing tablets embed wider profiles such as Display P3."""
+    from PIL import ImageCms
+
+    profile = picture.info.get("icc_profile")
+    if not profile or picture.mode not in ("RGB", "RGBA", "CMYK"):
+        return picture
+    try:
+        source = ImageCms.ImageCmsProfile(io.BytesIO(profile))
+        if "srgb" in ImageCms.getProfileDescription(source).lower():
+            return picture
+        mode = "RGBA" if picture.mode == "RGBA" else "RGB"
+        converted = ImageCms.profileToProfile(picture, source, ImageCms.createProfile("sRGB"), outputMode=mode)
+    except (ImageCms.PyCMSError, OSError):
+        return picture
+    return picture if converted is None else converted

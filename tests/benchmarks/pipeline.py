@@ -1,0 +1,140 @@
+"""Times each stage of the pipeline at 1280x720 against cv2.remap of one RGB frame in the same run.
+
+    python tests/benchmarks/pipeline.py --json
+
+Prints ``{"ms": {...}, "ratios": {...}, "simulation_of_real_time": _, "demo_cold_s": _, ...}``. A figure is the
+median over rounds in which every stage and the yardstick take turns, so that a slow moment hits all alike.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import platform
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
+from physanimator.physics.automatic import automatic_scene
+from physanimator.physics.flow import FlowSequence
+from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.simulation import plan, simulate
+from physanimator.rendering.clean_plate import clean_plate
+from physanimator.rendering.composite import LayeredRenderer
+from physanimator.rendering.sketch import extract_sketch
+from physanimator.rendering.warp import warp_sketch
+
+ROOT = Path(__file__).resolve().parents[2]
+WIDTH, HEIGHT = 1280, 720
+TRIANGLES = 2000
+
+
+def illustration() -> tuple[np.ndarray, np.ndarray]:
+    """A drawn test card of 1280x720: a leaf-shaped body of a tenth of the frame over stripes and gradients."""
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.float32)
+    image = np.stack([x / WIDTH, y / HEIGHT, 0.5 + 0.5 * np.sin(x / 23)], axis=-1)
+    mask = ((x - 640) / (150 + 60 * np.sin(y / 90))) ** 2 + ((y - 360) / 220) ** 2 < 1
+    image[mask] = np.stack([0.8 - y / 2000, 0.3 + x / 4000, 0.3 + 0 * x], axis=-1)[mask]
+    image = (image * 255).astype(np.uint8)
+    contours, _ = cv2.findContours(mask.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+    cv2.drawContours(image, contours, -1, (30, 20, 40), 3, cv2.LINE_AA)
+    return image, mask
+
+
+def mesh_of_about(mask: np.ndarray, triangles: int) -> Any:
+    """Mesh whose spacing is chosen so that it has about so many triangles."""
+    spacing = float(np.sqrt(mask.sum() * 2.31 / triangles))
+    for _ in range(4):
+        mesh = mesh_from_mask(mask, spacing=spacing)
+        spacing *= float(np.sqrt(len(mesh.triangles) / triangles))
+    return mesh
+
+
+def timed(function: Callable[[], Any]) -> float:
+    """Milliseconds that one call takes."""
+    start = time.perf_counter()
+    function()
+    return (time.perf_counter() - start) * 1000
+
+
+def demo_cold_seconds() -> float | None:
+    """Wall time of ``physanimator demo`` in a new process; None when the package is not installed here."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [sys.executable, "-m", "physanimator", "demo", "--quiet", "--output", str(Path(folder) / "demo.mp4")]
+        start = time.perf_counter()
+        done = subprocess.run(command, cwd=folder, capture_output=True, check=False)
+        return time.perf_counter() - start if done.returncode == 0 else None
+
+
+def measure(rounds: int) -> dict[str, Any]:
+    """Run everything once to warm up, then ``rounds`` times in turn."""
+    image, mask = illustration()
+    start = time.perf_counter()
+    mesh = mesh_of_about(mask, TRIANGLES)
+    meshing_ms = timed(lambda: mesh_from_mask(mask, spacing=float(np.sqrt(mesh.areas.mean() * 2.31))))
+    scene = automatic_scene([mesh])
+    frames = int(scene.frame_rate) + 1
+    simulate(scene, frames=2)
+    motion = simulate(scene, frames=frames)
+    plate_ms = timed(lambda: clean_plate(image, mask))
+    sketch_ms = timed(lambda: extract_sketch(image))
+    flow, renderer, sketch = FlowSequence(motion), LayeredRenderer(image, [mask], motion), extract_sketch(image)
+    rows, columns = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.float32)
+    map_x, map_y = columns + 3.3 * np.sin(rows / 40), rows + 2.7 * np.cos(columns / 50)
+    stages: dict[str, Callable[[int], Any]] = {
+        "remap": lambda t: cv2.remap(image, map_x, map_y, cv2.INTER_LINEAR),
+        "flow": flow.flow,
+        "composite": renderer.frame,
+        "sketch_warp": lambda t: warp_sketch(sketch, fields[t]),
+    }
+    fields = [flow.flow(t) for t in range(len(motion))]
+    times: dict[str, list[float]] = {name: [] for name in (*stages, "simulate")}
+    for round_number in range(rounds + 2):
+        t = 1 + round_number % (len(motion) - 1)
+        for name, stage in stages.items():
+            elapsed = timed(lambda stage=stage, t=t: stage(t))
+            if round_number >= 2:
+                times[name].append(elapsed)
+    for _ in range(5):
+        times["simulate"].append(timed(lambda: simulate(scene, frames=frames)) / (frames - 1))
+    ms = {name: statistics.median(values) for name, values in times.items()}
+    return {
+        "ms": {**ms, "mesh_once": meshing_ms, "clean_plate_once": plate_ms, "extract_sketch_once": sketch_ms},
+        "ratios": {name: ms[name] / ms["remap"] for name in ("flow", "composite", "sketch_warp")},
+        "simulation_of_real_time": ms["simulate"] * scene.frame_rate / 1000,
+        "demo_cold_s": demo_cold_seconds(),
+        "triangles": len(mesh.triangles),
+        "body_share_of_frame": float(mask.mean()),
+        "substeps_per_frame": plan(scene, frames=frames).substeps,
+        "rounds": rounds,
+        "machine": {"cores": cv2.getNumberOfCPUs(), "processor": platform.machine(), "opencv": cv2.__version__},
+        "total_s": time.perf_counter() - start,
+    }
+
+
+def main() -> None:
+    """Read the command line, measure, print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--json", action="store_true", help="print the whole document instead of a table")
+    parser.add_argument("--rounds", type=int, default=40, help="how often each stage is timed (default 40)")
+    arguments = parser.parse_args()
+    result = measure(arguments.rounds)
+    if arguments.json:
+        print(json.dumps(result, indent=2))
+        return
+    for name, value in result["ms"].items():
+        print(f"{name:>22} {value:9.2f} ms")
+    for name, value in result["ratios"].items():
+        print(f"{name:>22} {value:9.2f} x cv2.remap")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,89 @@
+"""The automatic scene holds bodies where they are attached and lets a wind pass that reaches all of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from physanimator.physics.automatic import attachment_of, automatic_scene
+from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.material import preset
+from physanimator.physics.mesh import TriangleMesh
+from physanimator.physics.particles import acceleration
+from physanimator.physics.rigging import vertices_of
+
+
+def grid(x0: float, y0: float, x1: float, y1: float, *, columns: int = 6, rows: int = 12) -> TriangleMesh:
+    """A rectangle cut into triangles on a picture of 1000x800."""
+    x, y = np.meshgrid(np.linspace(x0, x1, columns), np.linspace(y0, y1, rows))
+    index = np.arange(rows * columns).reshape(rows, columns)
+    a, b, c, d = (part.reshape(-1) for part in (index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1]))
+    triangles = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    return TriangleMesh(np.stack([x.reshape(-1), y.reshape(-1)], 1), triangles, 1000, 800)
+
+
+def two_parts() -> TriangleMesh:
+    left, right = grid(100, 100, 200, 400), grid(300, 250, 340, 380)
+    vertices = np.concatenate([left.vertices, right.vertices])
+    triangles = np.concatenate([left.triangles, right.triangles + len(left.vertices)])
+    return TriangleMesh(vertices, triangles, 1000, 800)
+
+
+def test_each_part_is_held_at_its_top() -> None:
+    mesh = two_parts()
+    scene = automatic_scene([mesh])
+    held = np.zeros(len(mesh.vertices), dtype=bool)
+    for point in scene.rig_points:
+        held |= vertices_of(point, mesh)
+    for component in (0, 1):
+        part = mesh.vertices[mesh.components == component]
+        below = part[held[mesh.components == component], 1].max()
+        assert held[mesh.components == component].sum() >= 3
+        assert below <= part[:, 1].min() + 0.3 * np.ptp(part[:, 1])
+
+
+def test_a_narrow_neck_on_the_border_is_the_root() -> None:
+    stalk = np.array([[480.0, 820], [520, 820], [490, 500], [510, 500], [380, 300], [620, 300], [500, 200]])
+    assert attachment_of(stalk, 1000, 800) == "bottom"
+
+
+def test_a_wide_hem_on_the_border_still_hangs_from_the_top() -> None:
+    skirt = np.array([[450.0, 400], [550, 400], [300, 830], [700, 830], [350, 600], [650, 600]])
+    assert attachment_of(skirt, 1000, 800) == "top"
+
+
+@pytest.mark.parametrize(("side", "axis", "extreme"), [("left", 0, min), ("right", 0, max), ("bottom", 1, max)])
+def test_the_side_can_be_chosen(side: str, axis: int, extreme: object) -> None:
+    mesh = grid(100, 100, 300, 500)
+    (point,) = automatic_scene([mesh], attach=side).rig_points
+    held = vertices_of(point, mesh)
+    assert held.any()
+    assert not held.all()
+    assert extreme(mesh.vertices[held, axis]) == extreme(mesh.vertices[:, axis])
+    assert np.ptp(mesh.vertices[held, axis]) < 0.3 * np.ptp(mesh.vertices[:, axis])
+
+
+@pytest.mark.parametrize("angle", [0.0, 90.0, 180.0, 215.0])
+def test_the_wind_reaches_every_vertex_and_blows_where_it_should(angle: float) -> None:
+    mesh = grid(100, 100, 300, 500)
+    scene = automatic_scene([mesh], wind_angle=angle)
+    total = np.zeros((len(mesh.vertices), 2))
+    for t in np.arange(0, 3, 1 / 24):
+        total += sum(acceleration(stroke, mesh.vertices, t) for stroke in scene.strokes)
+    direction = np.array([np.cos(np.deg2rad(angle)), -np.sin(np.deg2rad(angle))])
+    assert (total @ direction > 0).all()
+    assert abs(total.mean(0) @ direction) > 0.8 * np.linalg.norm(total.mean(0))
+
+
+def test_calm_has_no_strokes() -> None:
+    assert automatic_scene([grid(100, 100, 300, 500)], wind_strength=0).strokes == ()
+
+
+def test_materials_are_one_or_one_each() -> None:
+    mesh = grid(100, 100, 300, 500)
+    scene = automatic_scene([mesh, mesh], materials=[preset("hair"), preset("leaf")])
+    assert [body.material.name for body in scene.bodies] == ["hair", "leaf"]
+    assert [body.layer for body in scene.bodies] == [0, 1]
+    with pytest.raises(InvalidInputError, match="materials must be one, or one for each of the 3 bodies"):
+        automatic_scene([mesh] * 3, materials=[preset("hair")] * 2)
+    with pytest.raises(InvalidInputError, match="meshes must be at least one"):
+        automatic_scene([])

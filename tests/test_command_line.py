@@ -1,0 +1,221 @@
+"""The command line as a person meets it: results, messages and exit statuses."""
+
+from __future__ import annotations
+
+import errno
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import av
+import numpy as np
+import physanimator
+import pytest
+from physanimator.__main__ import EXAMPLE, main
+from physanimator.physics.material import PRESETS
+from physanimator.rendering.images import load_image, save_image
+
+ROOT = Path(__file__).resolve().parents[1]
+WIDTH, HEIGHT = 160, 120
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder, made the current one, with a picture, a mask and the files for all options."""
+    monkeypatch.chdir(tmp_path)
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
+    strip = (np.abs(x - 70) < 10) & (y > 15) & (y < 95)
+    image = np.stack([80 + x * 0.8, 200 - y * 0.9, 160 + 0 * x], axis=-1).astype(np.uint8)
+    save_image("plate.png", image)
+    image[strip] = (70, 40, 30)
+    save_image("girl.png", image)
+    save_image("hair.png", strip.astype(np.uint8) * 255)
+    save_image("small.png", np.full((6, 8), 255, np.uint8))
+    save_image("empty.png", np.zeros((HEIGHT, WIDTH), np.uint8))
+    (tmp_path / "points.txt").write_text("70,50,1\n120,50,0\n")
+    pin = {"position": [70, 20], "region": {"type": "circle", "radius": 20}, "motion": {"type": "pinned"}}
+    scene = {"version": 1, "width": WIDTH, "height": HEIGHT, "frame_rate": 12, "rig_points": [pin]}
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    (tmp_path / "broken.json").write_text('{"version": 1,')
+    (tmp_path / "wrong.json").write_text(json.dumps({**scene, "strokes": [{"kind": "storm"}]}))
+    return tmp_path
+
+
+def status(*arguments: str) -> int:
+    """Exit status of one command, however it ends."""
+    try:
+        return main(arguments)
+    except SystemExit as ended:
+        return int(ended.code or 0)
+
+
+def frames_of(path: str | Path) -> int:
+    with av.open(str(path)) as container:
+        return sum(1 for _ in container.decode(video=0))
+
+
+Output = pytest.CaptureFixture[str]
+
+
+def test_mask_to_video(folder: Path, capsys: Output) -> None:
+    assert status("animate", "girl.png", "--mask", "hair.png", "--frames", "4", "--output", "out.mp4") == 0
+    assert frames_of("out.mp4") == 4
+    captured = capsys.readouterr()
+    assert captured.out == "out.mp4: 4 frames at 24 frames a second\n"
+    assert "simulate" in captured.err
+    assert "render" in captured.err
+
+
+def test_points_scene_and_folder(folder: Path) -> None:
+    arguments = ["animate", "girl.png", "--points", "points.txt", "--scene", "scene.json", "--frames", "3"]
+    assert status(*arguments, "--output", "frames/") == 0
+    assert sorted(path.name for path in (folder / "frames").iterdir()) == [f"frame_000{t}.png" for t in range(3)]
+    first = load_image(folder / "frames" / "frame_0000.png")
+    assert np.abs(first.astype(int) - load_image("girl.png")).max() <= 1
+
+
+def test_every_option_at_once(folder: Path, capsys: Output) -> None:
+    arguments = "animate girl.png --mask hair.png --preset cloth --sway 2 --attach top --wind 2 --wind-angle 180"
+    arguments += " --spacing 8 --frames 5 --fps 12.5 --background picture --interpolate 2 --plate plate.png --verbose"
+    arguments += " --save-sketch sketch/ --save-flow flow.webp --preview preview.gif --output out.webm"
+    assert status(*arguments.split()) == 0
+    assert frames_of("out.webm") == 5
+    assert frames_of("preview.gif") == 5
+    assert len(list((folder / "sketch").iterdir())) == 5
+    assert (folder / "flow.webp").exists()
+    report = capsys.readouterr().err
+    for word in ("triangles", "steps of the simulation a frame", "prepare", "write"):
+        assert word in report
+
+
+def test_webm_is_transparent_unless_told_otherwise(folder: Path) -> None:
+    arguments = ["animate", "girl.png", "--mask", "hair.png", "--frames", "2", "--quiet"]
+    assert status(*arguments, "--output", "clear.webm") == 0
+    assert status(*arguments, "--background", "picture", "--output", "full.webm") == 0
+    for name, expected in (("clear.webm", True), ("full.webm", False)):
+        with av.open(name) as container:
+            assert ("1" in container.streams.video[0].metadata.values()) == expected
+
+
+def test_quiet_says_nothing(folder: Path, capsys: Output) -> None:
+    assert status("animate", "girl.png", "--mask", "hair.png", "--frames", "2", "--quiet", "--output", "o.mp4") == 0
+    assert capsys.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ("animate girl.png --output o.mp4", "needs --mask or --points"),
+        ("animate none.png --mask hair.png --output o.mp4", "existing file. Got: none.png"),
+        ("animate girl.png --mask none.png --output o.mp4", "existing file. Got: none.png"),
+        ("animate girl.png --mask small.png --output o.mp4", "160 x 120 px. Got: 8 x 6 px"),
+        ("animate girl.png --mask empty.png --output o.mp4", "empty mask"),
+        ("animate points.txt --mask hair.png --output o.mp4", "PNG, JPEG or WebP"),
+        ("animate girl.png --mask hair.png --output o.avi", "output must end in .mp4"),
+        ("animate girl.png --mask hair.png --output none/o.mp4", "folder for none/o.mp4 must exist"),
+        ("animate girl.png --mask hair.png --output o.mp4 --background transparent", "must end in .webm"),
+        ("animate girl.png --mask hair.png --output o.mp4 --preview p.txt", "output must end in .mp4"),
+        ("animate girl.png --mask hair.png --output o.mp4 --preview o.mp4", "its own name"),
+        ("animate girl.png --mask hair.png --output o.mp4 --preset steel", "preset must be one of"),
+        ("animate girl.png --mask hair.png --output o.mp4 --frames 0", "frames must be at least 1"),
+        ("animate girl.png --mask hair.png --output o.mp4 --fps 0", "frame"),
+        ("animate girl.png --mask hair.png --output o.mp4 --interpolate 0", "every must be at least 1"),
+        ("animate girl.png --mask hair.png --output o.mp4 --plate small.png", "plate must have the picture's shape"),
+        ("animate girl.png --mask hair.png --output o.mp4 --scene none.json", "none.json: No such file"),
+        ("animate girl.png --mask hair.png --output o.mp4 --scene girl.png", "it is not text"),
+        ("animate girl.png --mask hair.png --output o.mp4 --scene broken.json", "line 1"),
+        ("animate girl.png --mask hair.png --output o.mp4 --scene wrong.json", "strokes[0]"),
+        ("animate girl.png --mask hair.png --output o.mp4 --scene scene.json --wind 2", "without --scene"),
+        ("animate girl.png --points none.txt --output o.mp4", "points must be a readable text file"),
+        ("animate girl.png --mask hair.png", "--output"),
+        ("animate girl.png --mask hair.png --output o.mp4 --frames many", "invalid int value"),
+        ("animate girl.png --mask hair.png --out o.mp4", "unrecognized arguments|required: --output"),
+        ("dance", "invalid choice"),
+        ("", "required: COMMAND"),
+    ],
+)
+def test_bad_input_is_one_sentence_and_status_2(folder: Path, capsys: Output, arguments: str, words: str) -> None:
+    before = sorted(folder.iterdir())
+    assert status(*arguments.split()) == 2
+    captured = capsys.readouterr()
+    assert any(word in captured.err for word in words.split("|"))
+    assert "Traceback" not in captured.err
+    assert captured.out == ""
+    assert captured.err.splitlines()[-1].startswith("physanimator")
+    assert sorted(folder.iterdir()) == before
+
+
+def test_bad_output_is_found_before_any_work(folder: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
+    def never(*_: object, **__: object) -> None:
+        pytest.fail("the picture was loaded")
+
+    monkeypatch.setattr("physanimator.rendering.images.load_image", never)
+    assert status("animate", "girl.png", "--mask", "hair.png", "--output", "o.avi") == 2
+    assert status("demo", "--output", "o.avi") == 2
+    assert status("animate", "girl.png", "--mask", "hair.png", "--scene", "broken.json", "--output", "o.mp4") == 2
+
+
+@pytest.mark.parametrize("stage", ["simulate", "render"])
+def test_interruption_is_status_130_and_keeps_the_earlier_file(
+    folder: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch, stage: str
+) -> None:
+    def interrupting(_: object) -> Callable[[str, int, int], None]:
+        def advance(name: str, done: int, total: int) -> None:
+            if name == stage and done == 2:
+                raise KeyboardInterrupt
+
+        return advance
+
+    monkeypatch.setattr("physanimator.__main__._progress_bars", interrupting)
+    (folder / "out.mp4").write_bytes(b"earlier")
+    before = sorted(folder.iterdir())
+    assert status("animate", "girl.png", "--mask", "hair.png", "--frames", "4", "--output", "out.mp4") == 130
+    assert (folder / "out.mp4").read_bytes() == b"earlier"
+    assert sorted(folder.iterdir()) == before
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_full_disk_is_status_1_and_one_sentence(folder: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("physanimator.rendering.animation.write_animation", full)
+    assert status("animate", "girl.png", "--mask", "hair.png", "--frames", "2", "--quiet", "--output", "o.mp4") == 1
+    assert capsys.readouterr().err == "physanimator: [Errno 28] No space left on device\n"
+
+
+def test_schema_is_the_published_one(capsys: Output) -> None:
+    assert status("schema") == 0
+    published = json.loads((ROOT / "physics" / "scene.schema.json").read_text(encoding="utf-8"))
+    assert json.loads(capsys.readouterr().out) == published
+
+
+def test_version(capsys: Output) -> None:
+    assert status("--version") == 0
+    assert capsys.readouterr().out == f"physanimator {physanimator.__version__}\n"
+
+
+def test_help_names_every_preset_and_loads_nothing(capsys: Output) -> None:
+    assert status("animate", "--help") == 0
+    words = capsys.readouterr().out.replace(",", " ").replace(";", " ").split()
+    assert set(PRESETS) <= set(words)
+    script = (
+        "import runpy, sys\n"
+        f"runpy.run_path({str(ROOT / 'tests' / 'conftest.py')!r})\n"
+        "from physanimator.__main__ import main\n"
+        "try: main(['animate', '--help'])\n"
+        "except SystemExit: pass\n"
+        "print(sorted({'numpy', 'cv2', 'taichi', 'torch'} & set(sys.modules)))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_demo(folder: Path) -> None:
+    assert status("demo", "--frames", "3", "--output", "demo.mp4", "--quiet") == 0
+    with av.open("demo.mp4") as container:
+        stream = container.streams.video[0]
+        assert (stream.width, stream.height) == load_image(EXAMPLE / "illustration.png").shape[1::-1]
+    assert frames_of("demo.mp4") == 3

@@ -1,0 +1,207 @@
+"""The whole way on a small picture: what moves, what stays, what is refused."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import av
+import numpy as np
+import pytest
+from physanimator.physics.errors import InvalidInputError, PhysAnimatorError
+from physanimator.pipeline import animate
+from physanimator.rendering.animation import Animation
+
+WIDTH, HEIGHT = 160, 120
+FRAMES = 13
+
+
+def picture() -> np.ndarray:
+    """A gradient with a dark strip that hangs in its middle."""
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
+    image = np.stack([80 + x * 0.8, 200 - y * 0.9, 160 + 0 * x], axis=-1)
+    image[strip()] = (70, 40, 30)
+    return image.astype(np.uint8)
+
+
+def strip() -> np.ndarray:
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
+    return (np.abs(x - 70) < 10) & (y > 15) & (y < 95)
+
+
+def document(**changes: Any) -> dict[str, Any]:
+    """A scene file without strokes, in which the strip's upper end swings by 10 px."""
+    wave = {"type": "wave", "amplitude": 10, "period": 1.0, "direction": [1, 0]}
+    rig = {"position": [70, 20], "region": {"type": "circle", "radius": 25}, "motion": wave}
+    return {"version": 1, "width": WIDTH, "height": HEIGHT, "frame_rate": 12, "rig_points": [rig], **changes}
+
+
+@pytest.fixture(scope="module")
+def windy() -> Animation:
+    return animate(picture(), [strip()], frames=FRAMES, frame_rate=12.5, wind_strength=2.0)
+
+
+def test_first_frame_is_the_picture(windy: Animation) -> None:
+    first = next(windy.frames())
+    assert np.abs(first.astype(int) - picture()).max() <= 1
+
+
+def test_part_moves_and_what_it_never_covers_stays_exactly_as_drawn(windy: Animation) -> None:
+    frames = list(windy.frames())
+    assert len(frames) == len(windy) == FRAMES
+    moved = np.linalg.norm(windy.motion.positions[-1] - windy.motion.positions[0], axis=1).max()
+    assert moved > 2
+    assert (frames[-1] != frames[0]).any(axis=2)[strip()].mean() > 0.02
+    reach = windy.motion.positions[..., 0]
+    left, right = int(reach.min()) - 4, int(reach.max()) + 5
+    for frame in frames:
+        assert (frame[:, :left] == picture()[:, :left]).all()
+        assert (frame[:, right:] == picture()[:, right:]).all()
+
+
+def test_same_input_gives_the_same_motion(windy: Animation) -> None:
+    again = animate(picture(), [strip()], frames=FRAMES, frame_rate=12.5, wind_strength=2.0)
+    assert (again.motion.positions == windy.motion.positions).all()
+
+
+def test_calm_air_moves_nothing() -> None:
+    calm = animate(picture(), [strip()], frames=5, wind_strength=0)
+    assert np.abs(calm.motion.positions - calm.motion.positions[0]).max() < 0.01
+
+
+def test_scene_document_leads_the_part_and_sets_the_frame_rate() -> None:
+    led = animate(picture(), [strip()], scene=document(), frames=4)
+    assert led.motion.frame_rate == 12
+    rest = led.scene.bodies[0].mesh.vertices
+    top = np.linalg.norm(rest - (70, 20), axis=1) < 20
+    shift = (led.motion.positions[3] - led.motion.positions[0])[top]
+    assert shift[:, 0] == pytest.approx(10 * np.sin(2 * np.pi * 3 / 12), abs=0.05)
+    assert shift[:, 1] == pytest.approx(0, abs=0.05)
+
+
+def test_scene_document_with_its_own_mesh_needs_no_other() -> None:
+    from physanimator.physics.scene_json import scene_to_dict
+
+    led = animate(picture(), [strip()], scene=document(), frames=2)
+    again = animate(picture(), [strip()], scene=scene_to_dict(led.scene), frames=2)
+    assert len(again.scene.bodies) == 1
+    assert again.scene.bodies[0].mesh.content_hash == led.scene.bodies[0].mesh.content_hash
+
+
+def test_caller_may_change_a_given_scene() -> None:
+    changed = animate(picture(), [strip()], scene=document(), frames=2, frame_rate=30, preset="jelly", sway=3.0)
+    assert changed.motion.frame_rate == 30
+    assert changed.scene.bodies[0].material.poisson_ratio == pytest.approx(0.42)
+    assert changed.scene.bodies[0].material.sway_frequency == 3.0
+
+
+def test_given_plate_shows_where_the_part_was() -> None:
+    plate = np.full((HEIGHT, WIDTH, 3), (255, 0, 255), np.uint8)
+    other = animate(picture(), [strip()], frames=FRAMES, frame_rate=12.5, wind_strength=2.0, plate=plate)
+    uncovered = strip() & (other.renderer.alpha(FRAMES - 1) == 0)
+    assert uncovered.sum() > 20
+    assert (list(other.frames())[-1][uncovered] == (255, 0, 255)).all()
+
+
+def test_points_select_the_part() -> None:
+    chosen = animate(picture(), points=["70,50,1\n120,50,0"], frames=1)
+    assert (chosen.masks[0] > 0.5)[strip()].mean() > 0.9
+    assert (chosen.masks[0] > 0.5)[~strip()].mean() < 0.05
+
+
+def test_presets_one_for_each_part() -> None:
+    other = np.roll(strip(), 45, axis=1)
+    both = animate(picture(), [strip(), other], preset=["ribbon", "leaf"], frames=1)
+    assert [body.material.damping for body in both.scene.bodies] == [1.2, 1.8]
+
+
+def test_stages_are_timed_and_reported() -> None:
+    seen: list[tuple[str, int, int]] = []
+    animation = animate(picture(), [strip()], frames=3, progress=lambda *step: seen.append(step))
+    list(animation.frames(progress=lambda *step: seen.append(step)))
+    assert seen == [(stage, done, 3) for stage in ("simulate", "render") for done in (1, 2, 3)]
+    assert list(animation.seconds) == ["segment", "mesh", "scene", "simulate", "prepare", "render"]
+    assert all(value >= 0 for value in animation.seconds.values())
+
+
+def test_interruption_leaves_everything_usable(windy: Animation) -> None:
+    def stop(stage: str, done: int, total: int) -> None:
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        animate(picture(), [strip()], frames=FRAMES, progress=stop)
+    with pytest.raises(KeyboardInterrupt):
+        list(windy.frames(progress=stop))
+    assert len(list(windy.frames())) == FRAMES
+
+
+def test_in_betweens_keep_the_keyframes(windy: Animation) -> None:
+    full, sparse = list(windy.frames()), list(windy.frames(every=4))
+    assert len(sparse) == FRAMES
+    assert all((sparse[t] == full[t]).all() for t in (0, 4, 8, 12))
+    difference = np.mean([np.abs(a.astype(int) - b).mean() for a, b in zip(full, sparse, strict=True)])
+    still = np.mean([np.abs(a.astype(int) - full[0]).mean() for a in full])
+    assert difference < 0.5 * still
+
+
+def test_transparent_frames_hold_the_part_alone(windy: Animation) -> None:
+    first = next(windy.frames(transparent=True))
+    assert first.shape == (HEIGHT, WIDTH, 4)
+    assert (first[..., 3] > 127)[strip()].mean() > 0.97
+    assert (first[..., 3] > 127)[~strip()].mean() < 0.03
+
+
+def test_side_products_have_one_picture_a_frame(windy: Animation) -> None:
+    sketches = list(windy.sketches())
+    assert len(sketches) == FRAMES
+    assert sketches[0].shape == (HEIGHT, WIDTH)
+    assert sketches[0].min() < 0.5 < sketches[0].max()
+    for pictures in (list(windy.flows()), list(windy.previews())):
+        assert len(pictures) == FRAMES
+        assert pictures[0].shape == (HEIGHT, WIDTH, 3)
+        assert (pictures[-1] != pictures[0]).any()
+
+
+def test_saved_video_has_the_right_length_rate_and_alpha(windy: Animation, tmp_path: Path) -> None:
+    windy.save(tmp_path / "out.mp4")
+    windy.save(tmp_path / "out.webm", transparent=True)
+    for name in ("out.mp4", "out.webm"):
+        with av.open(str(tmp_path / name)) as container:
+            assert container.streams.video[0].average_rate == Fraction(25, 2)
+            assert sum(1 for _ in container.decode(video=0)) == FRAMES
+    assert windy.seconds["write"] > 0
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"masks": []}, "at least one mask"),
+        ({"masks": [np.ones((8, 8), bool)]}, r"masks\[0\] must have the picture's shape"),
+        ({"image": np.zeros((HEIGHT, WIDTH), np.uint8)}, "image must be an RGB picture"),
+        ({"plate": np.zeros((4, 4, 3), np.uint8)}, "plate must have the picture's shape"),
+        ({"frames": 0}, "frames must be at least 1"),
+        ({"preset": "steel"}, "preset must be one of hair"),
+        ({"preset": ["hair", "cloth"]}, "preset must be named once"),
+        ({"spacing": -3.0}, "spacing"),
+        ({"sway": 0.0}, "sway_frequency"),
+        ({"frame_rate": 0.0}, "frame_rate"),
+        ({"scene": {"version": 1}}, "width"),
+        ({"scene": document(strokes=[{"radius": -1}])}, r"strokes\[0\]"),
+        ({"scene": document(bodies=[{}, {}])}, "bod"),
+        ({"masks": [np.zeros((HEIGHT, WIDTH), bool)]}, "mask"),
+        ({"points": ["5000,2,1"]}, "inside the picture"),
+    ],
+)
+def test_bad_input_is_refused_in_one_sentence(changes: dict[str, Any], words: str) -> None:
+    inputs: dict[str, Any] = {"image": picture(), "masks": [strip()], "frames": 2, **changes}
+    with pytest.raises(InvalidInputError, match=words) as caught:
+        animate(**inputs)
+    assert isinstance(caught.value, PhysAnimatorError)
+    assert "\n" not in str(caught.value)
+
+
+def test_in_betweens_cannot_be_transparent(windy: Animation) -> None:
+    with pytest.raises(InvalidInputError, match="one by one"):
+        windy.frames(transparent=True, every=2)
