@@ -194,6 +194,7 @@ def _animate(options: argparse.Namespace) -> None:
 
 def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     """Animate, write everything that was asked for, and report."""
+    from .physics.rigging import unused_rig_points
     from .pipeline import DEFAULT_FRAMES, animate
     from .rendering.images import load_image
 
@@ -202,6 +203,8 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     with ExitStack() as bars:
         progress = None if options.quiet else _progress_bars(bars)
         animation = animate(image, frames=frames, frame_rate=options.fps, plate=plate, progress=progress, **inputs)
+        for sentence in unused_rig_points(animation.scene):
+            print(f"physanimator: warning: {sentence}", file=sys.stderr)
         animation.save(
             options.output, transparent=_is_transparent(options), every=options.interpolate, progress=progress
         )

@@ -99,6 +99,7 @@ def animate(
                 frame_rate=rate,
                 wind_strength=wind_strength,
                 wind_angle=wind_angle,
+                natural_sway=sway is None,
             )
         else:
             whole = _given_scene(scene, meshes, preset, sway, frame_rate)
@@ -152,6 +153,8 @@ def _given_scene(
         raise InvalidInputError(
             f"scene must have one body for each of the {len(meshes)} masks. Got: {len(scene.bodies)} bodies"
         )
+    if (scene.width, scene.height) != (meshes[0].width, meshes[0].height):
+        scene = scene.rescaled(meshes[0].width, meshes[0].height)
     materials: Sequence[Material] = [body.material for body in scene.bodies]
     if preset is not None:
         materials = _materials(preset, None, len(meshes))

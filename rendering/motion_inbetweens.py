@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from ..physics.errors import InvalidInputError
 from ..physics.flow import layer_order
 from ..physics.motion import Motion
-from ..physics.raster import PixelBox, bounding_box, interpolate, triangle_ids
+from ..physics.pixel_box import PixelBox, bounding_box
+from ..physics.raster import interpolate, triangle_ids
 from .inbetweening import Clip, FloatImage, ModelFile, as_float, like
 
 __all__ = ["MotionInterpolator"]

@@ -1,0 +1,125 @@
+"""Optical flow F(0 -> t) of a motion: how far each pixel of the drawing has moved (paper, Method, "Optical Flow").
+
+d(p) = phi_i(X_p, t) - X_p for the triangle i of the rest mesh that holds pixel p, where phi_i is affine: the
+displacements of its three vertices, weighted by the pixel's barycentric coordinates. The weights do not depend
+on time, so one sparse matrix holds them for all frames.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import require
+from .motion import Motion
+from .pixel_box import PixelBox
+from .raster import barycentric, triangle_ids
+
+__all__ = ["FlowField", "FlowSequence", "layer_order"]
+
+
+@dataclass(frozen=True, eq=False)
+class FlowField:
+    """The flow from the drawing to one frame.
+
+    Attributes:
+        displacement: of each pixel of the drawing, x right and y down [px], float32, shape [h, w, 2]; zero outside
+            the bodies.
+        inside: true where a body lies in the drawing, bool, shape [h, w].
+    """
+
+    displacement: NDArray[np.float32]
+    inside: NDArray[np.bool_]
+
+
+def layer_order(motion: Motion) -> list[int]:
+    """Numbers of the bodies from back to front: by layer, and of equal layers the later body in front."""
+    return sorted(range(len(motion.bodies)), key=lambda k: motion.bodies[k].layer)
+
+
+class FlowSequence:
+    """The flow of every frame of a motion, computed one frame at a time when asked for.
+
+    Where bodies overlap in the drawing, a pixel belongs to the body in front.
+
+    Attributes:
+        motion: whose flow it is.
+    """
+
+    def __init__(self, motion: Motion) -> None:
+        self.motion = motion
+
+    def __len__(self) -> int:
+        """Number of frames."""
+        return len(self.motion)
+
+    def __iter__(self) -> Iterator[FlowField]:
+        """The flow of each frame in turn."""
+        return (self.flow(t) for t in range(len(self)))
+
+    def flow(self, t: int) -> FlowField:
+        """The flow from the drawing to frame ``t``.
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
+        require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
+        displacement = np.zeros((self.motion.height, self.motion.width, 2), dtype=np.float32)
+        moved = self._weights @ (self.motion.positions[t] - self._rest.astype(np.float32))
+        # As one complex number a pixel, the pairs are written several times faster than as rows of two.
+        displacement.view(np.complex64).reshape(-1)[self._pixels] = moved.view(np.complex64).reshape(-1)
+        return FlowField(displacement, self.inside)
+
+    @cached_property
+    def body(self) -> NDArray[np.int32]:
+        """Number of the body that each pixel of the drawing belongs to, -1 for none, int32, shape [h, w]."""
+        sizes = [len(self.motion.bodies[k].mesh.triangles) for k in layer_order(self.motion)]
+        owner = np.repeat(layer_order(self.motion), sizes)
+        return _frozen(np.where(self._ids >= 0, owner[self._ids], -1).astype(np.int32))
+
+    @cached_property
+    def inside(self) -> NDArray[np.bool_]:
+        """True where a body lies in the drawing, bool, shape [h, w]."""
+        return _frozen(self._ids >= 0)
+
+    @cached_property
+    def _rest(self) -> NDArray[np.float64]:
+        return np.concatenate([body.mesh.vertices for body in self.motion.bodies])
+
+    @cached_property
+    def _triangles(self) -> NDArray[np.int64]:
+        """Triangles of all bodies from back to front, indexing the vertices of the motion, shape [t, 3]."""
+        starts = np.cumsum([0] + [len(body.mesh.vertices) for body in self.motion.bodies])
+        return np.concatenate([self.motion.bodies[k].mesh.triangles + starts[k] for k in layer_order(self.motion)])
+
+    @cached_property
+    def _ids(self) -> NDArray[np.int32]:
+        """Row of ``_triangles`` at each pixel of the drawing, -1 for none, shape [h, w]."""
+        return triangle_ids(self._rest, self._triangles, PixelBox(0, 0, self.motion.width, self.motion.height))
+
+    @cached_property
+    def _pixels(self) -> NDArray[np.int64]:
+        """Flat indices of the pixels inside, shape [n]."""
+        return np.flatnonzero(self._ids >= 0)
+
+    @cached_property
+    def _weights(self) -> Any:
+        """Barycentric coordinates of each pixel inside: a sparse matrix, shape [n, v]."""
+        from scipy.sparse import csr_array
+
+        corners = self._triangles[self._ids.reshape(-1)[self._pixels]].astype(np.int32)
+        row, column = np.divmod(self._pixels, self.motion.width)
+        weights = barycentric(np.stack([column + 0.5, row + 0.5], axis=1), self._rest[corners])
+        ends = np.arange(0, corners.size + 1, 3, dtype=np.int32)
+        shape = (len(corners), len(self._rest))
+        return csr_array((weights.astype(np.float32).reshape(-1), corners.reshape(-1), ends), shape=shape)
+
+
+def _frozen(array: Any) -> Any:
+    array.setflags(write=False)
+    return array

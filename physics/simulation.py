@@ -1,0 +1,128 @@
+"""simulate(): a scene becomes a motion.
+
+Time runs in ticks of 1/240 s that are the same at every frame rate (see ``stepping``); a frame that falls between
+two ticks is read from the cubic through both.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .drive import drive
+from .errors import SimulationError
+from .kernels import REACH
+from .motion import Motion
+from .plan import MAX_WORK, SimulationPlan, check_work, plan, plan_system
+from .progress import Progress
+from .rig import Pinned
+from .scene import Scene
+from .solver import Solid, State, advance
+from .stepping import TICK, squared_frequencies
+from .system import System, assemble
+
+__all__ = ["SimulationPlan", "plan", "simulate"]
+
+_LAUNCH_WORK = 1.5e6  # triangle updates: some 15 ms, for which a launch stops the other threads of the process
+_ON_TICK = 1e-6  # [ticks]
+
+
+def simulate(scene: Scene, *, frames: int, progress: Progress | None = None, max_work: float = MAX_WORK) -> Motion:
+    """Where every vertex is in every frame (paper, Appendix A; semi-implicit Euler).
+
+    The motion does not depend on the frame rate nor on the picture's resolution. However strong the forces are, it
+    stays finite: above 5 sides a second a vertex cannot move farther in a substep than a quarter of the smallest
+    altitude of its triangles.
+
+    Args:
+        scene: what to simulate.
+        frames: number of frames, the drawing included.
+        progress: called after each frame with (frames done, frames); may raise to stop.
+        max_work: most triangle updates that are accepted; ``plan`` tells what a scene takes.
+
+    Raises:
+        InvalidInputError: ``frames`` is below 1.
+        SimulationError: the work would be above ``max_work``, or a position is no finite number.
+    """
+    system = assemble(scene)
+    planned = plan_system(scene, system, frames=frames)
+    check_work(scene, planned, max_work=max_work)
+    side, order = scene.bodies[0].mesh.longest_side, system.order
+    rest = np.concatenate([body.mesh.vertices for body in scene.bodies])[order]
+    positions = np.empty((frames, len(rest), 2), dtype=np.float32)
+    for frame, displacement in enumerate(_displacements(scene, system, planned)):
+        positions[frame, order] = rest + displacement.astype(np.float64) * side
+        if not np.isfinite(positions[frame]).all():
+            raise SimulationError(
+                f"The motion is no longer finite in frame {frame}. Weaken the strokes, or move the rig points less far."
+            )
+        if progress is not None:
+            progress(frame + 1, frames)
+    return Motion(scene.bodies, positions, scene.frame_rate)
+
+
+def _displacements(scene: Scene, system: System, planned: SimulationPlan) -> Iterator[NDArray[np.float32]]:
+    """Displacement of every vertex of the system in each frame [side], shape [v, 2]."""
+    solid, state, done = _solid(scene, system), State.at_rest(len(system.masses)), 0
+    ticks = max(1.0, (planned.frames - 1) / (planned.frame_rate * TICK))
+    block = max(1, int(_LAUNCH_WORK * ticks / (planned.work + ticks * len(system.masses))))
+    yield state.displacement
+    for frame in range(1, planned.frames):
+        whole, fraction = _ticks(frame, scene.frame_rate)
+        _run(scene, solid, state, done, whole, block=block)
+        done = whole
+        if fraction == 0:
+            yield state.displacement
+            continue
+        before = state._replace(displacement=state.displacement.copy(), velocity=state.velocity.copy())
+        _run(scene, solid, state, whole, whole + 1, block=block)
+        done = whole + 1
+        yield _between(before, state, fraction)
+
+
+def _ticks(frame: int, frame_rate: float) -> tuple[int, float]:
+    """Whole ticks before a frame, and the part of the next one."""
+    time = frame / (frame_rate * TICK)
+    whole = math.floor(time + _ON_TICK)
+    fraction = time - whole
+    return whole, fraction if fraction > _ON_TICK else 0.0
+
+
+def _run(scene: Scene, solid: Solid, state: State, first: int, end: int, *, block: int) -> None:
+    """Advance the state from one tick to another, some ticks in a launch."""
+    for tick in range(first, end, block):
+        advance(solid, state, drive(scene, tick, min(block, end - tick)))
+
+
+def _between(before: State, after: State, fraction: float) -> NDArray[np.float32]:
+    """The cubic through two ticks' displacements and velocities."""
+    s = np.float32(fraction)
+    a, b = before.displacement, after.displacement
+    va, vb = before.velocity * np.float32(TICK), after.velocity * np.float32(TICK)
+    return a + s * (va + s * (3 * (b - a) - 2 * va - vb + s * (2 * (a - b) + va + vb)))
+
+
+def _solid(scene: Scene, system: System) -> Solid:
+    """The assembled bodies in the kernels' form, without triangles that act on nothing free."""
+    rest, active, free = system.rest, system.active, system.free
+    mu, lam = system.lame
+    inverse_mass = np.divide(1.0, system.masses, out=np.zeros_like(system.masses), where=free)
+    altitudes = np.full(len(free), np.inf)
+    np.minimum.at(altitudes, rest.triangles, rest.smallest_altitudes[:, None])
+    moving = [index for index, point in enumerate(scene.rig_points) if not isinstance(point.motion, Pinned)]
+    squared = squared_frequencies(rest, mu, lam, system.density)
+    squared = np.minimum(squared, system.highest[system.part_of_triangle])
+    stiffness = np.column_stack([2 * mu * rest.areas, lam * rest.areas, squared])
+    return Solid(
+        starts=system.starts,
+        substeps=system.substeps,
+        vertices=np.column_stack([rest.positions, inverse_mass, system.damping]).astype(np.float32),
+        reach=np.where(free, REACH * altitudes, 0.0).astype(np.float32),
+        leaders=np.where(np.isin(system.leaders, moving), system.leaders, -1).astype(np.int32),
+        triangles=np.ascontiguousarray(rest.triangles[active]),
+        inverse_edges=rest.inverse_edges[active].reshape(-1, 4).astype(np.float32),
+        stiffness=stiffness[active].astype(np.float32),
+    )

@@ -1,0 +1,134 @@
+"""Stiffness from the sway: artists know how often a strand swings, not its Young's modulus.
+
+A frequency goes with the square root of the stiffness, so E = E0 (f / f0)^2, with f0 the first eigenfrequency of a
+connected part of the body, held where its rig points hold it, at a Young's modulus E0.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .elasticity import RestShape, lame_parameters, lumped_masses, rest_shape, stiffness_matrix
+from .modes import highest_eigenvalue, lowest_eigenvalue
+from .scene import Body
+from .stepping import SAFETY, TICK, frequency_limits, vertex_frequencies
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
+__all__ = ["SWAY_SUBSTEPS", "SwayPart", "first_frequency", "resolve_stiffness"]
+
+FloatArray = NDArray[np.float64]
+
+SWAY_SUBSTEPS = 400
+"""Most substeps in 1/240 s that a sway frequency may ask for; a part that would need more sways slower instead."""
+
+
+@dataclass(frozen=True)
+class SwayPart:
+    """A connected part of a body whose stiffness comes from a sway frequency.
+
+    Attributes:
+        body: number of the body.
+        part: number of the part, as in ``TriangleMesh.components``.
+        wanted: the material's sway frequency [Hz].
+        achieved: how often it will sway [Hz]; less than wanted when the stiffness had to be bounded.
+        youngs_modulus: the stiffness that follows [density side^2 / s^2].
+    """
+
+    body: int
+    part: int
+    wanted: float
+    achieved: float
+    youngs_modulus: float
+
+
+def first_frequency(
+    rest: RestShape, mu: FloatArray, lam: FloatArray, density: float, held: NDArray[np.bool_]
+) -> float | None:
+    """Lowest frequency at which a connected shape vibrates about its held vertices [Hz].
+
+    Args:
+        rest: the shape [side].
+        mu, lam: Lame parameters of each triangle, shape [t].
+        density: mass per area.
+        held: which vertices do not move, shape [v]; with a single one, turning about it does not count.
+
+    Returns:
+        None where nothing is free, nothing is held, or the eigenvalue cannot be found.
+    """
+    if held.all() or not held.any():
+        return None
+    squared = lowest_eigenvalue(*_free_system(rest, mu, lam, density, held))
+    return None if squared is None else math.sqrt(squared) / (2 * math.pi)
+
+
+def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> tuple[FloatArray, list[SwayPart]]:
+    """Young's modulus of each triangle of a body, from its material and, where it asks for one, its sway frequency.
+
+    Parts of which nothing is held, or everything, keep the material's own Young's modulus.
+
+    Args:
+        body: the body.
+        held: which of its vertices are held or led, shape [v].
+        number: number of the body in its scene, for the report.
+
+    Returns:
+        Young's modulus [density side^2 / s^2], shape [t], and a report of each part that sways.
+    """
+    material, mesh = body.material, body.mesh
+    modulus = np.full(len(mesh.triangles), material.youngs_modulus)
+    if material.stiffness_scale is not None:
+        modulus *= material.stiffness_scale
+    report: list[SwayPart] = []
+    if material.sway_frequency is None:
+        return modulus, report
+    rest, part_of_triangle = rest_shape(mesh), mesh.components[mesh.triangles[:, 0]]
+    for part in np.unique(part_of_triangle[held[mesh.triangles].any(axis=1)]):
+        chosen = part_of_triangle == part
+        shape, held_here = _part_of(rest, chosen, held)
+        mu, lam = lame_parameters(modulus[chosen], material.poisson_ratio)
+        natural = first_frequency(shape, mu, lam, material.density, held_here)
+        if natural is None:
+            continue
+        factor = (material.sway_frequency / natural) ** 2
+        factor = min(factor, _most_stiffening(shape, mu, lam, material.density, held_here, wanted=factor))
+        modulus[chosen] *= factor
+        achieved = natural * math.sqrt(factor)
+        stiffness = material.youngs_modulus * factor
+        report.append(SwayPart(number, int(part), material.sway_frequency, achieved, stiffness))
+    return modulus, report
+
+
+def _part_of(
+    rest: RestShape, chosen: NDArray[np.bool_], held: NDArray[np.bool_]
+) -> tuple[RestShape, NDArray[np.bool_]]:
+    """The chosen triangles as a shape of their own, and which of its vertices are held."""
+    vertices, triangles = np.unique(rest.triangles[chosen], return_inverse=True)
+    return RestShape(rest.positions[vertices], triangles.reshape(-1, 3).astype(np.int32)), held[vertices]
+
+
+def _most_stiffening(
+    shape: RestShape, mu: FloatArray, lam: FloatArray, density: float, held: NDArray[np.bool_], *, wanted: float
+) -> float:
+    """Largest factor on the stiffness of a part that leaves it within ``SWAY_SUBSTEPS``."""
+    allowed = (SAFETY * 2 * SWAY_SUBSTEPS / TICK) ** 2
+    masses = lumped_masses(shape, density)
+    squared = vertex_frequencies(shape, mu, lam, masses)[~held]
+    highest = float(frequency_limits(squared, masses[~held], np.zeros(len(squared), dtype=np.int32)).max())
+    if wanted * highest > allowed:  # by the quick bound, which is on the safe side
+        highest = min(highest, highest_eigenvalue(*_free_system(shape, mu, lam, density, held)) or highest)
+    return allowed / highest
+
+
+def _free_system(
+    rest: RestShape, mu: FloatArray, lam: FloatArray, density: float, held: NDArray[np.bool_]
+) -> tuple[csr_array, FloatArray]:
+    """Stiffness matrix and masses of the coordinates that are free to move."""
+    free = np.repeat(~held, 2)
+    return stiffness_matrix(rest, mu, lam)[free][:, free], np.repeat(lumped_masses(rest, density), 2)[free]

@@ -1,0 +1,159 @@
+"""All bodies of a scene as one set of arrays in the solver's units: what is integrated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .elasticity import RestShape, lame_parameters, lumped_masses, stiffness_matrix
+from .modes import highest_eigenvalue
+from .rigging import leaders_of
+from .scene import Scene
+from .stepping import frequency_limits, substeps, vertex_frequencies
+from .sway import SwayPart, resolve_stiffness
+
+__all__ = ["System", "assemble"]
+
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.int32]
+
+_MOST_ASSEMBLED = 200_000  # triangles up to which the stiffness matrix takes little enough memory
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """Every body of a scene, one connected part after the other.
+
+    Attributes:
+        rest: rest shape of all bodies together [side].
+        order: index of each vertex among the scene's vertices, body after body, shape [v].
+        parts: number of the connected part of each vertex, counted through all bodies, ascending, shape [v].
+        bodies: number of each vertex's body, shape [v].
+        youngs_modulus: of each triangle [density side^2 / s^2], shape [t]; triangles are in the order of their parts.
+        poisson_ratio: of each triangle, shape [t].
+        density: of each triangle, shape [t].
+        masses: of each vertex, shape [v]; 0 where it has no triangle. Where slivers would dictate the step, they are
+            a little higher than what the density gives.
+        damping: of each vertex [1/s], shape [v].
+        leaders: index of the rig point that leads each vertex, -1 where it is free, shape [v].
+        sway: what became of the sway frequencies that materials ask for.
+    """
+
+    rest: RestShape
+    order: IndexArray
+    parts: IndexArray
+    bodies: IndexArray
+    youngs_modulus: FloatArray
+    poisson_ratio: FloatArray
+    density: FloatArray
+    masses: FloatArray
+    damping: FloatArray
+    leaders: IndexArray
+    sway: tuple[SwayPart, ...]
+
+    @cached_property
+    def lame(self) -> tuple[FloatArray, FloatArray]:
+        """(mu, lambda) of each triangle, two of shape [t]."""
+        return lame_parameters(self.youngs_modulus, self.poisson_ratio)
+
+    @cached_property
+    def free(self) -> NDArray[np.bool_]:
+        """Whether forces move each vertex, shape [v]; one without a triangle stays where it was drawn."""
+        return (self.leaders < 0) & (self.masses > 0)
+
+    @cached_property
+    def active(self) -> NDArray[np.bool_]:
+        """Whether each triangle acts on any free vertex, shape [t]."""
+        a, b, c = self.free[self.rest.triangles].T
+        return a | b | c
+
+    @cached_property
+    def part_of_triangle(self) -> IndexArray:
+        """Number of each triangle's connected part, ascending, shape [t]."""
+        return self.parts[self.rest.triangles[:, 0]]
+
+    @cached_property
+    def starts(self) -> IndexArray:
+        """First vertex and first active triangle of each part, and where the last part ends, shape [p + 1, 2]."""
+        edges = np.arange(self.parts[-1] + 2)
+        triangles = self.part_of_triangle[self.active]
+        return np.column_stack([np.searchsorted(self.parts, edges), np.searchsorted(triangles, edges)]).astype(np.int32)
+
+    @cached_property
+    def vertex_frequencies(self) -> FloatArray:
+        """Bound on omega^2 around each vertex [1/s^2], 0 where it is not free, shape [v]."""
+        return np.where(self.free, vertex_frequencies(self.rest, *self.lame, self.masses), 0.0)
+
+    @cached_property
+    def highest(self) -> FloatArray:
+        """The highest omega^2 of each part at rest [1/s^2], at most a little too high, 0 if nothing is free: [p]."""
+        highest = np.maximum.reduceat(self.vertex_frequencies, self.starts[:-1, 0])
+        if len(self.active) > _MOST_ASSEMBLED:
+            return highest
+        free = np.repeat(self.free, 2)
+        stiffness, masses = stiffness_matrix(self.rest, *self.lame)[free][:, free], np.repeat(self.masses, 2)[free]
+        ends = np.concatenate([[0], np.cumsum(free)])[2 * self.starts[:, 0]]
+        for part in np.flatnonzero(highest):
+            own = slice(ends[part], ends[part + 1])
+            exact = highest_eigenvalue(stiffness[own, own], masses[own])
+            highest[part] = highest[part] if exact is None else min(highest[part], exact)
+        return highest
+
+    @cached_property
+    def substeps(self) -> IndexArray:
+        """Substeps of each part in a tick, shape [p]."""
+        return np.array([substeps(squared) for squared in self.highest], dtype=np.int32)
+
+
+def assemble(scene: Scene) -> System:
+    """Put the bodies of a scene together and settle how stiff and heavy each of their parts is."""
+    bodies, side = scene.bodies, scene.bodies[0].mesh.longest_side
+    leaders = [leaders_of(scene.rig_points, body.mesh, body=number) for number, body in enumerate(bodies)]
+    stiffness = [
+        resolve_stiffness(body, held >= 0, number)
+        for number, (body, held) in enumerate(zip(bodies, leaders, strict=True))
+    ]
+    vertex_counts = [len(body.mesh.vertices) for body in bodies]
+    triangle_counts = [len(body.mesh.triangles) for body in bodies]
+    parts = _numbered_through(
+        (body.mesh.components for body in bodies), [body.mesh.components.max() + 1 for body in bodies]
+    )
+    triangles = _numbered_through((body.mesh.triangles for body in bodies), vertex_counts)
+    order, rank = np.argsort(parts, kind="stable").astype(np.int32), np.empty(len(parts), dtype=np.int32)
+    rank[order] = np.arange(len(order), dtype=np.int32)
+    along = np.argsort(parts[triangles[:, 0]], kind="stable")
+    density = np.repeat([body.material.density for body in bodies], triangle_counts)[along]
+    rest = RestShape(np.concatenate([body.mesh.vertices / side for body in bodies])[order], rank[triangles[along]])
+    system = System(
+        rest=rest,
+        order=order,
+        parts=parts[order],
+        bodies=np.repeat(np.arange(len(bodies), dtype=np.int32), vertex_counts)[order],
+        youngs_modulus=np.concatenate([values for values, _ in stiffness])[along],
+        poisson_ratio=np.repeat([body.material.poisson_ratio for body in bodies], triangle_counts)[along],
+        density=density,
+        masses=lumped_masses(rest, density),
+        damping=np.repeat([body.material.damping for body in bodies], vertex_counts)[order],
+        leaders=np.concatenate(leaders)[order],
+        sway=tuple(part for _, parts in stiffness for part in parts),
+    )
+    return replace(system, masses=_masses_with_slower_slivers(system))
+
+
+def _masses_with_slower_slivers(system: System) -> FloatArray:
+    """Raise the mass of the stiffest vertices of each part, as far as the mass budget goes."""
+    free, masses, squared = system.free, system.masses.copy(), system.vertex_frequencies
+    limits = frequency_limits(squared[free], masses[free], system.parts[free])
+    masses[free] *= np.maximum(squared[free] / limits, 1.0)
+    return masses
+
+
+def _numbered_through(arrays: Iterable[IndexArray], counts: Iterable[int]) -> IndexArray:
+    """Indices of one body after the other, each raised by the count of all that come before."""
+    sizes = np.fromiter(counts, dtype=np.int64)
+    starts = np.cumsum(sizes) - sizes
+    return np.concatenate([array + start for array, start in zip(arrays, starts, strict=True)]).astype(np.int32)

@@ -1,0 +1,263 @@
+"""The kernels against the float64 reference, and what they promise beyond it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from physanimator.physics.elasticity import (
+    RestShape,
+    deformation_gradients,
+    energy,
+    forces,
+    lame_parameters,
+    lumped_masses,
+    semi_implicit_euler,
+    stiffness_matrix,
+)
+from physanimator.physics.kernels import SPEED_FLOOR
+from physanimator.physics.modes import highest_eigenvalue
+from physanimator.physics.particles import acceleration, all_particles
+from physanimator.physics.solver import Drive, Solid, State, advance, internal_forces
+from physanimator.physics.stepping import TICK, squared_frequencies, substeps
+from physanimator.physics.strokes import EnergyStroke
+
+YOUNG, POISSON, DAMPING = 500.0, 0.3, 1.5
+SIDE = 1000.0
+
+
+def strip(columns: int = 4, rows: int = 16, *, width: float = 0.06, height: float = 0.3) -> RestShape:
+    """A hanging strip, a little irregular; vertices 0 to ``columns`` are its top."""
+    x, y = np.meshgrid(np.linspace(0, width, columns + 1), np.linspace(0, height, rows + 1))
+    positions = np.column_stack([x.ravel(), y.ravel()]) + [0.4, 0.2]
+    positions += np.random.default_rng(0).uniform(-0.001, 0.001, positions.shape)
+    triangles = []
+    for row in range(rows):
+        for column in range(columns):
+            a = row * (columns + 1) + column
+            triangles += [(a, a + 1, a + columns + 2), (a, a + columns + 2, a + columns + 1)]
+    return RestShape(positions, np.array(triangles, dtype=np.int32))
+
+
+def material(rest: RestShape) -> tuple[np.ndarray, np.ndarray]:
+    return lame_parameters(np.full(len(rest.triangles), YOUNG), POISSON)
+
+
+def solid_of(rest: RestShape, *, led: tuple[int, ...] = (), reach: float = np.inf) -> Solid:
+    mu, lam = material(rest)
+    inverse_mass = 1 / lumped_masses(rest, 1.0)
+    inverse_mass[list(led)] = 0
+    squared = squared_frequencies(rest, mu, lam, 1.0)
+    count = len(rest.positions)
+    leaders = np.full(count, -1, dtype=np.int32)
+    leaders[list(led)] = 0
+    return Solid(
+        starts=np.array([[0, 0], [count, len(rest.triangles)]], dtype=np.int32),
+        substeps=np.array([planned(rest)], dtype=np.int32),
+        vertices=np.column_stack([rest.positions, inverse_mass, np.full(count, DAMPING)]).astype(np.float32),
+        reach=np.full(count, reach, dtype=np.float32),
+        leaders=leaders,
+        triangles=rest.triangles,
+        inverse_edges=rest.inverse_edges.reshape(-1, 4).astype(np.float32),
+        stiffness=np.column_stack([2 * mu * rest.areas, lam * rest.areas, squared]).astype(np.float32),
+    )
+
+
+def planned(rest: RestShape) -> int:
+    return substeps(float(squared_frequencies(rest, *material(rest), 1.0).max()))
+
+
+def highest_frequency(rest: RestShape) -> float:
+    """The highest omega^2 of the whole shape."""
+    found = highest_eigenvalue(stiffness_matrix(rest, *material(rest)), np.repeat(lumped_masses(rest, 1.0), 2))
+    assert found is not None
+    return found
+
+
+def still(ticks: int, gravity: tuple[float, float] = (0.0, 0.0)) -> Drive:
+    """Nothing but gravity."""
+    zeros = np.zeros((ticks + 1, 1, 2), dtype=np.float32)
+    nothing = np.zeros((0, 6), dtype=np.float32), np.zeros(0, dtype=np.int32)
+    return Drive(zeros, zeros, np.zeros(ticks + 1, dtype=np.int32), *nothing, gravity)
+
+
+def blown(strokes: list[EnergyStroke], *times: float) -> Drive:
+    """Flow particles of one tick for each time."""
+    groups = [all_particles(strokes, time) for time in times]
+    rows = [np.column_stack([g.position / SIDE, g.direction, g.radius / SIDE, g.strength]) for g in groups]
+    firsts = np.cumsum([0] + [len(g.kind) for g in groups])
+    return still(len(times))._replace(
+        first_particles=firsts.astype(np.int32),
+        particles=np.concatenate(rows).astype(np.float32),
+        kinds=np.concatenate([g.kind for g in groups]),
+    )
+
+
+@pytest.mark.parametrize("size", [1e-4, 0.003, 0.02, 0.2])
+def test_forces_match_the_reference_also_for_inverted_triangles(size: float) -> None:
+    rest = strip()
+    displacement = np.random.default_rng(1).normal(0, size, rest.positions.shape).astype(np.float32)
+    positions = rest.positions + displacement.astype(np.float64)
+    assert (np.linalg.det(deformation_gradients(rest, positions)) < 0).any() == (size >= 0.02)
+    exact = forces(rest, positions, *material(rest))
+    got = internal_forces(solid_of(rest), displacement)
+    assert got.dtype == np.float32
+    assert np.abs(got - exact).max() < 1e-5 * np.abs(exact).max() + 1e-6
+
+
+def test_a_collapsed_triangle_has_a_finite_force() -> None:
+    rest = RestShape(np.array([[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]]), np.array([[0, 1, 2]], dtype=np.int32))
+    collapsed = (-rest.positions).astype(np.float32)
+    exact = forces(rest, np.zeros((3, 2)), *material(rest))
+    np.testing.assert_allclose(internal_forces(solid_of(rest), collapsed), exact, rtol=1e-5)
+
+
+def test_nothing_moves_at_rest() -> None:
+    rest = strip()
+    state = State.at_rest(len(rest.positions))
+    advance(solid_of(rest), state, still(50))
+    assert not state.displacement.any()
+    assert not state.velocity.any()
+
+
+def reference(rest: RestShape, push: np.ndarray, held: np.ndarray, *, ticks: int, count: int) -> np.ndarray:
+    """Displacements after each tick by the float64 reference under one acceleration."""
+    masses, step = lumped_masses(rest, 1.0)[:, None], TICK / count
+    x, v = rest.positions.copy(), np.zeros_like(rest.positions)
+    frames = []
+    for _ in range(ticks):
+        for _ in range(count):
+            total = np.where(held[:, None], 0.0, forces(rest, x, *material(rest)) / masses + push)
+            x, v = semi_implicit_euler(x, v, total, step=step, damping=DAMPING)
+        frames.append(x - rest.positions)
+    return np.array(frames)
+
+
+def test_the_float32_motion_stays_with_the_float64_reference() -> None:
+    """0.001 px of a 1024 px picture after a swing of some 60 px over 0.75 s."""
+    rest, count, ticks = strip(), planned(strip()), 180
+    top = tuple(range(5))
+    held = np.isin(np.arange(len(rest.positions)), top)
+    gravity = np.array([6.0, 0.5])
+    exact = reference(rest, gravity, held, ticks=ticks, count=count)
+    state = State.at_rest(len(rest.positions))
+    worst, solid = 0.0, solid_of(rest, led=top)
+    for tick in range(ticks):
+        advance(solid, state, still(1, gravity=(6.0, 0.5)))
+        worst = max(worst, float(np.abs(state.displacement - exact[tick]).max()))
+    assert np.abs(exact).max() * 1024 > 50
+    assert worst * 1024 < 1e-3
+
+
+def test_ticks_may_be_launched_together_or_one_by_one() -> None:
+    rest = strip()
+    solid = solid_of(rest, led=(0, 1, 2, 3, 4))
+    together, single = State.at_rest(len(rest.positions)), State.at_rest(len(rest.positions))
+    advance(solid, together, still(30, gravity=(2.0, 0.0)))
+    for _ in range(30):
+        advance(solid, single, still(1, gravity=(2.0, 0.0)))
+    assert np.abs(together.displacement).max() > 1e-3
+    np.testing.assert_array_equal(together.displacement, single.displacement)
+
+
+@pytest.mark.parametrize("kind", ["wind", "repel", "attract"])
+def test_flow_particles_push_as_the_reference_says(kind: str) -> None:
+    """One tick of free vertices without stiffness: the velocity is the acceleration times the time."""
+    rest = strip()
+    solid = solid_of(rest)
+    loose = solid._replace(
+        substeps=np.array([2], dtype=np.int32),
+        stiffness=np.zeros_like(solid.stiffness) + np.float32([1e-20, 0, 0]),
+        vertices=solid.vertices * np.float32([1, 1, 1, 0]),
+    )
+    path = ((300.0, 350.0), (700.0, 380.0)) if kind == "wind" else ((430.0, 330.0),)
+    strokes = [
+        EnergyStroke(kind=kind, path=path, radius=90.0, strength=7.0, speed=500.0, interval=0.1),
+        EnergyStroke(kind=kind, path=((600.0, 200.0), (400.0, 450.0)), radius=60.0, strength=-3.0, speed=900.0),
+    ]
+    time = 0.3
+    state = State.at_rest(len(rest.positions))
+    advance(loose, state, blown(strokes, time))
+    exact = sum(acceleration(stroke, rest.positions * SIDE, time) for stroke in strokes)
+    moved = np.abs(exact).max(axis=1) > 0
+    assert moved.any()
+    assert not moved.all()  # some vertices are beyond every radius
+    np.testing.assert_allclose(state.velocity / TICK, exact, atol=2e-4)
+    assert np.abs(state.velocity[~moved]).max() < 1e-9
+
+
+def test_attraction_at_the_particle_itself_is_finite() -> None:
+    rest = strip()
+    point = tuple(rest.positions[7].astype(np.float32).astype(np.float64) * SIDE)
+    state = State.at_rest(len(rest.positions))
+    stroke = EnergyStroke(kind="attract", path=(point,), radius=100.0, strength=5.0)
+    advance(solid_of(rest), state, blown([stroke], 0.0))
+    assert np.isfinite(state.displacement).all()
+    assert np.abs(state.velocity).max() > 1e-4
+
+
+def test_led_vertices_follow_the_cubic_and_hold_their_velocity() -> None:
+    rest = strip()
+    solid = solid_of(rest, led=(0, 1, 2, 3, 4))
+    start, end = np.array([0.0, 0.0]), np.array([0.01, -0.02])
+    v_start, v_end = np.array([1.0, 0.5]), np.array([-2.0, 3.0])
+    drive = still(1)._replace(
+        rig_displacements=np.array([[start], [end]], dtype=np.float32),
+        rig_velocities=np.array([[v_start], [v_end]], dtype=np.float32),
+    )
+    state = State.at_rest(len(rest.positions))
+    advance(solid, state, drive)
+    np.testing.assert_allclose(state.displacement[:5], np.tile(end, (5, 1)), atol=1e-7)
+    np.testing.assert_allclose(state.velocity[:5], np.tile(v_end, (5, 1)), atol=1e-6)
+    assert np.abs(state.displacement[5:10]).max() > 1e-3  # drags its neighbours along
+    assert np.abs(state.displacement[-5:]).max() < 1e-4  # the far end has not heard of it yet
+
+
+def test_a_very_fast_vertex_is_held_back() -> None:
+    rest, gravity = strip(), (1e9, 0.0)
+    for reach, speed in ((1e-5, SPEED_FLOOR), (1e-2, 1e-2 * 30 / TICK)):
+        state = State.at_rest(len(rest.positions))
+        advance(
+            solid_of(rest, reach=reach)._replace(substeps=np.array([30], dtype=np.int32)),
+            state,
+            still(1, gravity=gravity),
+        )
+        np.testing.assert_allclose(np.linalg.norm(state.velocity, axis=1), speed, rtol=1e-5)
+
+
+def test_large_stretch_refines_the_step() -> None:
+    """A body stretched by half vibrates faster than the planned step can follow: its energy would explode."""
+    rest = strip()
+    masses, highest = lumped_masses(rest, 1.0)[:, None], highest_frequency(rest)
+    undamped = solid_of(rest)._replace(
+        vertices=solid_of(rest).vertices * np.float32([1, 1, 1, 0]),
+        substeps=np.array([substeps(highest)], dtype=np.int32),
+    )
+    stiffness = np.minimum(undamped.stiffness, np.float32([np.inf, np.inf, highest]))
+
+    def energies(solid: Solid) -> list[float]:
+        state, found = State.at_rest(len(rest.positions)), []
+        state.displacement[:] = (rest.positions - rest.positions.mean(axis=0)) / 2
+        for _ in range(60):
+            moved, kinetic = rest.positions + state.displacement, (masses * state.velocity**2).sum() / 2
+            found.append(energy(rest, moved, *material(rest)) + float(kinetic))
+            advance(solid, state, still(1))
+        return found
+
+    refined = energies(undamped._replace(stiffness=stiffness))
+    assert max(refined) < 1.5 * refined[0]
+    never_refined = energies(undamped._replace(stiffness=stiffness * np.float32([1, 1, 0])))
+    assert not max(never_refined) < 3 * never_refined[0]
+
+
+def test_bodies_without_triangles_that_move_are_fine() -> None:
+    rest = strip()
+    solid = solid_of(rest)
+    empty = solid._replace(
+        starts=np.array([[0, 0], [len(rest.positions), 0]], dtype=np.int32),
+        triangles=solid.triangles[:0],
+        inverse_edges=solid.inverse_edges[:0],
+        stiffness=solid.stiffness[:0],
+    )
+    state = State.at_rest(len(rest.positions))
+    advance(empty, state, still(3))
+    assert not state.displacement.any()
