@@ -27,8 +27,9 @@ class Material:
         poisson_ratio: how much a pull in one direction narrows the other, 0 to below 0.5.
         density: mass per area [1].
         damping: rate alpha of the velocity's decay, v(t) = v(0) exp(-alpha t) [1/s].
-        sway_frequency: when set, Young's modulus is chosen for each connected part of the body so that it sways
-            this often about its pinned points [Hz], 0.001 to 1000; parts without one keep ``youngs_modulus``.
+        sway_frequency: when set, Young's modulus is chosen so that the body's longest connected part sways this often
+            about its pinned points [Hz], 0.001 to 1000; shorter parts sway faster, as pendulums do, and parts without
+            a pinned point keep ``youngs_modulus``.
         stiffness_scale: factor on Young's modulus for each triangle, shape [t]; None means 1 everywhere.
         name: the preset it came from, or empty; the automatic scene reads from it how such bodies are attached.
     """

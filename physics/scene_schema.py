@@ -144,8 +144,8 @@ def _material() -> dict[str, Schema]:
         "sway_frequency": {
             **number(
                 "Sway frequency [Hz]",
-                "How often the body sways about where it is held; hair sways about once a second. The stiffness"
-                " follows from it. null: use youngs_modulus.",
+                "How often the body sways about where it is held; hair sways about once a second. Its shorter separate"
+                " parts sway faster. The stiffness follows from it. null: use youngs_modulus.",
                 minimum=0.001,
                 maximum=1000,
             ),

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .elasticity import RestShape, lame_parameters, lumped_masses, rest_shape, stiffness_matrix
+from .mesh import TriangleMesh
 from .modes import highest_eigenvalue, lowest_eigenvalue
 from .scene import Body
 from .stepping import SAFETY, TICK, frequency_limits, vertex_frequencies
@@ -36,7 +37,7 @@ class SwayPart:
     Attributes:
         body: number of the body.
         part: number of the part, as in ``TriangleMesh.components``.
-        wanted: the material's sway frequency [Hz].
+        wanted: the sway frequency that its material and its length ask for [Hz].
         achieved: how often it will sway [Hz]; less than wanted when the stiffness had to be bounded.
         youngs_modulus: the stiffness that follows [density side^2 / s^2].
     """
@@ -71,7 +72,8 @@ def first_frequency(
 def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> tuple[FloatArray, list[SwayPart]]:
     """Young's modulus of each triangle of a body, from its material and, where it asks for one, its sway frequency.
 
-    Parts of which nothing is held, or everything, keep the material's own Young's modulus.
+    The frequency is that of the body's longest part; shorter ones sway faster, as pendulums do, in proportion to
+    1 / sqrt(length). Parts of which nothing is held, or everything, keep the material's own Young's modulus.
 
     Args:
         body: the body.
@@ -89,6 +91,7 @@ def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> t
     if material.sway_frequency is None:
         return modulus, report
     rest, part_of_triangle = rest_shape(mesh), mesh.components[mesh.triangles[:, 0]]
+    lengths = _lengths(mesh)
     for part in np.unique(part_of_triangle[held[mesh.triangles].any(axis=1)]):
         chosen = part_of_triangle == part
         shape, held_here = _part_of(rest, chosen, held)
@@ -96,13 +99,21 @@ def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> t
         natural = first_frequency(shape, mu, lam, material.density, held_here)
         if natural is None:
             continue
-        factor = (material.sway_frequency / natural) ** 2
+        wanted = material.sway_frequency * math.sqrt(lengths.max() / lengths[part])
+        factor = (wanted / natural) ** 2
         factor = min(factor, _most_stiffening(shape, mu, lam, material.density, held_here, wanted=factor))
         modulus[chosen] *= factor
         achieved = natural * math.sqrt(factor)
         stiffness = material.youngs_modulus * factor
-        report.append(SwayPart(number, int(part), material.sway_frequency, achieved, stiffness))
+        report.append(SwayPart(number, int(part), wanted, achieved, stiffness))
     return modulus, report
+
+
+def _lengths(mesh: TriangleMesh) -> FloatArray:
+    """Diagonal of each connected part's bounding box [px]."""
+    count = int(mesh.components.max()) + 1
+    parts = [mesh.vertices[mesh.components == part] for part in range(count)]
+    return np.array([np.hypot(*np.ptp(part, axis=0)) for part in parts])
 
 
 def _part_of(
