@@ -1,0 +1,77 @@
+"""The clean plate: the illustration without its moving parts, made once for a whole clip."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..physics.errors import InvalidInputError
+from ..physics.masks import coverage_of, fitted
+from .matte import window_around, with_outline
+from .patch_synthesis import continue_texture
+from .pixels import as_dtype, as_float, check_picture
+from .smooth_fill import smooth_fill
+
+__all__ = ["clean_plate", "fill_hole"]
+
+FloatImage = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+_FAINT = 0.02
+# A fill of patches alone looks best; half-way to the smooth fill it errs least. The share is a compromise.
+_TEXTURE = 0.6
+_CONTEXT = 120
+_MATCHED_PIXELS = 30_000
+
+
+def clean_plate(image: NDArray[Any], mask: ArrayLike) -> NDArray[Any]:
+    """Remove what a mask shows and continue its surroundings in its place.
+
+    Args:
+        image: RGB, uint8 or float32 in 0 to 1, shape [h, w, 3].
+        mask: what to remove: bool, integers 0 to 255 or floats 0 to 1, shape [h, w]; everything above 0.02 goes.
+            Should include the outlines that belong to it.
+
+    Returns:
+        The picture in the dtype of ``image``; outside the mask unchanged.
+
+    Raises:
+        InvalidInputError: the picture or mask has another form, or the mask leaves too little of the picture.
+    """
+    check_picture(image)
+    coverage = fitted(coverage_of(mask), image.shape[1], image.shape[0])
+    hole = coverage > _FAINT
+    if not hole.any():
+        return image.copy()
+    if hole.all():
+        raise InvalidInputError("mask must leave some of the picture to fill the rest with. Got: all is white")
+    picture = as_float(image)
+    # An outline along the mask belongs to what is removed: it must not run on into the fill.
+    filled = fill_hole(picture, with_outline(picture, coverage))
+    plate = image.copy()
+    plate[hole] = as_dtype(filled[hole], image.dtype)
+    return plate
+
+
+def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
+    """Continue the surroundings of a hole into it: smooth colours, and texture from patches around.
+
+    Args:
+        picture: RGB in 0 to 1, shape [h, w, 3].
+        hole: true where colours are to be found, shape [h, w]; some must be false.
+
+    Returns:
+        RGB in 0 to 1, shape [h, w, 3]; unchanged outside the hole.
+    """
+    window = window_around(hole, margin=_CONTEXT)
+    around, inside = picture[window], hole[window]
+    smooth = smooth_fill(around, inside)
+    # Fine scales take long in a large hole, and most of it stays hidden.
+    finest = max(0, int(np.ceil(np.log2(inside.sum() / _MATCHED_PIXELS) / 2)))
+    scales = tuple(range(max(3, finest + 2), finest - 1, -1))
+    textured = continue_texture(around, inside, smooth, matched=scales)
+    filled = picture.copy()
+    filled[window] = smooth + np.float32(_TEXTURE) * (textured - smooth)
+    return filled

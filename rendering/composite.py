@@ -1,0 +1,178 @@
+"""The renderer without weights: the illustration's own pixels, moved with the meshes over a clean plate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..physics.errors import InvalidInputError, require
+from ..physics.flow import layer_order
+from ..physics.masks import coverage_of, fitted
+from ..physics.motion import Motion
+from ..physics.pixel_box import PixelBox
+from ..physics.progress import Progress
+from .layers import take_apart
+from .pixels import as_dtype, as_float, check_picture
+
+__all__ = ["LayeredRenderer", "render_frames"]
+
+FloatImage = NDArray[np.float32]
+
+
+class LayeredRenderer:
+    """Draws any frame of a motion: textured, softly cut out layers over a clean plate, back to front.
+
+    A frame in which nothing is displaced is the illustration itself, and so is every part of a frame that is at
+    rest. Pixels that no body ever covers stay exactly as drawn.
+
+    Attributes:
+        motion: what is drawn.
+        plate: the illustration without its bodies, in its dtype, shape [h, w, 3].
+    """
+
+    def __init__(
+        self,
+        image: NDArray[Any],
+        masks: Sequence[ArrayLike],
+        motion: Motion,
+        *,
+        plate: NDArray[Any] | None = None,
+    ) -> None:
+        """Take the illustration apart.
+
+        Args:
+            image: RGB, uint8 or float32 in 0 to 1, shape [h, w, 3].
+            masks: one for each body of the motion, in its order: bool, integers 0 to 255 or floats 0 to 1,
+                shape [h, w].
+            motion: of the bodies.
+            plate: what is behind all bodies, of the image's shape and dtype; None makes a clean plate.
+
+        Raises:
+            InvalidInputError: sizes, dtypes or the number of masks do not fit together.
+        """
+        check_picture(image)
+        size, expected = image.shape[1::-1], (motion.width, motion.height)
+        require("image", f"{size[0]} x {size[1]} px", size == expected, f"as large as the motion's, {expected} px")
+        require("masks", len(masks), len(masks) == len(motion.bodies), f"one for each of {len(motion.bodies)} bodies")
+        if plate is not None and (plate.shape != image.shape or plate.dtype != image.dtype):
+            raise InvalidInputError(
+                f"plate must have the image's shape {image.shape} and dtype {image.dtype}."
+                f" Got: {plate.shape}, {plate.dtype}"
+            )
+        self.motion = motion
+        self._order = layer_order(motion)
+        background, self._layers = take_apart(
+            as_float(image),
+            [fitted(coverage_of(masks[k]), *size) for k in self._order],
+            [motion.bodies[k].mesh for k in self._order],
+            plate=None if plate is None else as_float(plate),
+        )
+        self.plate = as_dtype(background, image.dtype)
+        self._planes = np.ascontiguousarray(np.moveaxis(as_float(self.plate), 2, 0))
+
+    def __len__(self) -> int:
+        """Number of frames."""
+        return len(self.motion)
+
+    def frame(self, t: int) -> NDArray[Any]:
+        """Frame ``t`` in the dtype of the illustration, RGB, shape [h, w, 3].
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
+        drawn = self._drawn(t)
+        frame = self.plate.copy()
+        if not drawn:
+            return frame
+        box = _union([each for each, _ in drawn])
+        planes = _part(self._planes, box).copy()
+        for each, layer in drawn:
+            _lay_over(_part(planes, _within(each, box)), layer)
+        frame[box.slices] = _interleaved(planes, frame.dtype)
+        return frame
+
+    def alpha(self, t: int) -> FloatImage:
+        """How much of each pixel moving bodies cover in frame ``t``, 0 to 1, shape [h, w].
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
+        return np.ascontiguousarray(self._bodies(t)[3])
+
+    def cutout(self, t: int) -> NDArray[Any]:
+        """The moving bodies of frame ``t`` alone: straight RGB and alpha, dtype of the image, shape [h, w, 4].
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
+        planes = self._bodies(t)
+        planes[:3] /= np.maximum(planes[3], 1e-6)
+        return _interleaved(planes, self.plate.dtype)
+
+    def _bodies(self, t: int) -> FloatImage:
+        """Premultiplied RGB and alpha of all layers, shape [4, h, w]."""
+        planes = np.zeros((4, *self.plate.shape[:2]), dtype=np.float32)
+        for box, layer in self._drawn(t):
+            _lay_over(_part(planes, box), layer)
+        return np.clip(planes, 0, 1, out=planes)
+
+    def _drawn(self, t: int) -> list[tuple[PixelBox, FloatImage]]:
+        """The layers that show in a frame, from back to front, each with its box."""
+        require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
+        bodies = zip(self._layers, self._order, strict=True)
+        size = self.motion.width, self.motion.height
+        drawn = [layer.drawn(self.motion.of_body(k)[t], *size) for layer, k in bodies]
+        return [(box, layer) for box, layer in drawn if box.width and box.height]
+
+
+def render_frames(renderer: LayeredRenderer, *, progress: Progress | None = None) -> Iterator[NDArray[Any]]:
+    """Every frame of a renderer in turn.
+
+    Args:
+        renderer: what to draw.
+        progress: called after each frame with (done, total); may raise to stop.
+    """
+    for t in range(len(renderer)):
+        yield renderer.frame(t)
+        if progress is not None:
+            progress(t + 1, len(renderer))
+
+
+def _part(planes: FloatImage, box: PixelBox) -> FloatImage:
+    """The view of planes, shape [c, h, w], within a box."""
+    rows, columns = box.slices
+    return planes[:, rows, columns]
+
+
+def _lay_over(planes: FloatImage, layer: FloatImage) -> None:
+    """Lay premultiplied RGB and alpha, shape [h, w, 4], over planes, shape [3 or 4, h, w], in place."""
+    *colours, alpha = cv2.split(layer)
+    np.clip(alpha, 0, 1, out=alpha)
+    beneath = 1 - alpha
+    for plane, added in zip(planes, [*colours, alpha], strict=False):
+        plane *= beneath
+        # Bicubic resampling overshoots at edges; light that is no colour times alpha would be seen as a fringe.
+        plane += np.clip(added, 0, alpha, out=added)
+
+
+def _interleaved(planes: FloatImage, dtype: np.dtype[Any]) -> NDArray[Any]:
+    """Planes in 0 to 1, shape [c, h, w], as a picture, shape [h, w, c]."""
+    return as_dtype(np.asarray(cv2.merge(list(planes))), dtype)
+
+
+def _union(boxes: Sequence[PixelBox]) -> PixelBox:
+    return PixelBox(
+        min(box.left for box in boxes),
+        min(box.top for box in boxes),
+        max(box.right for box in boxes),
+        max(box.bottom for box in boxes),
+    )
+
+
+def _within(box: PixelBox, outer: PixelBox) -> PixelBox:
+    """A box in the pixels of another that holds it."""
+    return PixelBox(box.left - outer.left, box.top - outer.top, box.right - outer.left, box.bottom - outer.top)

@@ -1,0 +1,147 @@
+"""An illustration taken apart: a clean plate, and over it one textured layer for each moving body.
+
+At rest the layers laid over the plate give the illustration again, for every pixel and whatever the alphas: the
+texture of a layer is made as the difference, P = I - (1 - alpha) B, between the picture I with the body and the
+picture B beneath it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from ..physics.errors import InvalidInputError
+from ..physics.mesh import TriangleMesh
+from ..physics.pixel_box import PixelBox, bounding_box
+from ..physics.raster import interpolate, triangle_ids
+from .apron import ApronedMesh, canvas_of
+from .clean_plate import fill_hole
+from .matte import fitting_plate, soft_alpha, with_outline
+from .smooth_fill import spread_colours
+
+__all__ = ["Layer", "take_apart"]
+
+FloatImage = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+# Widest apron, in edges of the mesh's boundary and at least in pixels: a polygon cuts off little more than that.
+_REACH = 1.5
+_LEAST_REACH = 12
+# Pixels around a body that are filled too, so that the plate is known where the body's edge fades out.
+_BESIDE = 2
+_NOWHERE = -1e4
+
+
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """One body's picture.
+
+    Attributes:
+        mesh: the body's mesh with its apron.
+        canvas: the pixels that the texture covers; may exceed the picture.
+        texture: premultiplied RGB and alpha at rest, float32, shape [canvas height, canvas width, 4].
+    """
+
+    mesh: ApronedMesh
+    canvas: PixelBox
+    texture: FloatImage
+
+    def drawn(self, vertices: NDArray[np.float32], width: int, height: int) -> tuple[PixelBox, FloatImage]:
+        """The layer with its mesh moved.
+
+        Args:
+            vertices: positions of the body's vertices [px], shape [v, 2].
+            width: of the picture [px].
+            height: of the picture [px].
+
+        Returns:
+            The box of the picture that the layer may touch, and premultiplied RGB and alpha there, shape [h, w, 4].
+        """
+        points = self.mesh.positions(vertices)
+        box = bounding_box(points).clipped(width, height)
+        if not (box.width and box.height):
+            return box, np.zeros((box.height, box.width, 4), dtype=np.float32)
+        x, y = interpolate(points, self.mesh.triangles, self.mesh.rest - points, box, fill=_NOWHERE)
+        x += np.arange(box.left - self.canvas.left, box.right - self.canvas.left, dtype=np.float32)
+        y += np.arange(box.top - self.canvas.top, box.bottom - self.canvas.top, dtype=np.float32)[:, None]
+        drawn = cv2.remap(self.texture, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
+        return box, drawn
+
+
+def take_apart(
+    picture: FloatImage, masks: Sequence[FloatImage], meshes: Sequence[TriangleMesh], *, plate: FloatImage | None
+) -> tuple[FloatImage, list[Layer]]:
+    """Peel the bodies off a picture, the front one first.
+
+    Args:
+        picture: RGB in 0 to 1, shape [h, w, 3].
+        masks: soft mask of each body, from back to front, shape [h, w] each. Where masks overlap, the pixel shows
+            the front body; what the body behind looks like there is continued from its visible part.
+        meshes: mesh of each body, from back to front.
+        plate: what is behind all bodies, shape [h, w, 3]; None makes a clean plate.
+
+    Returns:
+        The plate, equal to the picture wherever no body is; and a layer for each body, from back to front.
+    """
+    supports = [with_outline(picture, mask) for mask in masks]
+    if plate is None:
+        plate = _without(picture, _grown(np.logical_or.reduce(supports), _BESIDE))
+    layers: list[Layer] = []
+    for number in range(len(masks) - 1, -1, -1):
+        beneath = _beneath(picture, plate, masks, supports, number)
+        alpha = soft_alpha(picture, beneath, masks[number], supports[number])
+        mesh, canvas, covered = _covered(meshes[number], alpha)
+        alpha = np.where(covered, alpha, np.float32(0))
+        below = fitting_plate(picture, beneath, alpha)
+        colour = picture - (1 - alpha[..., None]) * below
+        layers.insert(0, Layer(mesh, canvas, _on_canvas(np.dstack([colour, alpha]), canvas)))
+        picture = below
+    return picture, layers
+
+
+def _without(picture: FloatImage, hole: Mask) -> FloatImage:
+    if hole.all():
+        raise InvalidInputError("masks must leave some of the picture as background. Got: they cover all of it")
+    return fill_hole(picture, hole) if hole.any() else picture
+
+
+def _beneath(
+    picture: FloatImage, plate: FloatImage, masks: Sequence[FloatImage], supports: Sequence[Mask], number: int
+) -> FloatImage:
+    """The picture without one body: the plate in its place, and the bodies further behind as far as they reach."""
+    region = _grown(supports[number], _BESIDE)
+    beneath = np.where(region[..., None], plate, picture)
+    for behind in range(number):
+        in_front = np.logical_or.reduce(supports[behind + 1 :])
+        visible = supports[behind] & ~_grown(in_front, _BESIDE)
+        hidden = region & supports[behind]
+        if hidden.any() and visible.any():
+            share = np.where(hidden, np.maximum(masks[behind], 0), np.float32(0))[..., None]
+            beneath = beneath + share * (spread_colours(picture, visible, hidden) - beneath)
+    return beneath
+
+
+def _covered(mesh: TriangleMesh, alpha: FloatImage) -> tuple[ApronedMesh, PixelBox, Mask]:
+    """The mesh with an apron for an alpha, its canvas, and the picture's pixels that it covers at rest."""
+    edges = mesh.vertices[mesh.boundary_edges]
+    length = float(np.median(np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1)))
+    reach = max(_LEAST_REACH, int(np.ceil(_REACH * length)))
+    canvas = canvas_of(mesh, reach=reach)
+    aproned = ApronedMesh.around(mesh, _on_canvas(alpha, canvas), canvas, reach=reach)
+    whole = PixelBox(0, 0, mesh.width, mesh.height)
+    return aproned, canvas, triangle_ids(aproned.rest, aproned.triangles, whole) >= 0
+
+
+def _on_canvas(image: FloatImage, canvas: PixelBox) -> FloatImage:
+    """The part of an image over a canvas; beyond the picture's border its border pixels go on."""
+    rows = np.clip(np.arange(canvas.top, canvas.bottom), 0, image.shape[0] - 1)
+    columns = np.clip(np.arange(canvas.left, canvas.right), 0, image.shape[1] - 1)
+    return np.ascontiguousarray(image[rows[:, None], columns])
+
+
+def _grown(mask: Mask, reach: int) -> Mask:
+    return cv2.dilate(mask.astype(np.uint8), np.ones((2 * reach + 1,) * 2, np.uint8)) > 0

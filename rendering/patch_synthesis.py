@@ -1,0 +1,88 @@
+"""Fill a hole with patches of the rest of the picture, so that texture and lines run on into it.
+
+From coarse to fine, every patch that touches the hole looks for its nearest neighbour among the whole patches
+outside (PatchMatch: neighbours propose their finds, random guesses refine them), and every pixel of the hole becomes
+the weighted mean of what the patches around it propose. A smooth guide keeps the large forms.
+
+Sources: Barnes et al., "PatchMatch" (2009); Wexler et al., "Space-Time Completion of Video" (2007).
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from .patch_search import RADIUS, Finds, Level, PatchSearch, usable_sources
+
+__all__ = ["continue_texture"]
+
+FloatImage = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+_ROUNDS = 6
+
+
+def continue_texture(
+    picture: FloatImage, hole: Mask, guide: FloatImage, *, matched: tuple[int, ...] = (3, 2, 1), seed: int = 0
+) -> FloatImage:
+    """Fill a hole with patches from around it.
+
+    Args:
+        picture: RGB in 0 to 1, shape [h, w, 3].
+        hole: true where colours are unknown, shape [h, w]; its surroundings should contain whole patches.
+        guide: smooth colours for the hole, shape [h, w, 3].
+        matched: scales at which patches are matched, from coarse to fine; scale k is 2^-k of the size.
+        seed: of the random guesses.
+
+    Returns:
+        RGB in 0 to 1, shape [h, w, 3]; equal to ``picture`` outside the hole.
+    """
+    filled = np.where(hole[..., None], guide, picture)
+    levels = [Level(picture, hole, guide, cv2.GaussianBlur(filled, (0, 0), 3.0))]
+    while len(levels) <= matched[0]:
+        levels.append(levels[-1].halved())
+    random = np.random.default_rng(seed)
+    finds: Finds | None = None
+    for scale in range(matched[0], -1, -1):
+        level = levels[scale]
+        current = np.where(level.hole[..., None], level.guide, level.picture)
+        if finds is not None:
+            finds = finds.doubled(level.hole.shape)
+            current = _voted(level, current, finds)
+        if scale in matched and level.hole.any() and usable_sources(level.hole).any():
+            current, finds = _matched(level, current, finds, random)
+    return current if finds is not None else filled
+
+
+def _matched(
+    level: Level, current: FloatImage, finds: Finds | None, random: np.random.Generator
+) -> tuple[FloatImage, Finds]:
+    """Alternate between matching patches and voting for colours."""
+    search = PatchSearch(level, finds, random)
+    for _ in range(_ROUNDS):
+        found = search.round(current)
+        current = _voted(level, current, found)
+    return current, found
+
+
+def _voted(level: Level, current: FloatImage, finds: Finds) -> FloatImage:
+    """The hole filled with the weighted mean of what all patches around each of its pixels propose."""
+    height, width = level.hole.shape
+    pixels = np.flatnonzero(level.hole)
+    row, column = np.divmod(pixels, width)
+    total = np.zeros((len(pixels), 3), dtype=np.float32)
+    weights = np.full(len(pixels), 1e-12, dtype=np.float32)
+    colours = level.picture.reshape(-1, 3)
+    for down in range(-RADIUS, RADIUS + 1):
+        for right in range(-RADIUS, RADIUS + 1):
+            y, x = row - down, column - right
+            within = (y >= 0) & (y < height) & (x >= 0) & (x < width)
+            y, x = np.where(within, y, 0), np.where(within, x, 0)
+            weight = finds.trust[y, x] * within
+            source = np.clip(finds.source[y, x] + down * width + right, 0, height * width - 1)
+            total += colours[source] * weight[:, None]
+            weights += weight
+    filled = current.copy()
+    filled[level.hole] = total / weights[:, None]
+    return filled

@@ -1,0 +1,110 @@
+"""The clean plate against backgrounds that are known."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from physanimator.physics.errors import InvalidInputError
+from physanimator.rendering.clean_plate import clean_plate
+
+HEIGHT, WIDTH = 120, 160
+Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5
+MASK = np.hypot(X - 80, (Y - 60) * 1.2) < 24
+
+
+def gradient() -> np.ndarray:
+    return np.stack([60 + X, 200 - Y, 80 + 0.5 * X + 0.5 * Y], axis=-1).round().astype(np.uint8)
+
+
+def bricks() -> np.ndarray:
+    joints = (Y % 12 < 2) | ((X + 9 * (Y // 12 % 2)) % 18 < 2)
+    picture = np.where(joints[..., None], (190, 180, 170), (150, 80, 60)) + gradient() * 0.1
+    return picture.round().astype(np.uint8)
+
+
+def with_disc(picture: np.ndarray, *, outline: int = 0) -> np.ndarray:
+    grown = cv2.dilate(MASK.astype(np.uint8), np.ones((2 * outline + 1,) * 2)) > 0
+    covered = np.where(grown[..., None], np.uint8(20), picture)
+    return np.where(MASK[..., None], np.array([250, 90, 180], np.uint8), covered)
+
+
+def psnr(a: np.ndarray, b: np.ndarray) -> float:
+    return float(10 * np.log10(255**2 / np.mean((a.astype(float) - b) ** 2)))
+
+
+def test_a_gradient_is_restored() -> None:
+    plate = clean_plate(with_disc(gradient()), MASK)
+    error = np.abs(plate.astype(int) - gradient())
+    assert error.max() <= 14
+    assert error[MASK].mean() < 5
+
+
+def test_pixels_outside_the_mask_are_unchanged() -> None:
+    picture = with_disc(bricks(), outline=2)
+    plate = clean_plate(picture, MASK)
+    assert (plate[~MASK] == picture[~MASK]).all()
+    assert (plate[MASK] != picture[MASK]).any(axis=1).all()
+
+
+def test_texture_runs_on_better_than_with_inpainting() -> None:
+    picture = with_disc(bricks())
+    ours = psnr(clean_plate(picture, MASK)[MASK], bricks()[MASK])
+    theirs = [
+        psnr(cv2.inpaint(picture, MASK.astype(np.uint8), radius, method)[MASK], bricks()[MASK])
+        for radius in (1, 3, 5, 10)
+        for method in (cv2.INPAINT_TELEA, cv2.INPAINT_NS)
+    ]
+    assert ours > max(theirs) + 1
+
+
+def test_an_outline_beside_the_mask_does_not_run_into_the_fill() -> None:
+    plate = clean_plate(with_disc(gradient(), outline=3), MASK)
+    assert np.abs(plate.astype(int) - gradient())[MASK].max() <= 25
+
+
+def test_the_result_repeats_and_keeps_the_dtype() -> None:
+    picture = with_disc(bricks())
+    first, again = clean_plate(picture, MASK), clean_plate(picture, MASK)
+    assert first.dtype == np.uint8
+    assert (first == again).all()
+    floats = clean_plate(picture.astype(np.float32) / 255, MASK.astype(np.float32))
+    assert floats.dtype == np.float32
+    assert np.abs(floats * 255 - first).max() < 0.51
+
+
+def test_masks_of_other_kinds() -> None:
+    picture = with_disc(gradient())
+    expected = clean_plate(picture, MASK)
+    assert (clean_plate(picture, MASK.astype(np.uint8) * 255) == expected).all()
+    untouched = clean_plate(picture, np.zeros((HEIGHT, WIDTH), bool))
+    assert (untouched == picture).all()
+    assert untouched is not picture
+
+
+@pytest.mark.parametrize("at", [(60, 80), (0, 0), (119, 159), (0, 80)])
+def test_specks_anywhere_are_filled(at: tuple[int, int]) -> None:
+    picture = gradient()
+    picture[at] = (255, 0, 255)
+    mask = np.zeros((HEIGHT, WIDTH), bool)
+    mask[at] = True
+    assert np.abs(clean_plate(picture, mask).astype(int) - gradient()).max() <= 4
+
+
+def test_a_mask_that_leaves_little_still_gives_a_plate() -> None:
+    mask = np.ones((HEIGHT, WIDTH), bool)
+    mask[:, :3] = False
+    plate = clean_plate(gradient(), mask)
+    assert np.isfinite(plate).all()
+    assert plate[mask].min() >= 55
+
+
+def test_unusable_input_is_refused() -> None:
+    with pytest.raises(InvalidInputError, match="leave some of the picture"):
+        clean_plate(gradient(), np.ones((HEIGHT, WIDTH), bool))
+    with pytest.raises(InvalidInputError, match="proportions"):
+        clean_plate(gradient(), np.ones((HEIGHT, HEIGHT), bool))
+    with pytest.raises(InvalidInputError, match="image must have the shape"):
+        clean_plate(gradient()[..., 0], MASK)
+    with pytest.raises(InvalidInputError, match="uint8 or float32"):
+        clean_plate(gradient().astype(np.float64), MASK)

@@ -1,0 +1,107 @@
+"""Soft alpha of parts on synthetic pictures whose true alpha is known."""
+
+from __future__ import annotations
+
+import numpy as np
+from physanimator.rendering.matte import fitting_plate, soft_alpha, window_around, with_outline
+
+SIZE = 96
+Y, X = np.mgrid[:SIZE, :SIZE] + 0.5
+RADIUS = np.hypot(X - 48.3, Y - 47.6)
+RED = np.array([0.9, 0.35, 0.3], dtype=np.float32)
+DARK = np.array([0.15, 0.05, 0.1], dtype=np.float32)
+
+
+def disc(radius: float) -> np.ndarray:
+    """Coverage of a disc, with edges as soft as a pixel."""
+    return np.clip(radius - RADIUS + 0.5, 0, 1).astype(np.float32)
+
+
+def over(background: np.ndarray, colour: np.ndarray, alpha: np.ndarray) -> np.ndarray:
+    return (background + alpha[..., None] * (colour - background)).astype(np.float32)
+
+
+def textured_background() -> np.ndarray:
+    noise = np.random.default_rng(0).uniform(-0.08, 0.08, (SIZE, SIZE, 3))
+    return np.clip(0.6 + 0.003 * X[..., None] + noise, 0, 1).astype(np.float32)
+
+
+def test_an_outline_outside_a_hard_mask_is_found() -> None:
+    picture = over(over(textured_background(), DARK, disc(28)), RED, disc(25))
+    support = with_outline(picture, (disc(25) > 0.5).astype(np.float32))
+    assert support[RADIUS < 27.5].all()
+    assert not support[RADIUS > 30.5].any()
+
+
+def test_nothing_is_added_where_there_is_no_outline() -> None:
+    picture = over(textured_background(), RED, disc(25))
+    support = with_outline(picture, disc(25))
+    assert (support == (disc(25) > 0.02)).all()
+
+
+def test_a_soft_mask_is_taken_at_its_word() -> None:
+    mask = disc(25)
+    outlined = over(over(textured_background(), DARK, disc(28)), RED, mask)
+    assert (with_outline(outlined, mask) == (mask > 0.02)).all()
+    plain = over(textured_background(), RED, mask)
+    alpha = soft_alpha(plain, textured_background()[::-1], mask, mask > 0.02)
+    assert np.abs(alpha - mask).max() < 0.15
+
+
+def test_a_hard_edge_gets_its_true_shares_back() -> None:
+    background = np.full((SIZE, SIZE, 3), 0.75, dtype=np.float32)
+    picture = over(background, RED, disc(25))
+    mask = (disc(25) > 0.5).astype(np.float32)
+    alpha = soft_alpha(picture, background, mask, mask > 0.5)
+    assert np.abs(alpha - disc(25)).max() < 0.16
+    assert np.abs(alpha - disc(25)).mean() < 0.1 * np.abs(mask - disc(25)).mean()
+
+
+def test_a_soft_edge_that_denies_much_of_the_part_is_corrected() -> None:
+    background = np.full((SIZE, SIZE, 3), 0.75, dtype=np.float32)
+    picture = over(background, RED, disc(25))
+    feathered = np.clip((25 - RADIUS) / 4 + 0.2, 0, 1).astype(np.float32)
+    alpha = soft_alpha(picture, background, feathered, feathered > 0.02)
+    assert np.abs(alpha - disc(25)).mean() < 0.75 * np.abs(feathered - disc(25)).mean()
+
+
+def test_a_mask_that_is_a_pixel_too_large_gives_the_background_back() -> None:
+    background = np.full((SIZE, SIZE, 3), 0.75, dtype=np.float32)
+    alpha = soft_alpha(over(background, RED, disc(25)), background, disc(26), disc(26) > 0.02)
+    assert np.abs(alpha - disc(25)).mean() < 0.5 * np.abs(disc(26) - disc(25)).mean()
+
+
+def test_a_light_rim_within_the_mask_is_the_parts() -> None:
+    background = np.full((SIZE, SIZE, 3), 0.5, dtype=np.float32)
+    picture = over(over(background, np.ones(3, np.float32), disc(25)), DARK, disc(22.5))
+    mask = (disc(25) > 0.5).astype(np.float32)
+    alpha = soft_alpha(picture, background, mask, mask > 0.5)
+    assert alpha[disc(25) == 1].min() > 0.9
+
+
+def test_the_fitting_plate_is_the_nearest_that_real_colours_allow() -> None:
+    random = np.random.default_rng(1)
+    image, plate = random.uniform(0, 1, (2, 40, 40, 3)).astype(np.float32)
+    alpha = random.choice([0, 0.2, 0.9, 1], (40, 40)).astype(np.float32)
+    fitting = fitting_plate(image, plate, alpha)
+    colour = image - (1 - alpha[..., None]) * fitting
+    assert (fitting[alpha == 0] == image[alpha == 0]).all()
+    assert (fitting[alpha == 1] == plate[alpha == 1]).all()
+    assert colour.min() > -1e-6
+    assert (colour - alpha[..., None]).max() < 1e-6
+    changed = (fitting != plate) & (alpha > 0)[..., None]
+    slack = np.minimum(colour, alpha[..., None] - colour)
+    assert changed.any()
+    assert np.abs(slack[changed]).max() < 1e-6
+
+
+def test_empty_and_full_masks_stay_so() -> None:
+    picture = textured_background()
+    assert not with_outline(picture, np.zeros((SIZE, SIZE), np.float32)).any()
+    assert with_outline(picture, np.ones((SIZE, SIZE), np.float32)).all()
+
+
+def test_window_stays_within_the_picture() -> None:
+    mask = np.zeros((SIZE, SIZE), dtype=bool)
+    mask[3:10, 80:90] = True
+    assert window_around(mask, margin=8) == (slice(0, 18), slice(72, 96))

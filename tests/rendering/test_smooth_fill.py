@@ -1,0 +1,43 @@
+"""Smooth fills against what they should continue."""
+
+from __future__ import annotations
+
+import numpy as np
+from physanimator.rendering.smooth_fill import smooth_fill, spread_colours
+
+HEIGHT, WIDTH = 120, 160
+Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5
+
+
+def test_spread_colours_takes_the_nearest_side() -> None:
+    picture = np.zeros((HEIGHT, WIDTH, 3), np.float32)
+    picture[:, 80:] = 1
+    wanted = (X > 60) & (X < 100)
+    filled = spread_colours(picture, ~wanted, wanted)
+    assert filled[60, 62].max() < 0.1
+    assert filled[60, 97].min() > 0.9
+    assert np.diff(filled[60, 60:100, 0]).min() > -1e-3
+
+
+def test_nothing_known_leaves_the_picture() -> None:
+    picture = np.full((20, 30, 3), 0.3, np.float32)
+    everywhere = np.ones((20, 30), bool)
+    assert (spread_colours(picture, ~everywhere, everywhere) == picture).all()
+
+
+def test_large_windows_are_spread_at_half_size() -> None:
+    picture = np.zeros((700, 900, 3), np.float32)
+    picture[:] = np.linspace(0, 1, 900, dtype=np.float32)[:, None]
+    wanted = np.zeros((700, 900), bool)
+    wanted[300:330, 400:430] = True
+    filled = spread_colours(picture, ~wanted, wanted)
+    assert np.abs(filled - picture)[wanted].max() < 0.03
+    assert (filled[~wanted] == picture[~wanted]).all()
+
+
+def test_a_plane_of_colour_stays_a_plane() -> None:
+    plane = np.stack([X / 200, Y / 200, (X + Y) / 400], axis=-1).astype(np.float32)
+    hole = np.hypot(X - 80, Y - 60) < 40
+    filled = smooth_fill(np.where(hole[..., None], np.float32(1), plane), hole)
+    assert np.abs(filled - plane).max() < 0.06
+    assert np.abs(filled - plane)[hole].mean() < 0.015
