@@ -124,6 +124,12 @@ def _add_output(parser: argparse.ArgumentParser, *, output: str | None) -> None:
         " numbered PNG files" + (f" (default: {output})" if output else ""),
     )
     drawing.add_argument("--frames", metavar="N", type=int, help="number of frames (default: 72)")
+    drawing.add_argument(
+        "--skip", metavar="N", type=int, default=0, help="leave out the first N frames, in which the motion settles in"
+    )
+    drawing.add_argument(
+        "--width", metavar="PX", type=int, help="width of what is written (default: the illustration's)"
+    )
     drawing.add_argument("--fps", metavar="F", type=float, help="frames a second (default: the scene's, or 24)")
     drawing.add_argument(
         "--background",
@@ -202,18 +208,30 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     frames = DEFAULT_FRAMES if options.frames is None else options.frames
     with ExitStack() as bars:
         progress = None if options.quiet else _progress_bars(bars)
-        animation = animate(image, frames=frames, frame_rate=options.fps, plate=plate, progress=progress, **inputs)
+        animation = animate(
+            image,
+            frames=frames,
+            skip=options.skip,
+            frame_rate=options.fps,
+            plate=plate,
+            progress=progress,
+            **inputs,
+        )
         for sentence in unused_rig_points(animation.scene):
             print(f"physanimator: warning: {sentence}", file=sys.stderr)
         animation.save(
-            options.output, transparent=_is_transparent(options), every=options.interpolate, progress=progress
+            options.output,
+            transparent=_is_transparent(options),
+            every=options.interpolate,
+            width=options.width,
+            progress=progress,
         )
         if options.save_sketch:
-            animation.write(animation.sketches(progress=progress), options.save_sketch)
+            animation.write(animation.sketches(progress=progress), options.save_sketch, width=options.width)
         if options.save_flow:
-            animation.write(animation.flows(progress=progress), options.save_flow)
+            animation.write(animation.flows(progress=progress), options.save_flow, width=options.width)
         if options.preview:
-            animation.write(animation.previews(progress=progress), options.preview)
+            animation.write(animation.previews(progress=progress), options.preview, width=options.width)
     if options.verbose:
         _report(animation)
     if not options.quiet:
@@ -231,6 +249,8 @@ def _check_outputs(options: argparse.Namespace) -> None:
     from .rendering.video import check_output
 
     check_output(options.output, alpha=_is_transparent(options))
+    if options.width is not None and not 16 <= options.width <= 8192:
+        raise InvalidInputError(f"--width must be 16 to 8192 px. Got: {options.width}")
     chosen = [options.output]
     for path in (options.save_sketch, options.save_flow, options.preview):
         if path is not None:

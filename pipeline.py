@@ -42,6 +42,7 @@ def animate(
     scene: Scene | Mapping[str, Any] | None = None,
     preset: str | Sequence[str] | None = None,
     frames: int = DEFAULT_FRAMES,
+    skip: int = 0,
     frame_rate: float | None = None,
     spacing: float | None = None,
     sway: float | None = None,
@@ -62,7 +63,8 @@ def animate(
             without one, the parts are pinned where they are attached and a gentle wind blows.
         preset: name of the material, one for all parts or one for each; replaces the scene's materials.
             Without a scene it is "hair" unless said otherwise.
-        frames: length of the animation; frame 0 is the illustration.
+        frames: frames of the motion; frame 0 is the illustration.
+        skip: frames at the start that are simulated but not shown, so that the motion has settled in.
         frame_rate: frames a second; the scene's own, or 24, when None.
         spacing: distance of the mesh's vertices [px]; chosen from each mask when None.
         sway: how often a part sways to and fro in a second, instead of the preset's [Hz].
@@ -79,6 +81,7 @@ def animate(
     image = np.asarray(image)
     require("image", f"shape {image.shape}", image.ndim == 3 and image.shape[2] == 3, "an RGB picture [h, w, 3]")
     require("frames", frames, frames >= 1, "at least 1")
+    require("skip", skip, 0 <= skip < frames, f"at least 0 and below the number of frames ({frames})")
     if isinstance(scene, Mapping):
         from .physics.scene_checking import check_document
 
@@ -109,7 +112,7 @@ def animate(
         from .rendering.composite import LayeredRenderer
 
         renderer = LayeredRenderer(image, parts, motion, plate=plate)
-    return Animation(image, parts, whole, motion, renderer, seconds)
+    return Animation(image, parts, whole, motion, renderer, skip, seconds)
 
 
 def _segmented(image: Image, points: Sequence[Any]) -> Iterator[Mask]:

@@ -172,7 +172,7 @@ def gusts(meshes: Sequence[TriangleMesh], *, strength: float = 1.0, angle: float
     radius = max(high - low, 0.12 * meshes[0].longest_side)
     speed = 2 * radius / 0.75
     strokes = []
-    for rank, (force, interval, start, bend) in enumerate(((1.2, 1.37, 0.0, 0.12), (0.7, 2.23, 0.6, -0.18))):
+    for rank, (force, interval, start, bend) in enumerate(((1.0, 1.37, 0.0, 0.12), (0.6, 2.23, 0.6, -0.18))):
         distance = np.linspace(first - 0.85 * radius, last + radius, 17)
         lift = bend * radius * np.sin(np.linspace(0, 2 * np.pi * (1 + rank), 17))
         path = distance[:, None] * along + ((low + high) / 2 + lift)[:, None] * across

@@ -41,6 +41,7 @@ class Animation:
         scene: bodies, strokes and rig points.
         motion: where every vertex is in every frame.
         renderer: draws the frames.
+        first: number of the motion's first frame that is shown; the ones before let the motion settle in.
         seconds: how long each stage took [s], by its name, in the order of the work.
     """
 
@@ -49,11 +50,17 @@ class Animation:
     scene: Scene
     motion: Motion
     renderer: LayeredRenderer
+    first: int = 0
     seconds: dict[str, float] = field(default_factory=dict)
 
     def __len__(self) -> int:
-        """Number of frames."""
-        return len(self.motion)
+        """Number of frames that are shown."""
+        return len(self.motion) - self.first
+
+    @property
+    def shown(self) -> range:
+        """The motion's frames that are shown."""
+        return range(self.first, len(self.motion))
 
     def frames(
         self, *, transparent: bool = False, every: int = 1, progress: StageProgress | None = None
@@ -76,7 +83,7 @@ class Animation:
             pictures = self._with_in_betweens(every)
         else:
             draw = self.renderer.cutout if transparent else self.renderer.frame
-            pictures = (draw(t) for t in range(len(self)))
+            pictures = (draw(t) for t in self.shown)
         return self._measured("render", pictures, progress)
 
     def sketches(self, *, progress: StageProgress | None = None) -> Iterator[Image]:
@@ -87,8 +94,9 @@ class Animation:
 
         def drawn() -> Iterator[Image]:
             sketch = extract_sketch(self.image)
-            for field_of_frame in FlowSequence(self.motion):
-                yield warp_sketch(sketch, field_of_frame).sketch
+            fields = FlowSequence(self.motion)
+            for t in self.shown:
+                yield warp_sketch(sketch, fields.flow(t)).sketch
 
         return self._measured("sketch", drawn(), progress)
 
@@ -99,14 +107,15 @@ class Animation:
 
         longest = max(1.0, float(np.linalg.norm(self.motion.positions - self.motion.positions[0], axis=2).max()))
         fields = FlowSequence(self.motion)
-        drawn = (flow_to_color(each.displacement, each.inside, max_px=longest) for each in fields)
+        found = map(fields.flow, self.shown)
+        drawn = (flow_to_color(each.displacement, each.inside, max_px=longest) for each in found)
         return self._measured("flow", drawn, progress)
 
     def previews(self, *, progress: StageProgress | None = None) -> Iterator[Image]:
         """The animation with meshes, pins and strokes drawn over it."""
         from .overlay import preview
 
-        drawn = (preview(self.renderer.frame(t), self.motion, self.scene, t) for t in range(len(self)))
+        drawn = (preview(self.renderer.frame(t), self.motion, self.scene, t) for t in self.shown)
         return self._measured("preview", drawn, progress)
 
     def save(
@@ -115,6 +124,7 @@ class Animation:
         *,
         transparent: bool = False,
         every: int = 1,
+        width: int | None = None,
         progress: StageProgress | None = None,
     ) -> None:
         """Write the animation to a video, an animated picture or a folder of pictures.
@@ -123,21 +133,25 @@ class Animation:
             path: a name in .mp4, .webm, .gif, .webp or .apng, or a folder ending in ``/``.
             transparent: see :meth:`frames`.
             every: see :meth:`frames`.
+            width: width of the written frames [px]; that of the illustration when None.
             progress: called after each frame with the stage "render".
 
         Raises:
             InvalidInputError: nothing can be written there.
         """
         check_output(path, alpha=transparent)
-        self.write(self.frames(transparent=transparent, every=every, progress=progress), path)
+        self.write(self.frames(transparent=transparent, every=every, progress=progress), path, width=width)
 
-    def write(self, pictures: Iterable[Image], path: StrPath) -> None:
+    def write(self, pictures: Iterable[Image], path: StrPath, *, width: int | None = None) -> None:
         """Write any of the clips of this animation, at its frame rate; see :func:`write_animation`.
 
         Args:
             pictures: what :meth:`frames`, :meth:`sketches`, :meth:`flows` or :meth:`previews` give.
             path: where to.
+            width: width of the written frames [px]; that of the illustration when None.
         """
+        if width is not None:
+            pictures = (_resized(picture, width) for picture in pictures)
         drawing = sum(self.seconds.values())
         start = time.perf_counter()
         write_animation(pictures, path, self.motion.frame_rate)
@@ -148,7 +162,7 @@ class Animation:
     def _with_in_betweens(self, every: int) -> Iterator[Image]:
         from .interpolation import interpolate, keyframe_indices
 
-        indices = keyframe_indices(len(self), every)
+        indices = [self.first + t for t in keyframe_indices(len(self), every)]
         keyframes = [self.renderer.frame(t) for t in indices]
         yield from interpolate(keyframes, indices, motion=self.motion, masks=self.masks)
 
@@ -160,6 +174,14 @@ class Animation:
             if progress is not None:
                 progress(stage, done, len(self))
             yield picture
+
+
+def _resized(picture: Image, width: int) -> Image:
+    import cv2
+
+    height = max(1, round(picture.shape[0] * width / picture.shape[1]))
+    finer = width > picture.shape[1]
+    return cv2.resize(picture, (width, height), interpolation=cv2.INTER_CUBIC if finer else cv2.INTER_AREA)
 
 
 @contextmanager

@@ -8,6 +8,7 @@ group white and everything else black, so it holds exactly the pixels of the
 part that can be seen, its dark outline included.  The clean plate is the
 picture with all the moving groups left out.
 """
+
 import argparse
 import io
 import subprocess
@@ -33,7 +34,9 @@ def rasterise(root, scale):
     """Render an SVG tree and return an RGB array `scale` times the final size."""
     run = subprocess.run(
         ["rsvg-convert", "-w", str(SIZE[0] * scale), "-h", str(SIZE[1] * scale), "-b", "black"],
-        input=ET.tostring(root), stdout=subprocess.PIPE, check=True,
+        input=ET.tostring(root),
+        stdout=subprocess.PIPE,
+        check=True,
     )
     return Image.open(io.BytesIO(run.stdout)).convert("RGB")
 
