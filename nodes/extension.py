@@ -1,0 +1,44 @@
+"""The one list of this pack's nodes."""
+
+from __future__ import annotations
+
+from comfy_api.latest import ComfyExtension, io
+
+from .body_nodes import Body, Material
+from .example_nodes import ExampleIllustration
+from .flow_nodes import OpticalFlow, PreviewFlow
+from .mask_nodes import MaskToMesh, SegmentByPoints
+from .motion_nodes import PreviewMotion, Simulate
+from .render_nodes import Interpolate, Render
+from .rig_nodes import RigPoint
+from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
+from .sketch_nodes import ExtractSketch, WarpSketch
+from .stroke_nodes import EnergyStroke
+
+__all__ = ["NODES", "PhysAnimatorExtension"]
+
+NODES: list[type[io.ComfyNode]] = [
+    ExampleIllustration,
+    SegmentByPoints,
+    MaskToMesh,
+    Material,
+    Body,
+    EnergyStroke,
+    RigPoint,
+    Scene,
+    AutomaticScene,
+    SceneFromJSON,
+    Simulate,
+    PreviewMotion,
+    OpticalFlow,
+    PreviewFlow,
+    ExtractSketch,
+    WarpSketch,
+    Render,
+    Interpolate,
+]
+
+
+class PhysAnimatorExtension(ComfyExtension):
+    async def get_node_list(self) -> list[type[io.ComfyNode]]:
+        return list(NODES)

@@ -1,0 +1,81 @@
+"""Optical flow of a motion, and a look at it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from comfy_api.latest import io
+
+from .previews import animated
+from .progress import host_progress
+from .tensors import picture_batch
+from .wires import FlowWire, MaskedMotion, MotionWire
+
+if TYPE_CHECKING:
+    from ..physics.flow import FlowSequence
+
+__all__ = ["OpticalFlow", "PreviewFlow"]
+
+
+class OpticalFlow(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        return io.Schema(
+            node_id="PhysAnimator_OpticalFlow",
+            display_name="Optical Flow",
+            category="PhysAnimator/motion",
+            description="How far each pixel of the drawing has moved, frame by frame; computed when needed.",
+            inputs=[MotionWire.Input("motion", tooltip="From Simulate.")],
+            outputs=[FlowWire.Output(display_name="flow", tooltip="Displacement of each pixel from the drawing [px].")],
+        )
+
+    @classmethod
+    def execute(cls, motion: MaskedMotion) -> io.NodeOutput:
+        from ..physics.flow import FlowSequence
+
+        return io.NodeOutput(FlowSequence(motion.motion))
+
+
+class PreviewFlow(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        return io.Schema(
+            node_id="PhysAnimator_PreviewFlow",
+            display_name="Preview Flow",
+            category="PhysAnimator/motion",
+            description="Shows optical flow as colours: the hue is the direction, the strength how far a pixel moved.",
+            is_output_node=True,
+            inputs=[
+                FlowWire.Input("flow", tooltip="From Optical Flow."),
+                io.Int.Input("every", default=4, min=1, max=1000, tooltip="Shows only every n-th frame [frames]."),
+                io.Float.Input(
+                    "largest",
+                    default=0.0,
+                    min=0.0,
+                    max=100_000.0,
+                    step=1.0,
+                    tooltip="Movement with the fullest colour [px]; 0 takes the largest of the clip.",
+                ),
+            ],
+            outputs=[io.Image.Output(display_name="preview", tooltip="One picture for each frame shown.")],
+        )
+
+    @classmethod
+    def execute(cls, flow: FlowSequence, every: int, largest: float) -> io.NodeOutput:
+        from ..rendering.flow_colour import flow_to_color
+
+        shown, report = range(0, len(flow), every), host_progress()
+        scale = largest or _largest(flow, shown)
+        batch = picture_batch(len(shown))
+        for number, frame in enumerate(shown, start=1):
+            field = flow.flow(frame)
+            batch.put(flow_to_color(field.displacement, field.inside, max_px=scale))
+            report(number, len(shown))
+        return io.NodeOutput(batch.tensor, ui=animated(batch.tensor, flow.motion.frame_rate / every))
+
+
+def _largest(flow: FlowSequence, shown: range) -> float:
+    """Largest movement of a vertex in the frames shown [px]; at least 1, so that stillness is not magnified."""
+    moved = flow.motion.positions[shown] - flow.motion.positions[:1]
+    return max(1.0, float(np.hypot(moved[..., 0], moved[..., 1]).max()))

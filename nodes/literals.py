@@ -1,0 +1,68 @@
+"""Values that are typed into a widget and can be refused before any work: points, paths, times, choices."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Collection, Mapping
+from typing import Any
+
+from ..physics.errors import InvalidInputError, PhysAnimatorError
+
+__all__ = ["PATH_FORMS", "chosen", "refusal", "times_of"]
+
+PATH_FORMS = 'as JSON: [[x, y], ...] or [{"x": .., "y": ..}, ...], as spline editors write it.'
+"""How a tooltip says what may be typed for a path."""
+
+
+def refusal(*checks: Callable[[], Any]) -> bool | str:
+    """What ``validate_inputs`` returns: True when every check passes, else the sentence of the first that does not.
+
+    Args:
+        checks: called in order; each raises when a value is unusable.
+    """
+    for check in checks:
+        try:
+            check()
+        except PhysAnimatorError as error:
+            return str(error)
+    return True
+
+
+def chosen(choice: Mapping[str, Any] | None, name: str, options: Collection[str]) -> tuple[str, dict[str, Any]]:
+    """The option that was chosen in a dynamic combo, and the values of the inputs that it brings.
+
+    The host accepts a prompt whose choice is missing or unknown, and then calls the node without it.
+
+    Args:
+        choice: what the host hands over: the option under the combo's own name, beside the inputs it brings.
+        name: the combo's name.
+        options: what may be chosen.
+
+    Raises:
+        InvalidInputError: nothing or something unknown was chosen.
+    """
+    values = dict(choice or {})
+    option = values.pop(name, None)
+    if option not in options:
+        raise InvalidInputError(f"{name} must be one of {', '.join(options)}. Got: {option!r}")
+    return option, values
+
+
+def times_of(text: str, *, name: str = "times") -> tuple[float, ...]:
+    """Seconds from text: a JSON list of numbers, or numbers with commas between them; empty text gives none.
+
+    Args:
+        text: what was typed.
+        name: what the node calls the input.
+
+    Raises:
+        InvalidInputError: the text holds something else.
+    """
+    bare = text.strip().removeprefix("[").removesuffix("]").strip()
+    if not bare:
+        return ()
+    try:
+        values = json.loads(f"[{bare}]")
+        return tuple(float(value) for value in values)
+    except (TypeError, ValueError):
+        raise InvalidInputError(f"{name} must be a list of seconds such as [0, 0.5, 2]. Got: {text[:60]}") from None

@@ -1,0 +1,113 @@
+"""The simulation, and a look at what it did."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from comfy_api.latest import io
+from numpy.typing import NDArray
+
+from .previews import animated
+from .progress import host_progress
+from .tensors import picture_batch, pictures_for
+from .wires import MaskedMotion, MaskedScene, MotionWire, SceneWire
+
+if TYPE_CHECKING:
+    import torch
+
+__all__ = ["PreviewMotion", "Simulate"]
+
+
+class Simulate(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        return io.Schema(
+            node_id="PhysAnimator_Simulate",
+            display_name="Simulate",
+            category="PhysAnimator/motion",
+            description="Computes how the bodies of a scene move.",
+            inputs=[
+                SceneWire.Input("scene", tooltip="What moves, and what acts on it."),
+                io.Int.Input(
+                    "frames",
+                    default=73,
+                    min=1,
+                    max=100_000,
+                    tooltip="Number of frames; the first is the drawing. 73 frames at 24 a second last 3 s.",
+                ),
+            ],
+            outputs=[
+                MotionWire.Output(display_name="motion", tooltip="Where every part of every body is in each frame."),
+                io.Float.Output(
+                    display_name="frame_rate", tooltip="The scene's frames a second: for Create Video [1/s]."
+                ),
+            ],
+        )
+
+    @classmethod
+    def execute(cls, scene: MaskedScene, frames: int) -> io.NodeOutput:
+        from ..physics.simulation import simulate
+
+        motion = simulate(scene.scene, frames=frames, progress=host_progress())
+        return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate)
+
+
+class PreviewMotion(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        return io.Schema(
+            node_id="PhysAnimator_PreviewMotion",
+            display_name="Preview Motion",
+            category="PhysAnimator/motion",
+            description="Shows the moving meshes on the picture, with strokes and rig points.",
+            is_output_node=True,
+            inputs=[
+                io.Image.Input(
+                    "image", tooltip="The illustration, or the rendered frames: one picture for each frame."
+                ),
+                MotionWire.Input("motion", tooltip="From Simulate."),
+                io.Int.Input(
+                    "longest_side",
+                    default=640,
+                    min=64,
+                    max=16384,
+                    step=16,
+                    tooltip="Longest side of the preview [px]; never larger than the illustration.",
+                ),
+                io.Int.Input(
+                    "every",
+                    default=2,
+                    min=1,
+                    max=1000,
+                    tooltip="Shows only every n-th frame, and as slowly as the motion is [frames].",
+                ),
+                SceneWire.Input("scene", optional=True, tooltip="Connect it to see strokes, particles and rig points."),
+            ],
+            outputs=[io.Image.Output(display_name="preview", tooltip="The frames of the preview.")],
+        )
+
+    @classmethod
+    def execute(
+        cls, image: torch.Tensor, motion: MaskedMotion, longest_side: int, every: int, scene: MaskedScene | None = None
+    ) -> io.NodeOutput:
+        from ..rendering.overlay import preview
+
+        moved, acting = motion.motion, scene.scene if scene else None
+        pictures = _shrunk(pictures_for(image, moved.width, moved.height, frames=len(moved)), longest_side)
+        shown, report = range(0, len(moved), every), host_progress()
+        batch = picture_batch(len(shown))
+        for number, frame in enumerate(shown, start=1):
+            batch.put(preview(pictures[frame % len(pictures)], moved, acting, frame))
+            report(number, len(shown))
+        return io.NodeOutput(batch.tensor, ui=animated(batch.tensor, moved.frame_rate / every))
+
+
+def _shrunk(pictures: NDArray[np.float32], longest_side: int) -> list[NDArray[np.uint8]]:
+    """Pictures no larger than wanted, as bytes, which are quicker to draw on."""
+    import cv2
+
+    scale = min(1.0, longest_side / max(pictures.shape[1:3]))
+    size = (max(1, round(pictures.shape[2] * scale)), max(1, round(pictures.shape[1] * scale)))
+    small = (cv2.resize(picture, size, interpolation=cv2.INTER_AREA) for picture in pictures)
+    return [np.rint(np.clip(picture, 0, 1) * 255).astype(np.uint8) for picture in small]

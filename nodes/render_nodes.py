@@ -1,0 +1,128 @@
+"""From motion to frames: the layered renderer, and in-betweens."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from comfy_api.latest import io
+
+from .defaults import default_of
+from .model_files import find_model_file
+from .progress import host_progress
+from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of, pictures_of
+from .wires import MaskedMotion, MotionWire
+
+if TYPE_CHECKING:
+    import torch
+
+__all__ = ["Interpolate", "Render"]
+
+_IMAGES_ARE = ("all frames", "keyframes")
+
+
+class Render(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        return io.Schema(
+            node_id="PhysAnimator_Render",
+            display_name="Render",
+            category="PhysAnimator/render",
+            description="Paints the frames: each body stretched along with its mesh, over the picture without it.",
+            inputs=[
+                io.Image.Input("image", tooltip="The illustration (one picture)."),
+                MotionWire.Input("motion", tooltip="From Simulate; it carries the masks along."),
+                io.Image.Input(
+                    "clean_plate",
+                    optional=True,
+                    tooltip="The picture without the moving parts. Painted automatically when left out.",
+                ),
+            ],
+            outputs=[
+                io.Image.Output(display_name="frames", tooltip="One picture a frame: for Create Video."),
+                io.Mask.Output(display_name="alpha", tooltip="White where the moving parts are, one mask a frame."),
+                io.Image.Output("plate", display_name="clean_plate", tooltip="The picture without the moving parts."),
+            ],
+        )
+
+    @classmethod
+    def execute(
+        cls, image: torch.Tensor, motion: MaskedMotion, clean_plate: torch.Tensor | None = None
+    ) -> io.NodeOutput:
+        from ..rendering.composite import LayeredRenderer
+
+        plate = None if clean_plate is None else picture_of(clean_plate, name="clean_plate")
+        renderer = LayeredRenderer(picture_of(image), motion.masks, motion.motion, plate=plate)
+        count, report = len(motion.motion), host_progress()
+        frames, alpha = picture_batch(count), mask_batch(count)
+        for number in range(count):
+            frames.put(renderer.frame(number))
+            alpha.put(renderer.alpha(number))
+            report(number + 1, count)
+        return io.NodeOutput(frames.tensor, alpha.tensor, batch_of_pictures([renderer.plate], 1))
+
+
+class Interpolate(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        from ..rendering.interpolation import BACKENDS, DEFAULT_GAP, interpolate
+
+        described = "; ".join(f"{name}: {backend.description}" for name, backend in BACKENDS.items())
+        return io.Schema(
+            node_id="PhysAnimator_Interpolate",
+            display_name="Interpolate",
+            category="PhysAnimator/render",
+            description="Fills in the frames between keyframes.",
+            inputs=[
+                io.Image.Input("images", tooltip="All frames, or only the keyframes."),
+                io.Combo.Input(
+                    "images_are",
+                    options=list(_IMAGES_ARE),
+                    default=_IMAGES_ARE[0],
+                    tooltip="all frames: every n-th of them, and the last, is kept as a keyframe and the others are"
+                    " drawn anew. keyframes: each is kept.",
+                ),
+                io.Int.Input(
+                    "every",
+                    default=DEFAULT_GAP,
+                    min=1,
+                    max=1000,
+                    tooltip="From one keyframe to the next [frames]; the paper takes 15.",
+                ),
+                io.Combo.Input(
+                    "backend",
+                    options=list(BACKENDS),
+                    default=default_of(interpolate, "backend"),
+                    tooltip=f"Who draws the in-betweens. {described}.",
+                ),
+                MotionWire.Input(
+                    "motion",
+                    optional=True,
+                    tooltip="From Simulate: in-betweens then follow the known motion. Without it 'motion' is 'flow'.",
+                ),
+            ],
+            outputs=[io.Image.Output(display_name="frames", tooltip="Keyframes and in-betweens.")],
+        )
+
+    @classmethod
+    def execute(
+        cls, images: torch.Tensor, images_are: str, every: int, backend: str, motion: MaskedMotion | None = None
+    ) -> io.NodeOutput:
+        from ..rendering.interpolation import interpolate, keyframe_indices
+
+        pictures, known = pictures_of(images, name="images"), motion.motion if motion else None
+        if images_are == "keyframes":
+            last = len(known) - 1 if known else every * len(pictures)
+            indices = [min(every * number, last) for number in range(len(pictures))]
+        else:
+            indices = keyframe_indices(len(pictures), every)
+            pictures = pictures[indices]
+        frames = interpolate(
+            list(pictures),
+            indices,
+            backend=backend,
+            motion=known,
+            masks=motion.masks if motion else (),
+            find_file=find_model_file,
+            progress=host_progress(),
+        )
+        return io.NodeOutput(batch_of_pictures(frames, indices[-1] + 1))

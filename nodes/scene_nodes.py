@@ -1,0 +1,193 @@
+"""The scene: what moves, and all that acts on it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from comfy_api.latest import io
+
+from ..physics.automatic import gusts, pins
+from ..physics.errors import InvalidInputError
+from ..physics.rig import RigPoint
+from ..physics.scene import Scene as PhysicalScene
+from ..physics.strokes import EnergyStroke
+from .literals import refusal
+from .wires import BodiesWire, MaskedBody, MaskedScene, RigWire, SceneWire, StrokesWire
+
+__all__ = ["AutomaticScene", "Scene", "SceneFromJSON"]
+
+_SAMPLE = """\
+{
+  "version": 1,
+  "width": 1280,
+  "height": 720,
+  "strokes": [
+    {"kind": "wind", "path": [[0, 300], [1280, 260]], "radius": 250, "interval": 1}
+  ]
+}
+"""
+
+
+class Scene(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        return io.Schema(
+            node_id="PhysAnimator_Scene",
+            display_name="Scene",
+            category="PhysAnimator/scene",
+            description="Gathers the bodies and all that acts on them.",
+            inputs=[
+                BodiesWire.Input("bodies", tooltip="What moves."),
+                io.Float.Input("gravity_x", default=0.0, min=-100.0, max=100.0, step=0.1, tooltip=_gravity("right")),
+                io.Float.Input("gravity_y", default=0.0, min=-100.0, max=100.0, step=0.1, tooltip=_gravity("down")),
+                _frame_rate(),
+                StrokesWire.Input("strokes", optional=True, tooltip="Energy strokes that act on every body."),
+                RigWire.Input("rig_points", optional=True, tooltip="What is held or led."),
+            ],
+            outputs=_scene_outputs(),
+        )
+
+    @classmethod
+    def execute(
+        cls,
+        bodies: tuple[MaskedBody, ...],
+        gravity_x: float,
+        gravity_y: float,
+        frame_rate: float,
+        strokes: tuple[EnergyStroke, ...] = (),
+        rig_points: tuple[RigPoint, ...] = (),
+    ) -> io.NodeOutput:
+        if not strokes and not rig_points and not gravity_x and not gravity_y:
+            raise InvalidInputError(
+                "Nothing acts on the bodies: connect strokes or rig_points, set gravity, or use Automatic Scene."
+            )
+        return _output(
+            PhysicalScene(_physical(bodies), strokes, rig_points, (gravity_x, gravity_y), frame_rate), bodies
+        )
+
+
+class AutomaticScene(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        return io.Schema(
+            node_id="PhysAnimator_AutomaticScene",
+            display_name="Automatic Scene",
+            category="PhysAnimator/scene",
+            description="Holds each body where it is attached and lets gentle gusts of wind pass.",
+            inputs=[
+                BodiesWire.Input("bodies", tooltip="What moves."),
+                io.Float.Input(
+                    "wind_strength",
+                    default=1.0,
+                    min=0.0,
+                    max=20.0,
+                    step=0.1,
+                    tooltip="Factor on the usual wind [1]: 0 is calm, 1 gentle, 3 a storm.",
+                ),
+                io.Float.Input(
+                    "wind_angle",
+                    default=0.0,
+                    min=-360.0,
+                    max=360.0,
+                    step=5.0,
+                    tooltip="Where the wind blows to [degrees]: 0 to the right, 90 up, 180 to the left.",
+                ),
+                _frame_rate(),
+                StrokesWire.Input("strokes", optional=True, tooltip="Used instead of the gusts when connected."),
+                RigWire.Input("rig_points", optional=True, tooltip="Used instead of the pins when connected."),
+            ],
+            outputs=_scene_outputs(),
+        )
+
+    @classmethod
+    def execute(
+        cls,
+        bodies: tuple[MaskedBody, ...],
+        wind_strength: float,
+        wind_angle: float,
+        frame_rate: float,
+        strokes: tuple[EnergyStroke, ...] = (),
+        rig_points: tuple[RigPoint, ...] = (),
+    ) -> io.NodeOutput:
+        meshes = [item.body.mesh for item in bodies]
+        wind = strokes or (gusts(meshes, strength=wind_strength, angle=wind_angle) if wind_strength else ())
+        held = rig_points or [
+            pin for number, item in enumerate(bodies) for pin in pins(item.body, number, attach=item.attach)
+        ]
+        return _output(PhysicalScene(_physical(bodies), wind, tuple(held), frame_rate=frame_rate), bodies)
+
+
+class SceneFromJSON(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        return io.Schema(
+            node_id="PhysAnimator_SceneFromJSON",
+            display_name="Scene from JSON",
+            category="PhysAnimator/scene",
+            description="Takes strokes, rig points, gravity and frame rate from a scene document.",
+            inputs=[
+                BodiesWire.Input("bodies", tooltip="What moves; the document's own bodies are not used."),
+                io.String.Input(
+                    "scene",
+                    default=_SAMPLE,
+                    multiline=True,
+                    tooltip="A scene document [JSON]: positions and radii in px, times in s, as Scene writes it.",
+                ),
+            ],
+            outputs=_scene_outputs(),
+        )
+
+    @classmethod
+    def validate_inputs(cls, scene: str | None = None) -> bool | str:
+        from ..physics.json_text import read_json
+        from ..physics.scene_checking import check_document
+
+        return scene is None or refusal(lambda: check_document(read_json(scene)))
+
+    @classmethod
+    def execute(cls, bodies: tuple[MaskedBody, ...], scene: str) -> io.NodeOutput:
+        from ..physics.json_text import read_json
+        from ..physics.scene_json import scene_from_dict
+
+        document = {key: value for key, value in read_json(scene).items() if key != "bodies"}
+        read = scene_from_dict(document, meshes=[item.body.mesh for item in bodies])
+        return _output(replace(read, bodies=_physical(bodies)), bodies)
+
+
+def _physical(bodies: tuple[MaskedBody, ...]) -> tuple[Any, ...]:
+    return tuple(item.body for item in bodies)
+
+
+def _output(scene: PhysicalScene, bodies: tuple[MaskedBody, ...]) -> io.NodeOutput:
+    from ..physics.scene_json import dumps
+
+    return io.NodeOutput(MaskedScene(scene, tuple(item.mask for item in bodies)), dumps(scene, meshes=False))
+
+
+def _scene_outputs() -> list[io.Output]:
+    return [
+        SceneWire.Output(display_name="scene", tooltip="For Simulate."),
+        io.String.Output(
+            "scene_json",
+            display_name="scene_json",
+            tooltip="The scene as a JSON document without its meshes: for Scene from JSON and for the command line.",
+        ),
+    ]
+
+
+def _frame_rate() -> io.Float.Input:
+    return io.Float.Input(
+        "frame_rate",
+        default=PhysicalScene.frame_rate,
+        min=1.0,
+        max=240.0,
+        step=1.0,
+        tooltip="Frames a second [1/s]. Simulate hands it on to Create Video.",
+    )
+
+
+def _gravity(direction: str) -> str:
+    return f"Acceleration of every body to the {direction} [sides/s^2], a side being the picture's longest.".replace(
+        "to the down", "downwards"
+    )

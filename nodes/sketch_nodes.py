@@ -1,0 +1,135 @@
+"""Line drawings: from the illustration, and bent along with the motion (paper, Method, "Sketch Warping")."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from comfy_api.latest import io
+
+from .defaults import default_of
+from .progress import host_progress
+from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of
+from .wires import FlowWire
+
+if TYPE_CHECKING:
+    import torch
+
+    from ..physics.flow import FlowSequence
+    from ..rendering.warp import WarpMode
+
+__all__ = ["ExtractSketch", "WarpSketch"]
+
+
+class ExtractSketch(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        from ..rendering.sketch import extract_sketch
+
+        return io.Schema(
+            node_id="PhysAnimator_ExtractSketch",
+            display_name="Extract Sketch",
+            category="PhysAnimator/sketch",
+            description="Draws the illustration's lines on white paper. Works without any model file.",
+            inputs=[
+                io.Image.Input("image", tooltip="The illustration (one picture)."),
+                io.Float.Input(
+                    "line_width",
+                    default=default_of(extract_sketch, "line_width"),
+                    min=0.5,
+                    max=50.0,
+                    step=0.1,
+                    tooltip="Width of the lines to look for [px].",
+                ),
+                io.Float.Input(
+                    "threshold",
+                    default=default_of(extract_sketch, "threshold"),
+                    min=0.001,
+                    max=0.9,
+                    step=0.001,
+                    round=0.001,
+                    tooltip="How much darker than its surroundings a line must be [0 to 1]; higher drops faint lines.",
+                ),
+                io.Float.Input(
+                    "coherence",
+                    default=default_of(extract_sketch, "coherence"),
+                    min=0.0,
+                    max=20.0,
+                    step=0.5,
+                    tooltip="Length over which lines are smoothed along their own direction [px].",
+                ),
+                io.Int.Input(
+                    "smallest_speck",
+                    default=default_of(extract_sketch, "smallest_speck"),
+                    min=0,
+                    max=100_000,
+                    tooltip="Connected lines with less area than this are left out [px^2].",
+                ),
+            ],
+            outputs=[io.Image.Output(display_name="sketch", tooltip="Dark lines on white paper.")],
+        )
+
+    @classmethod
+    def execute(
+        cls, image: torch.Tensor, line_width: float, threshold: float, coherence: float, smallest_speck: int
+    ) -> io.NodeOutput:
+        from ..rendering.sketch import extract_sketch
+
+        sketch = extract_sketch(
+            picture_of(image),
+            line_width=line_width,
+            threshold=threshold,
+            coherence=coherence,
+            smallest_speck=smallest_speck,
+        )
+        return io.NodeOutput(batch_of_pictures([sketch], 1))
+
+
+class WarpSketch(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        from ..rendering.warp import WARP_MODES, warp_sketch
+
+        return io.Schema(
+            node_id="PhysAnimator_WarpSketch",
+            display_name="Warp Sketch",
+            category="PhysAnimator/sketch",
+            description="Bends a sketch of the illustration along with the motion: one sketch for each frame.",
+            inputs=[
+                io.Image.Input("sketch", tooltip="Dark lines on white, one picture of the illustration's size."),
+                FlowWire.Input("flow", tooltip="How far each pixel has moved, from Optical Flow."),
+                io.Combo.Input(
+                    "mode",
+                    options=list(WARP_MODES),
+                    default=default_of(warp_sketch, "mode"),
+                    tooltip="Where several pixels meet, the one that moved further shows: 'paper' in proportion to"
+                    " how far it moved, 'softmax' far more decidedly.",
+                ),
+                io.Float.Input(
+                    "blur_sigma",
+                    default=default_of(warp_sketch, "blur_sigma"),
+                    min=0.0,
+                    max=100.0,
+                    step=0.1,
+                    tooltip="Width of the Gaussian blur that hides broken contours [px]; 0 for none.",
+                ),
+            ],
+            outputs=[
+                io.Image.Output(display_name="sketches", tooltip="One sketch a frame."),
+                io.Mask.Output(
+                    display_name="holes", tooltip="White where nothing came to lie: no line is known there."
+                ),
+            ],
+        )
+
+    @classmethod
+    def execute(cls, sketch: torch.Tensor, flow: FlowSequence, mode: WarpMode, blur_sigma: float) -> io.NodeOutput:
+        from ..rendering.warp import warp_sketch
+
+        drawing, report = picture_of(sketch, name="sketch").mean(axis=2), host_progress()
+        sketches, holes = picture_batch(len(flow)), mask_batch(len(flow))
+        for number, field in enumerate(flow, start=1):
+            warped = warp_sketch(drawing, field, mode=mode, blur_sigma=blur_sigma)
+            sketches.put(warped.sketch)
+            holes.put(warped.holes)
+            report(number, len(flow))
+        return io.NodeOutput(sketches.tensor, holes.tensor)

@@ -1,0 +1,113 @@
+"""Energy strokes: where the wind goes."""
+
+from __future__ import annotations
+
+from comfy_api.latest import io
+
+from ..physics.strokes import STROKE_KINDS, StrokeKind
+from ..physics.strokes import EnergyStroke as PhysicalStroke
+from ..rendering.points import parse_polyline
+from .literals import PATH_FORMS, refusal
+from .wires import StrokesWire
+
+__all__ = ["EnergyStroke"]
+
+
+class EnergyStroke(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        usual = PhysicalStroke()
+        return io.Schema(
+            node_id="PhysAnimator_EnergyStroke",
+            display_name="Energy Stroke",
+            category="PhysAnimator/scene",
+            description="A drawn path along which particles travel that push, repel or attract the bodies.",
+            inputs=[
+                io.Combo.Input(
+                    "kind",
+                    options=list(STROKE_KINDS),
+                    default=usual.kind,
+                    tooltip="wind pushes along the path, repel pushes away from the particles, attract pulls to them.",
+                ),
+                io.String.Input(
+                    "path",
+                    default="[[0, 360], [1280, 360]]",
+                    multiline=True,
+                    tooltip=f"Points of the stroke in pixels {PATH_FORMS} It may begin outside the picture.",
+                ),
+                io.Float.Input(
+                    "radius",
+                    default=usual.radius,
+                    min=1.0,
+                    max=16384.0,
+                    step=10.0,
+                    tooltip="A particle acts up to this distance [px].",
+                ),
+                io.Float.Input(
+                    "speed",
+                    default=usual.speed,
+                    min=0.0,
+                    max=100_000.0,
+                    step=10.0,
+                    tooltip="How fast particles travel along the path [px/s]; 0 keeps one at its first point.",
+                ),
+                io.Float.Input(
+                    "strength",
+                    default=usual.strength,
+                    min=-1000.0,
+                    max=1000.0,
+                    step=0.1,
+                    tooltip="Acceleration at full effect [sides/s^2], a side being the picture's longest;"
+                    " 1 is a breeze, 10 a blow. Negative reverses it.",
+                ),
+                io.Float.Input(
+                    "start",
+                    default=usual.start,
+                    min=0.0,
+                    max=3600.0,
+                    step=0.1,
+                    tooltip="When the first particle sets out [s].",
+                ),
+                io.Float.Input(
+                    "end",
+                    default=0.0,
+                    min=0.0,
+                    max=3600.0,
+                    step=0.1,
+                    tooltip="When the last particle has set out [s]; 0 means never.",
+                ),
+                io.Float.Input(
+                    "interval",
+                    default=usual.interval,
+                    min=0.01,
+                    max=3600.0,
+                    step=0.1,
+                    tooltip="Time between two particles [s].",
+                ),
+                StrokesWire.Input("strokes", optional=True, tooltip="Strokes that act besides this one."),
+            ],
+            outputs=[StrokesWire.Output(display_name="strokes", tooltip="The strokes before this one, and this one.")],
+        )
+
+    @classmethod
+    def validate_inputs(cls, kind: StrokeKind | None = None, path: str | None = None) -> bool | str:
+        if kind is None or path is None:
+            return True
+        return refusal(lambda: PhysicalStroke(kind, tuple(parse_polyline(path))))
+
+    @classmethod
+    def execute(
+        cls,
+        kind: StrokeKind,
+        path: str,
+        radius: float,
+        speed: float,
+        strength: float,
+        start: float,
+        end: float,
+        interval: float,
+        strokes: tuple[PhysicalStroke, ...] = (),
+    ) -> io.NodeOutput:
+        points = tuple(parse_polyline(path))
+        stroke = PhysicalStroke(kind, points, radius, speed, strength, start, end or None, interval)
+        return io.NodeOutput((*strokes, stroke))

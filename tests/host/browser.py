@@ -1,0 +1,73 @@
+"""ComfyUI's page in Chromium, driven through the frontend's own objects."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+__all__ = ["EXECUTABLE", "Page", "opened"]
+
+EXECUTABLE = Path(os.environ.get("CHROMIUM", "/usr/bin/chromium"))
+
+_ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking"]
+# What the frontends complain about by themselves: files that the host lacks, routes that are newer than the host, the
+# outside world.
+_HOST_NOISE = ("Failed to load resource", "[Jobs API]", "Fetch API cannot load", "Connecting to")
+_READY = "() => window.app?.graph && window.LiteGraph?.registered_node_types?.['PhysAnimator_Render']"
+
+
+class Page:
+    """A page with ComfyUI in it.
+
+    Attributes:
+        page: Playwright's page.
+        problems: console errors and uncaught exceptions so far, without the host's own.
+    """
+
+    def __init__(self, page: Any) -> None:
+        self.page = page
+        self.problems: list[str] = []
+        page.on("console", self._on_console)
+        page.on("pageerror", lambda error: self.problems.append(f"uncaught: {error}"))
+
+    def _on_console(self, message: Any) -> None:
+        ours = "physanimator" in f"{message.text} {message.location['url']}".lower()
+        if message.type == "error" and (ours or not message.text.startswith(_HOST_NOISE)):
+            self.problems.append(message.text)
+
+    def run(self, script: str, argument: Any = None) -> Any:
+        """The value of a JavaScript function, awaited."""
+        return self.page.evaluate(script, argument)
+
+    def load(self, workflow: dict[str, Any]) -> None:
+        """Open a workflow as the user would by dropping its file."""
+        self.run("(workflow) => app.loadGraphData(workflow, true, true)", workflow)
+        self.page.wait_for_timeout(500)
+
+    def fit(self) -> None:
+        """Bring the whole graph into view."""
+        self.run("() => app.extensionManager.command.execute('Comfy.Canvas.FitView')")
+        self.page.wait_for_timeout(1000)
+
+    def screenshot(self, path: str) -> None:
+        self.page.screenshot(path=path)
+
+
+@contextmanager
+def opened(url: str) -> Iterator[Page]:
+    """The page at a URL, ready for use and without the dialogs that greet a new user."""
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=EXECUTABLE, args=_ARGUMENTS)
+        tab = chromium.new_page(viewport={"width": 1920, "height": 1080})
+        page = Page(tab)
+        tab.request.post(f"{url}/settings/Comfy.TutorialCompleted", data="true")
+        tab.goto(url)
+        tab.wait_for_function(_READY, timeout=120_000)
+        tab.wait_for_timeout(1000)
+        yield page
+        chromium.close()

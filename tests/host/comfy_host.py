@@ -1,0 +1,141 @@
+"""A real ComfyUI server with this checkout among its custom nodes.
+
+The ComfyUI checkout is not touched: folders, database and custom nodes live in a temporary directory.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shlex
+import signal
+import socket
+import subprocess
+import time
+import urllib.error
+import urllib.parse
+import urllib.request
+import uuid
+from pathlib import Path
+from typing import Any
+
+__all__ = ["PACK", "ROOT", "Host"]
+
+ROOT = Path(__file__).resolve().parents[2]
+PACK = "PhysAnimator"
+_START_SECONDS = 180
+_RUN_SECONDS = 300
+
+
+class Host:
+    """A running server and what can be asked of it.
+
+    Attributes:
+        url: of the server, without a trailing slash.
+        folder: the temporary base directory.
+        client: identity under which prompts are posted.
+    """
+
+    def __init__(self, checkout: Path, python: str, folder: Path) -> None:
+        self.checkout, self.python, self.folder = checkout, python, folder
+        self.client = uuid.uuid4().hex
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            self.port = probe.getsockname()[1]
+        self.url = f"http://127.0.0.1:{self.port}"
+        (folder / "custom_nodes").mkdir()
+        (folder / "custom_nodes" / PACK).symlink_to(ROOT, target_is_directory=True)
+        self._log = (folder / "server.log").open("wb")
+        self._process = subprocess.Popen(
+            [python, "main.py", "--cpu", "--port", str(self.port), "--disable-auto-launch", "--disable-api-nodes",
+             "--base-directory", str(folder), "--database-url", f"sqlite:///{folder / 'comfyui.db'}",
+             *shlex.split(os.environ.get("COMFYUI_ARGUMENTS", ""))],
+            cwd=checkout, stdout=self._log, stderr=subprocess.STDOUT, start_new_session=True,
+        )  # fmt: skip
+
+    @property
+    def log(self) -> str:
+        """Everything the server has printed."""
+        return (self.folder / "server.log").read_text(errors="replace")
+
+    def wait_until_ready(self) -> None:
+        end = time.monotonic() + _START_SECONDS
+        while time.monotonic() < end:
+            if self._process.poll() is not None:
+                raise RuntimeError(f"ComfyUI stopped while starting:\n{self.log[-4000:]}")
+            try:
+                self.get("/system_stats")
+            except OSError:
+                time.sleep(0.3)
+            else:
+                return
+        raise RuntimeError(f"ComfyUI did not answer within {_START_SECONDS} s:\n{self.log[-4000:]}")
+
+    def stop(self) -> None:
+        self._process.send_signal(signal.SIGTERM)
+        try:
+            self._process.wait(15)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._log.close()
+
+    def read(self, path: str) -> bytes:
+        with urllib.request.urlopen(self.url + path, timeout=60) as answer:
+            return answer.read()
+
+    def get(self, path: str) -> Any:
+        return json.loads(self.read(path))
+
+    def post(self, path: str, data: dict[str, Any]) -> tuple[int, Any]:
+        """Status and decoded body of the answer."""
+        request = urllib.request.Request(
+            self.url + path, json.dumps(data).encode(), {"Content-Type": "application/json"}
+        )
+        try:
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                status, body = answer.status, answer.read()
+        except urllib.error.HTTPError as error:
+            with error:
+                status, body = error.code, error.read()
+        return status, json.loads(body) if body else None
+
+    def queue(self, prompt: dict[str, Any]) -> str:
+        """Post a prompt that must be accepted; its id."""
+        status, answer = self.post("/prompt", {"prompt": prompt, "client_id": self.client})
+        assert status == 200, answer
+        return answer["prompt_id"]
+
+    def wait(self, prompt_id: str) -> dict[str, Any]:
+        """The history entry of a prompt, once it has ended one way or another."""
+        end = time.monotonic() + _RUN_SECONDS
+        while time.monotonic() < end:
+            history = self.get(f"/history/{prompt_id}")
+            if prompt_id in history:
+                return history[prompt_id]
+            time.sleep(0.1)
+        raise AssertionError(f"prompt {prompt_id} did not end within {_RUN_SECONDS} s:\n{self.log[-4000:]}")
+
+    def run(self, prompt: dict[str, Any]) -> dict[str, Any]:
+        """Outputs of a prompt that must succeed, by node id."""
+        entry = self.wait(self.queue(prompt))
+        assert entry["status"]["status_str"] == "success", _raised(entry)
+        return entry["outputs"]
+
+    def error_of(self, prompt: dict[str, Any]) -> str:
+        """What a prompt that must fail says: refused at once, or in the node that raised."""
+        status, answer = self.post("/prompt", {"prompt": prompt, "client_id": self.client})
+        if status != 200:
+            return json.dumps(answer)
+        entry = self.wait(answer["prompt_id"])
+        assert entry["status"]["status_str"] == "error", entry["status"]
+        return _raised(entry)
+
+    def view(self, saved: dict[str, str]) -> bytes:
+        """A file that a node saved or previewed."""
+        return self.read(f"/view?{urllib.parse.urlencode(saved)}")
+
+
+def _raised(entry: dict[str, Any]) -> str:
+    """What the failed node of a history entry said."""
+    return next(data["exception_message"] for name, data in entry["status"]["messages"] if name == "execution_error")

@@ -1,0 +1,259 @@
+"""The graphs of the published workflows, described for ``export_workflows.py``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+__all__ = ["WORKFLOWS", "Column", "Group", "Node"]
+
+
+@dataclass(frozen=True)
+class Node:
+    """One node of a graph.
+
+    Attributes:
+        key: its name in this file.
+        type: the node's id.
+        title: shown on it; empty for the display name.
+        height: at least this [canvas units], to leave room for what it shows.
+        values: of its widgets, by name; the only widget of a note has no name here.
+        inputs: where its inputs come from: ``{"motion": "simulate.motion"}``.
+    """
+
+    key: str
+    type: str
+    title: str
+    height: int
+    values: dict[str, Any]
+    inputs: dict[str, str]
+
+
+@dataclass(frozen=True)
+class Column:
+    """Nodes below each other.
+
+    Attributes:
+        width: of each [canvas units].
+        nodes: from top to bottom.
+    """
+
+    width: int
+    nodes: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Group:
+    """A titled frame around columns.
+
+    Attributes:
+        title: of the frame.
+        color: of the frame.
+        columns: from left to right.
+    """
+
+    title: str
+    color: str
+    columns: tuple[Column, ...]
+
+
+BLUE, GREEN, ORANGE, TEAL, PURPLE = "#3f789e", "#5a8f5a", "#b06634", "#3a8f8f", "#8a6fb0"
+
+QUICKSTART_NOTE = """\
+## One still picture, moving
+
+**Run** lets a gentle wind move the hair, ribbon, cape and plant of the example, and saves a video of 3 seconds.
+
+**Your own picture:** replace *Example Illustration* by *Load Image*, and give each part that shall move a mask: \
+painted in the mask editor, or from *Segment by Points*.
+
+**More or less wind:** *wind_strength* and *wind_angle* in *Automatic Scene*.
+
+**Softer or stiffer:** *preset* in *Body*, or connect a *Material*.
+
+**Draw the wind yourself:** see the workflow *every_step*.
+
+Every node has a help page: select it and press **?**.
+"""
+
+STEPS_NOTE = """\
+## The wind, drawn by hand
+
+Every step of the paper, one node each.
+
+**1** *Segment by Points* cuts the cape out: points with 1 are on it, points with 0 beside it.
+
+**2** Two bodies. The hair's *Material* sways slower than usual.
+
+**3** An *Energy Stroke* blows gusts along its path, a second one pushes like a hand. *Rig Points* hold the hair at \
+the head and swing the cape at the shoulder.
+
+**4** *Optical Flow* bends the *sketch* along: this is what a sketch-guided video model wants.
+
+**5** *Interpolate* keeps every 15th frame and draws the others anew.
+"""
+
+CAPE_POINTS = """\
+[[680, 540, 1], [640, 480, 1], [700, 590, 1],
+ [650, 612, 1], [790, 568, 1], [720, 610, 1],
+ [470, 420, 0], [560, 400, 0], [600, 480, 0],
+ [597, 475, 0], [612, 440, 0], [545, 478, 0],
+ [760, 640, 0], [700, 470, 0]]"""
+
+
+def core(key: str, node_type: str, height: int = 0, /, title: str = "", values: Any = None, **inputs: str) -> Node:
+    """A node of the host."""
+    return Node(key, node_type, title, height, values or {}, inputs)
+
+
+def ours(key: str, node_type: str, height: int = 0, /, title: str = "", values: Any = None, **inputs: str) -> Node:
+    """A node of this pack."""
+    return Node(key, f"PhysAnimator_{node_type}", title, height, values or {}, inputs)
+
+
+def quickstart() -> tuple[Group, ...]:
+    """From the bundled illustration to a saved video, with the automatic scene."""
+    return (
+        _illustration(380, core("note", "MarkdownNote", 400, "Start here", {"": QUICKSTART_NOTE})),
+        _four_bodies(),
+        Group(
+            "3 · Physics simulation",
+            ORANGE,
+            (_simulated(420, ours("scene", "AutomaticScene", bodies="body_3.bodies")),),
+        ),
+        _video("quickstart", 520, "render.frames"),
+    )
+
+
+def every_step() -> tuple[Group, ...]:
+    """Each step of the paper: query points, strokes and rig points, flow and sketch, keyframes and in-betweens."""
+    scene = ours(
+        "scene",
+        "Scene",
+        values={"gravity_y": 0.1},
+        bodies="body_hair.bodies",
+        strokes="hand.strokes",
+        rig_points="shoulder.rig_points",
+    )
+    segment = ours("segment", "SegmentByPoints", 440, values={"points": CAPE_POINTS}, image="example.image")
+    interpolate = ours("interpolate", "Interpolate", images="render.frames", motion="simulate.motion")
+    return (
+        _illustration(340, core("note", "MarkdownNote", 450, "Every step", {"": STEPS_NOTE}), segment),
+        _cape_and_hair(),
+        Group("3 · Strokes, rig points, simulation", ORANGE, (_drawn(), _simulated(400, scene, {"frames": 61}))),
+        _sketches(),
+        _video("every_step", 420, "interpolate.frames", interpolate),
+    )
+
+
+def _illustration(width: int, note: Node, *more: Node) -> Group:
+    nodes = (note, ours("example", "ExampleIllustration", 370), *more)
+    return Group("1 · Illustration and masks", BLUE, (Column(width, nodes),))
+
+
+def _four_bodies() -> Group:
+    parts = (
+        ("cape", "cloth", "top"),
+        ("hair", "hair", "left"),
+        ("ribbon", "ribbon", "left"),
+        ("plant", "leaf", "auto"),
+    )
+    nodes: list[Node] = []
+    for layer, (part, preset, attach) in enumerate(parts):
+        before = {"bodies": f"body_{layer - 1}.bodies"} if layer else {}
+        values = {"preset": preset, "layer": layer, "attach": attach}
+        nodes += [
+            _mesh(part, f"example.{part}"),
+            ours(f"body_{layer}", "Body", 0, f"Body: {part}", values, mesh=f"mesh_{part}.mesh", **before),
+        ]
+    return Group("2 · Deformable bodies", GREEN, (Column(300, tuple(nodes[:4])), Column(300, tuple(nodes[4:]))))
+
+
+def _cape_and_hair() -> Group:
+    hair = {"mesh": "mesh_hair.mesh", "bodies": "body_cape.bodies", "material": "material.material"}
+    nodes = (
+        _mesh("cape", "segment.mask"),
+        ours("body_cape", "Body", 0, "Body: cape", {"preset": "cloth"}, mesh="mesh_cape.mesh"),
+        _mesh("hair", "example.hair"),
+        ours("material", "Material", values={"preset.sway_frequency": 0.8}),
+        ours("body_hair", "Body", 0, "Body: hair", {"layer": 1}, **hair),
+    )
+    return Group("2 · Deformable bodies", GREEN, (Column(300, nodes),))
+
+
+def _mesh(part: str, mask: str) -> Node:
+    return ours(f"mesh_{part}", "MaskToMesh", 340, f"Mask to Mesh: {part}", mask=mask, image="example.image")
+
+
+def _drawn() -> Column:
+    gusts = {
+        "path": "[[120, 330], [560, 300], [1000, 240], [1280, 260]]",
+        "radius": 320,
+        "speed": 800,
+        "strength": 2.5,
+        "interval": 1.2,
+    }
+    hand = {
+        "kind": "repel",
+        "path": "[[900, 470], [720, 420]]",
+        "radius": 160,
+        "speed": 150,
+        "strength": 3,
+        "start": 0.5,
+        "interval": 2.5,
+    }
+    head = {
+        "position": "[[470, 130]]",
+        "region": "polygon",
+        "region.points": "[[340, 20], [600, 20], [600, 330], [340, 330]]",
+        "body": 1,
+    }
+    shoulder = {
+        "position": "[[640, 450]]",
+        "region.radius": 45,
+        "motion": "wave",
+        "motion.amplitude": 12,
+        "motion.period": 1.5,
+        "body": 0,
+    }
+    return Column(
+        330,
+        (
+            ours("gusts", "EnergyStroke", 0, "Energy Stroke: gusts", gusts),
+            ours("hand", "EnergyStroke", 0, "Energy Stroke: a hand", hand, strokes="gusts.strokes"),
+            ours("head", "RigPoint", 0, "Rig Point: the head holds the hair", head),
+            ours("shoulder", "RigPoint", 0, "Rig Point: the shoulder swings", shoulder, rig_points="head.rig_points"),
+        ),
+    )
+
+
+def _simulated(width: int, scene: Node, values: dict[str, Any] | None = None) -> Column:
+    shown = {"image": "example.image", "motion": "simulate.motion", "scene": "scene.scene"}
+    simulate = ours("simulate", "Simulate", values=values, scene="scene.scene")
+    return Column(width, (scene, simulate, ours("preview", "PreviewMotion", 430, **shown)))
+
+
+def _sketches() -> Group:
+    saved = {"filename_prefix": "PhysAnimator/sketch", "fps": 24, "quality": 80, "lossless": False, "method": "fastest"}
+    nodes = (
+        ours("flow", "OpticalFlow", motion="simulate.motion"),
+        ours("preview_flow", "PreviewFlow", 370, flow="flow.flow"),
+        ours("sketch", "ExtractSketch", image="example.image"),
+        ours("warp", "WarpSketch", sketch="sketch.sketch", flow="flow.flow"),
+        core("save_sketch", "SaveAnimatedWEBP", 370, "Sketches", saved, images="warp.sketches"),
+    )
+    return Group("4 · Flow and sketch", TEAL, (Column(370, nodes),))
+
+
+def _video(name: str, width: int, frames: str, *between: Node) -> Group:
+    nodes = (
+        ours("render", "Render", image="example.image", motion="simulate.motion"),
+        *between,
+        core("video", "CreateVideo", images=frames, fps="simulate.frame_rate"),
+        core("save", "SaveVideo", 480, "", {"filename_prefix": f"PhysAnimator/{name}"}, video="video.VIDEO"),
+    )
+    number = 5 if between else 4
+    return Group(f"{number} · Frames and video", PURPLE, (Column(width, nodes),))
+
+
+WORKFLOWS = {"quickstart": quickstart, "every_step": every_step}

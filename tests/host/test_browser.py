@@ -1,0 +1,108 @@
+"""The published workflows in the host's own page, in Chromium."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+NAMES = sorted(path.stem for path in (ROOT / "workflows").glob("*.json"))
+
+_GRAPH = """
+() => app.graph.nodes.map((node) => ({
+  id: node.id, type: node.type, title: node.title,
+  broken: !!node.has_errors || !LiteGraph.registered_node_types[node.type],
+  widgets: Object.fromEntries((node.widgets ?? []).map((widget) => [widget.name, widget.value])),
+}))
+"""
+_ALERTS = "() => [...document.querySelectorAll('.p-toast-message, .p-dialog')].map((box) => box.innerText)"
+_PROMPT = "async () => JSON.stringify((await app.graphToPrompt()).output)"
+_FROM_TEMPLATES = """
+async (name) => {
+  const answer = await fetch(`/api/workflow_templates/PhysAnimator/${name}.json`);
+  await app.loadGraphData(await answer.json(), true, true, name, {openSource: 'template'});
+}
+"""
+
+
+def assert_opened_well(page: Any, name: str) -> None:
+    api = json.loads((ROOT / "workflows" / "api" / f"{name}.json").read_text(encoding="utf-8"))
+    nodes = {str(node["id"]): node for node in page.run(_GRAPH)}
+    assert not [node["type"] for node in nodes.values() if node["broken"]]
+    for key, described in api.items():
+        assert nodes[key]["title"] == described["_meta"]["title"]
+        for input_name, value in described["inputs"].items():
+            if not isinstance(value, list):
+                assert nodes[key]["widgets"][input_name] == value, f"{nodes[key]['type']}.{input_name}"
+    assert json.loads(page.run(_PROMPT)) == api
+    assert page.run(_ALERTS) == []
+    assert page.problems == []
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_workflow_file_opens(page: Any, name: str) -> None:
+    page.load(json.loads((ROOT / "workflows" / f"{name}.json").read_text(encoding="utf-8")))
+    assert_opened_well(page, name)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_template_opens(page: Any, name: str) -> None:
+    page.run(_FROM_TEMPLATES, name)
+    page.page.wait_for_timeout(500)
+    assert_opened_well(page, name)
+
+
+def test_every_node_can_be_added_by_hand(page: Any) -> None:
+    page.run("() => app.graph.clear()")
+    added = page.run("""() => Object.keys(LiteGraph.registered_node_types)
+        .filter((type) => type.startsWith('PhysAnimator_'))
+        .map((type) => { const node = LiteGraph.createNode(type); app.graph.add(node); return node.type; })""")
+    schemas = json.loads((ROOT / "tests" / "nodes" / "node_schemas.json").read_text(encoding="utf-8"))
+    assert sorted(added) == sorted(schemas)
+    assert page.problems == []
+
+
+def test_a_dynamic_choice_survives_saving(page: Any) -> None:
+    saved = page.run("""async () => {
+        app.graph.clear();
+        const node = LiteGraph.createNode('PhysAnimator_RigPoint');
+        app.graph.add(node);
+        const widget = (name) => node.widgets.find((one) => one.name === name);
+        widget('region').value = 'polygon';
+        widget('motion').value = 'wave';
+        await new Promise((done) => setTimeout(done, 100));
+        widget('motion.amplitude').value = 33;
+        widget('body').value = 2;
+        await app.loadGraphData(app.graph.serialize());
+        const values = Object.fromEntries(app.graph.nodes[0].widgets.map((one) => [one.name, one.value]));
+        return JSON.stringify(values);
+    }""")
+    values = json.loads(saved)
+    assert (values["region"], values["motion"], values["motion.amplitude"], values["body"]) == (
+        "polygon",
+        "wave",
+        33,
+        2,
+    )
+    assert values["motion.period"] == 2
+    assert page.problems == []
+
+
+def test_another_preset_brings_its_own_values(page: Any) -> None:
+    values = page.run("""async () => {
+        app.graph.clear();
+        const node = LiteGraph.createNode('PhysAnimator_Material');
+        app.graph.add(node);
+        const read = () => node.widgets.find((one) => one.name === 'preset.sway_frequency')?.value;
+        const first = read();
+        node.widgets.find((one) => one.name === 'preset').value = 'jelly';
+        await new Promise((done) => setTimeout(done, 100));
+        return [first, read()];
+    }""")
+    schemas = json.loads((ROOT / "tests" / "nodes" / "node_schemas.json").read_text(encoding="utf-8"))
+    options = schemas["PhysAnimator_Material"]["input"]["required"]["preset"][1]["options"]
+    usual = {o["key"]: o["inputs"]["required"].get("sway_frequency", [0, {}])[1].get("default") for o in options}
+    assert values == [usual["hair"], usual["jelly"]]

@@ -1,0 +1,94 @@
+"""The pack as the host loads it."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+SCHEMAS = json.loads((ROOT / "tests" / "nodes" / "node_schemas.json").read_text(encoding="utf-8"))
+
+_AWAIT_ENTRYPOINT = """
+import asyncio, importlib.util, json, sys
+spec = importlib.util.spec_from_file_location("pack", ROOT + "/__init__.py", submodule_search_locations=[ROOT])
+pack = sys.modules["pack"] = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(pack)
+heavy = [name for name in ("torch", "taichi", "cv2", "diffusers", "scipy", "comfy_api") if name in sys.modules]
+async def ids():
+    extension = await pack.comfy_entrypoint()
+    return [node.GET_SCHEMA().node_id for node in await extension.get_node_list()]
+print(json.dumps({"heavy": heavy, "ids": asyncio.run(ids()),
+                  "late": [name for name in ("taichi", "diffusers", "jsonschema") if name in sys.modules]}))
+"""
+
+
+def nodes_of(host: Any) -> dict[str, Any]:
+    return {name: info for name, info in host.get("/object_info").items() if name.startswith("PhysAnimator_")}
+
+
+def inputs_of(described: dict[str, Any]) -> list[tuple[str, Any]]:
+    """Every input with its options, those inside dynamic combos included."""
+    found = []
+    for name, (kind, options) in {**described.get("required", {}), **described.get("optional", {})}.items():
+        found.append((name, options))
+        if kind == "COMFY_DYNAMICCOMBO_V3":
+            for option in options["options"]:
+                found += inputs_of(option["inputs"])
+    return found
+
+
+def test_the_log_says_that_the_pack_was_loaded_and_nothing_worse(host: Any) -> None:
+    started = host.log.split("To see the GUI go to")[0]
+    about_us = [line for line in started.splitlines() if re.search("physanimator", line, re.IGNORECASE)]
+    assert [line for line in about_us if re.search(r"[\d.]+ seconds: ", line)]
+    assert not [line for line in about_us if re.search("failed|error|warning|cannot|skip", line, re.IGNORECASE)]
+    assert "Traceback" not in started
+
+
+def test_the_entrypoint_gives_every_node_and_loads_nothing_heavy_too_early(host: Any) -> None:
+    code = f"ROOT = {str(ROOT)!r}\n{_AWAIT_ENTRYPOINT}"
+    done = subprocess.run([host.python, "-c", code], cwd=host.checkout, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout.splitlines()[-1])
+    assert sorted(told["ids"]) == sorted(SCHEMAS)
+    assert told["heavy"] == []
+    assert told["late"] == []
+
+
+def test_the_recorded_schemas_are_those_of_this_host(host: Any) -> None:
+    assert nodes_of(host) == SCHEMAS, "run tests/host/export_workflows.py"
+
+
+def test_every_input_and_output_has_a_tooltip(host: Any) -> None:
+    for name, info in nodes_of(host).items():
+        assert info["description"], name
+        assert info["category"].startswith("PhysAnimator/"), name
+        for input_name, options in inputs_of(info["input"]):
+            assert len(options.get("tooltip") or "") > 5, f"{name}.{input_name}"
+        assert len(info["output"]) == len(info["output_tooltips"])
+        assert all(info["output_tooltips"]), name
+
+
+def test_every_number_has_bounds_a_step_and_a_default(host: Any) -> None:
+    for name, info in nodes_of(host).items():
+        for input_name, options in inputs_of(info["input"]):
+            if isinstance(options.get("default"), int | float) and not isinstance(options["default"], bool):
+                assert options["min"] <= options["default"] <= options["max"], f"{name}.{input_name}"
+
+
+def test_help_pages_are_served(host: Any) -> None:
+    for name in nodes_of(host):
+        page = host.read(f"/extensions/PhysAnimator/docs/{name}.md").decode()
+        assert page == (ROOT / "nodes" / "web" / "docs" / f"{name}.md").read_text(encoding="utf-8")
+
+
+def test_templates_are_offered_with_their_thumbnails(host: Any) -> None:
+    names = sorted(path.stem for path in (ROOT / "workflows").glob("*.json"))
+    assert sorted(host.get("/api/workflow_templates")["PhysAnimator"]) == names
+    for name in names:
+        served = host.get(f"/api/workflow_templates/PhysAnimator/{name}.json")
+        assert served == json.loads((ROOT / "workflows" / f"{name}.json").read_text(encoding="utf-8"))
+        assert host.read(f"/api/workflow_templates/PhysAnimator/{name}.jpg")[:3] == b"\xff\xd8\xff"

@@ -1,0 +1,53 @@
+"""Typed values that are refused before any work."""
+
+from __future__ import annotations
+
+import pytest
+from physanimator.nodes.defaults import default_of
+from physanimator.nodes.literals import chosen, refusal, times_of
+from physanimator.physics.errors import InvalidInputError, require
+
+
+@pytest.mark.parametrize("text", ["[0, 0.5, 2]", "0, 0.5, 2", " [0,0.5,2] "])
+def test_times_in_every_form(text: str) -> None:
+    assert times_of(text) == (0.0, 0.5, 2.0)
+
+
+@pytest.mark.parametrize("text", ["", "  ", "[]"])
+def test_no_times(text: str) -> None:
+    assert times_of(text) == ()
+
+
+@pytest.mark.parametrize("text", ["soon", "[0, [1]]", "0 1", '["a"]', "[0, null]"])
+def test_bad_times_are_refused_by_name(text: str) -> None:
+    with pytest.raises(InvalidInputError, match=r"^motion times must be a list of seconds such as \[0, 0\.5, 2\]"):
+        times_of(text, name="motion times")
+
+
+def test_the_choice_and_what_it_brings() -> None:
+    assert chosen({"region": "circle", "radius": 3.0}, "region", ("circle", "mask")) == ("circle", {"radius": 3.0})
+
+
+@pytest.mark.parametrize("choice", [None, {}, {"region": "blob"}, {"region": None}])
+def test_an_unknown_choice_is_refused(choice: dict | None) -> None:
+    with pytest.raises(InvalidInputError, match=r"^region must be one of circle, mask\. Got:"):
+        chosen(choice, "region", ("circle", "mask"))
+
+
+def test_a_refusal_is_the_sentence_of_the_first_failing_check() -> None:
+    def fail(name: str) -> None:
+        require(name, 1, False, "another")
+
+    assert refusal(lambda: 1, lambda: fail("radius"), lambda: fail("speed")) == "radius must be another. Got: 1"
+    assert refusal(lambda: None) is True
+
+
+def test_a_mistake_of_ours_is_not_passed_off_as_the_user_s() -> None:
+    with pytest.raises(ZeroDivisionError):
+        refusal(lambda: 1 / 0)
+
+
+def test_defaults_are_read_from_the_function() -> None:
+    def draw(image: object, *, width: float = 2.5) -> None: ...
+
+    assert default_of(draw, "width") == 2.5
