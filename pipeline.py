@@ -21,7 +21,7 @@ from .physics.material import preset as material_preset
 from .physics.mesh import TriangleMesh
 from .physics.meshing import mesh_from_mask
 from .physics.progress import Progress
-from .physics.scene import Scene
+from .physics.scene import Body, Scene
 from .physics.simulation import simulate
 from .rendering.animation import Animation, StageProgress, timed
 
@@ -95,14 +95,14 @@ def animate(
         if scene is None:
             materials = _materials(preset or "hair", sway, len(parts))
             rate = DEFAULT_FRAME_RATE if frame_rate is None else frame_rate
+            bodies = [Body(mesh, made, layer) for layer, (mesh, made) in enumerate(zip(meshes, materials, strict=True))]
             whole = automatic_scene(
-                meshes,
-                materials=materials,
+                bodies,
                 attach=attach,
                 frame_rate=rate,
                 wind_strength=wind_strength,
                 wind_angle=wind_angle,
-                natural_sway=sway is None,
+                sway_by_size=sway is None,
             )
         else:
             whole = _given_scene(scene, meshes, preset, sway, frame_rate)

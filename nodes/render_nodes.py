@@ -55,8 +55,9 @@ class Render(io.ComfyNode):
         count, report = len(motion.motion), host_progress()
         frames, alpha = picture_batch(count), mask_batch(count)
         for number in range(count):
-            frames.put(renderer.frame(number))
-            alpha.put(renderer.alpha(number))
+            picture, covered = renderer.frame_and_alpha(number)
+            frames.put(picture)
+            alpha.put(covered)
             report(number + 1, count)
         return io.NodeOutput(frames.tensor, alpha.tensor, batch_of_pictures([renderer.plate], 1))
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from comfy_api.latest import io
 
-from ..physics.automatic import gusts, pins
+from ..physics.automatic import automatic_scene
 from ..physics.errors import InvalidInputError
 from ..physics.rig import RigPoint
 from ..physics.scene import Scene as PhysicalScene
@@ -93,6 +93,12 @@ class AutomaticScene(io.ComfyNode):
                     step=5.0,
                     tooltip="Where the wind blows to [degrees]: 0 to the right, 90 up, 180 to the left.",
                 ),
+                io.Boolean.Input(
+                    "sway_by_size",
+                    default=True,
+                    tooltip="Small bodies sway faster than their material says and large ones slower, as pendulums do."
+                    " Off: every body sways as often as its material says.",
+                ),
                 _frame_rate(),
                 StrokesWire.Input("strokes", optional=True, tooltip="Used instead of the gusts when connected."),
                 RigWire.Input("rig_points", optional=True, tooltip="Used instead of the pins when connected."),
@@ -106,16 +112,21 @@ class AutomaticScene(io.ComfyNode):
         bodies: tuple[MaskedBody, ...],
         wind_strength: float,
         wind_angle: float,
+        sway_by_size: bool,
         frame_rate: float,
         strokes: tuple[EnergyStroke, ...] = (),
         rig_points: tuple[RigPoint, ...] = (),
     ) -> io.NodeOutput:
-        meshes = [item.body.mesh for item in bodies]
-        wind = strokes or (gusts(meshes, strength=wind_strength, angle=wind_angle) if wind_strength else ())
-        held = rig_points or [
-            pin for number, item in enumerate(bodies) for pin in pins(item.body, number, attach=item.attach)
-        ]
-        return _output(PhysicalScene(_physical(bodies), wind, tuple(held), frame_rate=frame_rate), bodies)
+        scene = automatic_scene(
+            _physical(bodies),
+            attach=[item.attach for item in bodies],
+            frame_rate=frame_rate,
+            wind_strength=wind_strength,
+            wind_angle=wind_angle,
+            sway_by_size=sway_by_size,
+        )
+        drawn = {"strokes": strokes, "rig_points": rig_points}
+        return _output(replace(scene, **{name: given for name, given in drawn.items() if given}), bodies)
 
 
 class SceneFromJSON(io.ComfyNode):

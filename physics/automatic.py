@@ -14,8 +14,8 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import InvalidInputError, require
-from .material import Material, preset
+from .errors import require
+from .material import Material
 from .mesh import TriangleMesh
 from .rig import Pinned, Polygon, RigPoint
 from .scene import Body, Scene
@@ -52,47 +52,38 @@ _NECK_RATIO = 1.6
 
 
 def automatic_scene(
-    meshes: Sequence[TriangleMesh],
+    bodies: Sequence[Body],
     *,
-    materials: Sequence[Material] | None = None,
-    attach: Attachment = "auto",
+    attach: Attachment | Sequence[Attachment] = "auto",
     frame_rate: float = 24.0,
     wind_strength: float = 1.0,
     wind_angle: float = 0.0,
-    natural_sway: bool = True,
+    sway_by_size: bool = True,
 ) -> Scene:
     """Bodies pinned where they are attached, under gentle gusts.
 
     Args:
-        meshes: one per body, later ones in front.
-        materials: one per body, or one for all; the preset "hair" when None.
-        attach: side at which the bodies are held; "auto" decides for each connected part.
+        bodies: what moves.
+        attach: side at which the bodies are held, one for all or one for each; "auto" decides for each connected part.
         frame_rate: frames a second.
         wind_strength: factor on the usual wind; 0 is calm, 1 gentle, 3 a storm.
         wind_angle: where the wind blows to [degrees]: 0 to the right, 90 up, 180 to the left.
-        natural_sway: take the materials' sway frequencies for a body of ``USUAL_LENGTH`` and let smaller bodies sway
+        sway_by_size: take the materials' sway frequencies for a body of ``USUAL_LENGTH`` and let smaller bodies sway
             faster and larger ones slower, as pendulums do; otherwise they hold as they are.
 
     Raises:
-        InvalidInputError: no mesh, or a number of materials that fits neither one nor all bodies.
+        InvalidInputError: no body, or a number of sides that fits neither one nor all bodies.
     """
-    require("meshes", len(meshes), len(meshes) > 0, "at least one")
-    require("attach", attach, attach in ATTACHMENTS, f"one of {', '.join(ATTACHMENTS)}")
+    require("bodies", len(bodies), len(bodies) > 0, "at least one")
+    sides = [attach] * len(bodies) if isinstance(attach, str) else list(attach)
+    require("attach", f"{len(sides)}", len(sides) == len(bodies), f"one side, or one for each of {len(bodies)} bodies")
     require("wind_strength", wind_strength, bool(np.isfinite(wind_strength)), "finite")
     require("wind_angle", wind_angle, bool(np.isfinite(wind_angle)), "finite degrees")
-    chosen = [preset("hair")] if materials is None else list(materials)
-    if len(chosen) == 1:
-        chosen *= len(meshes)
-    if len(chosen) != len(meshes):
-        raise InvalidInputError(
-            f"materials must be one, or one for each of the {len(meshes)} bodies. Got: {len(chosen)}"
-        )
-    if natural_sway:
-        chosen = [swaying_by_size(material, mesh) for material, mesh in zip(chosen, meshes, strict=True)]
-    bodies = [Body(mesh, material, layer) for layer, (mesh, material) in enumerate(zip(meshes, chosen, strict=True))]
-    held = [pin for number, body in enumerate(bodies) for pin in pins(body, number, attach=attach)]
-    wind = gusts(meshes, strength=wind_strength, angle=wind_angle) if wind_strength else ()
-    return Scene(tuple(bodies), tuple(wind), tuple(held), frame_rate=frame_rate)
+    if sway_by_size:
+        bodies = [replace(body, material=swaying_by_size(body.material, body.mesh)) for body in bodies]
+    held = [pin for number, body in enumerate(bodies) for pin in pins(body, number, attach=sides[number])]
+    wind = gusts([body.mesh for body in bodies], strength=wind_strength, angle=wind_angle) if wind_strength else ()
+    return Scene(tuple(bodies), wind, tuple(held), frame_rate=frame_rate)
 
 
 def swaying_by_size(material: Material, mesh: TriangleMesh) -> Material:
@@ -110,7 +101,11 @@ def pins(body: Body, number: int, *, attach: Attachment = "auto") -> list[RigPoi
         body: what to hold.
         number: the body's number in the scene.
         attach: side, or "auto" for each part's own.
+
+    Raises:
+        InvalidInputError: there is no such side.
     """
+    require("attach", attach, attach in ATTACHMENTS, f"one of {', '.join(ATTACHMENTS)}")
     share = _HELD_SHARE.get(body.material.name, _USUAL_SHARE)
     mesh = body.mesh
     points = []

@@ -70,7 +70,7 @@ PRESETS: dict[str, Material] = {
     "hair": Material(youngs_modulus=400.0, damping=1.4, sway_frequency=0.9, name="hair"),
     "ribbon": Material(youngs_modulus=250.0, damping=1.2, sway_frequency=1.1, name="ribbon"),
     "cloth": Material(youngs_modulus=300.0, damping=1.6, sway_frequency=1.0, name="cloth"),
-    "leaf": Material(youngs_modulus=900.0, damping=1.8, sway_frequency=1.4, name="leaf"),
+    "leaf": Material(youngs_modulus=900.0, damping=1.8, sway_frequency=1.0, name="leaf"),
     "jelly": Material(youngs_modulus=150.0, poisson_ratio=0.42, damping=1.2, sway_frequency=2.2, name="jelly"),
 }
 

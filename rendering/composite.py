@@ -84,7 +84,40 @@ class LayeredRenderer:
         Raises:
             InvalidInputError: there is no such frame.
         """
+        return self._over_plate(self._drawn(t))
+
+    def alpha(self, t: int) -> FloatImage:
+        """How much of each pixel moving bodies cover in frame ``t``, 0 to 1, shape [h, w].
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
+        return self._covered(self._drawn(t))
+
+    def frame_and_alpha(self, t: int) -> tuple[NDArray[Any], FloatImage]:
+        """``frame`` and ``alpha`` of one frame in little more than the time of one of them.
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
         drawn = self._drawn(t)
+        return self._over_plate(drawn), self._covered(drawn)
+
+    def cutout(self, t: int) -> NDArray[Any]:
+        """The moving bodies of frame ``t`` alone: straight RGB and alpha, dtype of the image, shape [h, w, 4].
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
+        planes = np.zeros((4, *self.plate.shape[:2]), dtype=np.float32)
+        for box, layer in self._drawn(t):
+            _lay_over(_part(planes, box), layer)
+        np.clip(planes, 0, 1, out=planes)
+        planes[:3] /= np.maximum(planes[3], 1e-6)
+        return _interleaved(planes, self.plate.dtype)
+
+    def _over_plate(self, drawn: list[tuple[PixelBox, FloatImage]]) -> NDArray[Any]:
+        """Drawn layers over the plate."""
         frame = self.plate.copy()
         if not drawn:
             return frame
@@ -95,30 +128,13 @@ class LayeredRenderer:
         frame[box.slices] = _interleaved(planes, frame.dtype)
         return frame
 
-    def alpha(self, t: int) -> FloatImage:
-        """How much of each pixel moving bodies cover in frame ``t``, 0 to 1, shape [h, w].
-
-        Raises:
-            InvalidInputError: there is no such frame.
-        """
-        return np.ascontiguousarray(self._bodies(t)[3])
-
-    def cutout(self, t: int) -> NDArray[Any]:
-        """The moving bodies of frame ``t`` alone: straight RGB and alpha, dtype of the image, shape [h, w, 4].
-
-        Raises:
-            InvalidInputError: there is no such frame.
-        """
-        planes = self._bodies(t)
-        planes[:3] /= np.maximum(planes[3], 1e-6)
-        return _interleaved(planes, self.plate.dtype)
-
-    def _bodies(self, t: int) -> FloatImage:
-        """Premultiplied RGB and alpha of all layers, shape [4, h, w]."""
-        planes = np.zeros((4, *self.plate.shape[:2]), dtype=np.float32)
-        for box, layer in self._drawn(t):
-            _lay_over(_part(planes, box), layer)
-        return np.clip(planes, 0, 1, out=planes)
+    def _covered(self, drawn: list[tuple[PixelBox, FloatImage]]) -> FloatImage:
+        """Coverage by drawn layers, shape [h, w]."""
+        covered = np.zeros(self.plate.shape[:2], dtype=np.float32)
+        for box, layer in drawn:
+            part = covered[box.slices]
+            part += np.clip(layer[..., 3], 0, 1) * (1 - part)
+        return covered
 
     def _drawn(self, t: int) -> list[tuple[PixelBox, FloatImage]]:
         """The layers that show in a frame, from back to front, each with its box."""

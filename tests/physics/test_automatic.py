@@ -10,6 +10,7 @@ from physanimator.physics.material import preset
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.particles import acceleration
 from physanimator.physics.rigging import vertices_of
+from physanimator.physics.scene import Body
 
 
 def grid(x0: float, y0: float, x1: float, y1: float, *, columns: int = 6, rows: int = 12) -> TriangleMesh:
@@ -21,6 +22,10 @@ def grid(x0: float, y0: float, x1: float, y1: float, *, columns: int = 6, rows: 
     return TriangleMesh(np.stack([x.reshape(-1), y.reshape(-1)], 1), triangles, 1000, 800)
 
 
+def body_of(mesh: TriangleMesh) -> Body:
+    return Body(mesh, preset("hair"))
+
+
 def two_parts() -> TriangleMesh:
     left, right = grid(100, 100, 200, 400), grid(300, 250, 340, 380)
     vertices = np.concatenate([left.vertices, right.vertices])
@@ -30,7 +35,7 @@ def two_parts() -> TriangleMesh:
 
 def test_each_part_is_held_at_its_top() -> None:
     mesh = two_parts()
-    scene = automatic_scene([mesh])
+    scene = automatic_scene([body_of(mesh)])
     held = np.zeros(len(mesh.vertices), dtype=bool)
     for point in scene.rig_points:
         held |= vertices_of(point, mesh)
@@ -54,7 +59,7 @@ def test_a_wide_hem_on_the_border_still_hangs_from_the_top() -> None:
 @pytest.mark.parametrize(("side", "axis", "extreme"), [("left", 0, min), ("right", 0, max), ("bottom", 1, max)])
 def test_the_side_can_be_chosen(side: str, axis: int, extreme: object) -> None:
     mesh = grid(100, 100, 300, 500)
-    (point,) = automatic_scene([mesh], attach=side).rig_points
+    (point,) = automatic_scene([body_of(mesh)], attach=side).rig_points
     held = vertices_of(point, mesh)
     assert held.any()
     assert not held.all()
@@ -65,7 +70,7 @@ def test_the_side_can_be_chosen(side: str, axis: int, extreme: object) -> None:
 @pytest.mark.parametrize("angle", [0.0, 90.0, 180.0, 215.0])
 def test_the_wind_reaches_every_vertex_and_blows_where_it_should(angle: float) -> None:
     mesh = grid(100, 100, 300, 500)
-    scene = automatic_scene([mesh], wind_angle=angle)
+    scene = automatic_scene([body_of(mesh)], wind_angle=angle)
     total = np.zeros((len(mesh.vertices), 2))
     for t in np.arange(0, 3, 1 / 24):
         total += sum(acceleration(stroke, mesh.vertices, t) for stroke in scene.strokes)
@@ -75,15 +80,27 @@ def test_the_wind_reaches_every_vertex_and_blows_where_it_should(angle: float) -
 
 
 def test_calm_has_no_strokes() -> None:
-    assert automatic_scene([grid(100, 100, 300, 500)], wind_strength=0).strokes == ()
+    assert automatic_scene([body_of(grid(100, 100, 300, 500))], wind_strength=0).strokes == ()
 
 
-def test_materials_are_one_or_one_each() -> None:
-    mesh = grid(100, 100, 300, 500)
-    scene = automatic_scene([mesh, mesh], materials=[preset("hair"), preset("leaf")])
-    assert [body.material.name for body in scene.bodies] == ["hair", "leaf"]
-    assert [body.layer for body in scene.bodies] == [0, 1]
-    with pytest.raises(InvalidInputError, match="materials must be one, or one for each of the 3 bodies"):
-        automatic_scene([mesh] * 3, materials=[preset("hair")] * 2)
-    with pytest.raises(InvalidInputError, match="meshes must be at least one"):
+def test_sides_are_one_or_one_each() -> None:
+    bodies = [body_of(grid(100, 100, 300, 500)), body_of(grid(500, 100, 700, 500))]
+    first, second = automatic_scene(bodies, attach=["left", "bottom"]).rig_points
+    assert vertices_of(first, bodies[0].mesh)[0]
+    assert not vertices_of(second, bodies[1].mesh)[0]
+    assert vertices_of(second, bodies[1].mesh)[-1]
+    with pytest.raises(InvalidInputError, match=r"attach must be one side, or one for each of 2 bodies. Got: 3"):
+        automatic_scene(bodies, attach=["left", "bottom", "top"])
+    with pytest.raises(InvalidInputError, match=r"attach must be one of auto, top, bottom, left, right. Got: inside"):
+        automatic_scene(bodies, attach="inside")
+    with pytest.raises(InvalidInputError, match="bodies must be at least one"):
         automatic_scene([])
+
+
+def test_smaller_bodies_sway_faster_unless_told_otherwise() -> None:
+    bodies = [body_of(grid(0, 0, 180, 240)), body_of(grid(0, 0, 45, 60))]
+    large, small = automatic_scene(bodies).bodies
+    assert large.material.sway_frequency == pytest.approx(0.9)
+    assert small.material.sway_frequency == pytest.approx(1.8)
+    as_given = automatic_scene(bodies, sway_by_size=False).bodies
+    assert [body.material.sway_frequency for body in as_given] == [0.9, 0.9]

@@ -191,6 +191,16 @@ def test_the_cutout_laid_over_the_plate_is_the_frame(renderer: LayeredRenderer) 
     assert np.abs(cutout[..., :3] * alpha + (1 - alpha) * renderer.plate - renderer.frame(3)).max() < 1e-4
 
 
+def test_frame_and_alpha_at_once_are_those_of_each_alone() -> None:
+    image, masks, motion = two_discs((0, 1))
+    drawn = LayeredRenderer(image, masks, motion)
+    for t in range(len(motion)):
+        frame, alpha = drawn.frame_and_alpha(t)
+        np.testing.assert_array_equal(frame, drawn.frame(t))
+        np.testing.assert_array_equal(alpha, drawn.alpha(t))
+        np.testing.assert_allclose(alpha, drawn.cutout(t)[..., 3], atol=1e-6)
+
+
 def test_dtypes_are_kept_and_frames_repeat() -> None:
     image = as_uint8(picture(*STILL))
     renderer = LayeredRenderer(image, [MASK], motion_of(round_mesh(), SWAY))
