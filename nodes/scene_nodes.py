@@ -136,9 +136,12 @@ class SceneFromJSON(io.ComfyNode):
             node_id="PhysAnimator_SceneFromJSON",
             display_name="Scene from JSON",
             category="PhysAnimator/scene",
-            description="Takes strokes, rig points, gravity and frame rate from a scene document.",
+            description="Takes strokes, rig points, materials, gravity and frame rate from a scene document.",
             inputs=[
-                BodiesWire.Input("bodies", tooltip="What moves; the document's own bodies are not used."),
+                BodiesWire.Input(
+                    "bodies",
+                    tooltip="What moves, in the order of the document's bodies, whose materials and layers they take on.",
+                ),
                 io.String.Input(
                     "scene",
                     default=_SAMPLE,
@@ -159,11 +162,17 @@ class SceneFromJSON(io.ComfyNode):
     @classmethod
     def execute(cls, bodies: tuple[MaskedBody, ...], scene: str) -> io.NodeOutput:
         from ..physics.json_text import read_json
+        from ..physics.scene_checking import check_document
         from ..physics.scene_json import scene_from_dict
 
-        document = {key: value for key, value in read_json(scene).items() if key != "bodies"}
-        read = scene_from_dict(document, meshes=[item.body.mesh for item in bodies])
-        return _output(replace(read, bodies=_physical(bodies)), bodies)
+        document = check_document(read_json(scene))
+        entries = [{k: v for k, v in entry.items() if k != "mesh"} for entry in document.get("bodies", [])]
+        read = scene_from_dict(document | {"bodies": entries}, meshes=[item.body.mesh for item in bodies])
+        named = [
+            replace(item.body, **{field: getattr(found, field) for field in entry})
+            for item, found, entry in zip(bodies, read.bodies, entries, strict=False)
+        ]
+        return _output(replace(read, bodies=(*named, *_physical(bodies)[len(named) :])), bodies)
 
 
 def _physical(bodies: tuple[MaskedBody, ...]) -> tuple[Any, ...]:

@@ -27,7 +27,9 @@ def ribbon(frames: int) -> dict[str, Any]:
         "example": ours("ExampleIllustration"),
         "mesh": ours("MaskToMesh", mask=["example", 2], spacing=0.0, elements_across=3, mask_index=0),
         "body": ours("Body", mesh=["mesh", 0], preset="ribbon", layer=0, attach="left"),
-        "scene": ours("AutomaticScene", bodies=["body", 0], wind_strength=2.0, wind_angle=0.0, frame_rate=12.0),
+        "scene": ours(
+            "AutomaticScene", bodies=["body", 0], wind_strength=2.0, wind_angle=0.0, sway_by_size=True, frame_rate=12.0
+        ),
         "simulate": ours("Simulate", scene=["scene", 0], frames=frames),
         "render": ours("Render", image=["example", 0], motion=["simulate", 0]),
     }
