@@ -140,7 +140,7 @@ class SceneFromJSON(io.ComfyNode):
             inputs=[
                 BodiesWire.Input(
                     "bodies",
-                    tooltip="What moves, in the order of the document's bodies, whose materials and layers they take on.",
+                    tooltip="What moves, in the order of the document's bodies, whose materials they take on.",
                 ),
                 io.String.Input(
                     "scene",

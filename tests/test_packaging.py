@@ -17,7 +17,7 @@ import physanimator
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-DATA = ("physics/*.schema.json", "nodes/web/**/*", "locales/**/*.json", "workflows/**/*")
+DATA = ("physics/*.schema.json", "nodes/web/**/*", "workflows/**/*")
 DATA_SUFFIXES = {".css", ".html", ".jpg", ".js", ".json", ".md", ".png", ".svg", ".webp"}
 
 
@@ -25,7 +25,7 @@ DATA_SUFFIXES = {".css", ".html", ".jpg", ".js", ".json", ".md", ".png", ".svg",
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A copy of the sources, with the kind of litter that a working tree collects."""
     copy = tmp_path_factory.mktemp("packaging") / "any folder-name"
-    for room in ("locales", "nodes", "physics", "rendering", "tests", "workflows"):
+    for room in ("nodes", "physics", "rendering", "tests", "workflows"):
         shutil.copytree(ROOT / room, copy / room, ignore=shutil.ignore_patterns(".*", "node_modules"))
     for path in (path for path in ROOT.iterdir() if path.is_file()):
         shutil.copy(path, copy)
