@@ -21,7 +21,7 @@ Mask = NDArray[np.bool_]
 
 _FAINT = 0.02
 # A fill of patches alone looks best; half-way to the smooth fill it errs least. The share is a compromise.
-_TEXTURE = 0.6
+_TEXTURE = 0.5
 _CONTEXT = 120
 _MATCHED_PIXELS = 30_000
 

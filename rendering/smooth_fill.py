@@ -11,7 +11,7 @@ __all__ = ["smooth_fill", "spread_colours"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
-_POWER = 4
+_POWER = 1.5
 _LARGEST_WINDOW = 600_000
 # How deep in a hole the harmonic fill has taken over [px].
 _DEPTH = 30.0
@@ -40,7 +40,7 @@ def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
 
 
 def spread_colours(picture: FloatImage, known: Mask, wanted: Mask) -> FloatImage:
-    """Continue colours smoothly: the mean of the known ones, weighted by distance^-4.
+    """Continue colours smoothly: the mean of the known ones, weighted by distance^-1.5.
 
     Args:
         picture: RGB, shape [h, w, 3].
@@ -63,7 +63,7 @@ def spread_colours(picture: FloatImage, known: Mask, wanted: Mask) -> FloatImage
 
 
 def _weighted_by_distance(picture: FloatImage, known: Mask) -> FloatImage:
-    """Mean of the known colours weighted by distance^-4 at every pixel, as a convolution, shape [h, w, 3]."""
+    """Mean of the known colours weighted by distance^-1.5 at every pixel, as a convolution, shape [h, w, 3]."""
     from scipy import fft
 
     height, width = known.shape
