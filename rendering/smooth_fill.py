@@ -11,7 +11,8 @@ __all__ = ["smooth_fill", "spread_colours"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
-_POWER = 1.5
+# Behind a part, colours of all its surroundings may show, not only those of the nearest edge.
+_FILL_POWER = 1.5
 _LARGEST_WINDOW = 600_000
 # How deep in a hole the harmonic fill has taken over [px].
 _DEPTH = 30.0
@@ -33,44 +34,45 @@ def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
     Returns:
         RGB, shape [h, w, 3]; unchanged outside the hole.
     """
-    near = spread_colours(picture, ~hole, hole)
+    near = spread_colours(picture, ~hole, hole, power=_FILL_POWER)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.minimum(depth / np.float32(_DEPTH), 1)[..., None]
     return near + share * (_harmonic(picture, hole) - near)
 
 
-def spread_colours(picture: FloatImage, known: Mask, wanted: Mask) -> FloatImage:
-    """Continue colours smoothly: the mean of the known ones, weighted by distance^-1.5.
+def spread_colours(picture: FloatImage, known: Mask, wanted: Mask, *, power: float = 4.0) -> FloatImage:
+    """Continue colours smoothly: the mean of the known ones, weighted by distance^-power.
 
     Args:
         picture: RGB, shape [h, w, 3].
         known: where colours may be taken from, shape [h, w]; those at the edge of ``wanted`` if any.
         wanted: where colours are to be found, shape [h, w].
+        power: how much nearer colours count for more.
 
     Returns:
         The picture with the wanted colours, shape [h, w, 3]; unchanged where no colour is known.
     """
     if wanted.size > _LARGEST_WINDOW:
-        return _spread_at_half_size(picture, known, wanted)
+        return _spread_at_half_size(picture, known, wanted, power)
     edge = known & (cv2.dilate(wanted.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
     if not edge.any():
         edge = known
     if not edge.any():
         return picture
     filled = picture.copy()
-    filled[wanted] = _weighted_by_distance(picture, edge)[wanted]
+    filled[wanted] = _weighted_by_distance(picture, edge, power)[wanted]
     return filled
 
 
-def _weighted_by_distance(picture: FloatImage, known: Mask) -> FloatImage:
-    """Mean of the known colours weighted by distance^-1.5 at every pixel, as a convolution, shape [h, w, 3]."""
+def _weighted_by_distance(picture: FloatImage, known: Mask, power: float) -> FloatImage:
+    """Mean of the known colours weighted by distance^-power at every pixel, as a convolution, shape [h, w, 3]."""
     from scipy import fft
 
     height, width = known.shape
     # Double precision: the weights span more than the range of single precision.
     y = np.minimum(np.arange(2 * height), 2 * height - np.arange(2 * height)).astype(np.float64)
     x = np.minimum(np.arange(2 * width), 2 * width - np.arange(2 * width)).astype(np.float64)
-    kernel = fft.rfft2((y[:, None] ** 2 + x**2 + 0.5) ** (-_POWER / 2))
+    kernel = fft.rfft2((y[:, None] ** 2 + x**2 + 0.5) ** (-power / 2))
     planes = [known.astype(np.float64), *(picture[..., k] * known.astype(np.float64) for k in range(3))]
     spread = [
         fft.irfft2(fft.rfft2(plane, s=(2 * height, 2 * width)) * kernel, s=(2 * height, 2 * width))[:height, :width]
@@ -79,12 +81,12 @@ def _weighted_by_distance(picture: FloatImage, known: Mask) -> FloatImage:
     return (np.stack(spread[1:], axis=-1) / np.maximum(spread[0], 1e-13)[..., None]).astype(np.float32)
 
 
-def _spread_at_half_size(picture: FloatImage, known: Mask, wanted: Mask) -> FloatImage:
+def _spread_at_half_size(picture: FloatImage, known: Mask, wanted: Mask, power: float) -> FloatImage:
     size = (wanted.shape[1] + 1) // 2, (wanted.shape[0] + 1) // 2
     weight = cv2.resize(known.astype(np.float32), size, interpolation=cv2.INTER_AREA)
     total = cv2.resize(picture * known[..., None], size, interpolation=cv2.INTER_AREA)
     some = cv2.resize(wanted.astype(np.float32), size, interpolation=cv2.INTER_AREA) > 0
-    small = spread_colours(total / np.maximum(weight, 1e-6)[..., None], (weight > 0.5) & ~some, some)
+    small = spread_colours(total / np.maximum(weight, 1e-6)[..., None], (weight > 0.5) & ~some, some, power=power)
     large = cv2.resize(small, wanted.shape[::-1], interpolation=cv2.INTER_LINEAR)
     return np.where(wanted[..., None], large, picture)
 
