@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -47,8 +48,11 @@ class Simulate(io.ComfyNode):
 
     @classmethod
     def execute(cls, scene: MaskedScene, frames: int) -> io.NodeOutput:
+        from ..physics.advice import advice
         from ..physics.simulation import simulate
 
+        for sentence in advice(scene.scene):
+            logging.warning("PhysAnimator: %s", sentence)
         motion = simulate(scene.scene, frames=frames, progress=host_progress())
         return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate)
 
