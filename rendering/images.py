@@ -103,6 +103,22 @@ def save_image(path: StrPath, image: NDArray[Any]) -> None:
         Image.fromarray(to_uint8(image)).save(temporary)
 
 
+def data_address(image: NDArray[Any]) -> str:
+    """A picture as a ``data:`` address, to be part of an SVG or a web page.
+
+    Args:
+        image: RGB, uint8 or 0..1 float, shape [h, w, 3].
+    """
+    import base64
+    import io
+
+    from PIL import Image
+
+    file = io.BytesIO()
+    Image.fromarray(to_uint8(image)).save(file, format="JPEG", quality=88)
+    return "data:image/jpeg;base64," + base64.b64encode(file.getvalue()).decode("ascii")
+
+
 def to_uint8(image: NDArray[Any]) -> NDArray[np.uint8]:
     """Values 0..1 as 0..255, rounded; uint8 passes unchanged.
 
