@@ -145,6 +145,17 @@ def _add_output(parser: argparse.ArgumentParser, *, output: str | None) -> None:
     drawing.add_argument(
         "--preview", metavar="OUT", help="also write the animation with meshes, pins and strokes on it"
     )
+    data = parser.add_argument_group("data for other programs")
+    data.add_argument(
+        "--save-tracks",
+        metavar="OUT.json",
+        help="write paths of points for motion-controlled video models: a list of {x, y} for each point",
+    )
+    data.add_argument("--track-points", metavar="N", type=int, help="points on the moving parts (default: 64)")
+    data.add_argument("--track-static", metavar="N", type=int, help="points of the background (default: 16)")
+    data.add_argument("--track-frames", metavar="N", type=int, help="samples over the clip (default: one a frame)")
+    data.add_argument("--save-motion", metavar="OUT.json", help="write every vertex of the meshes in every frame")
+    data.add_argument("--save-svg", metavar="OUT.svg", help="write the moving meshes as an SVG that plays in a browser")
     volume = parser.add_mutually_exclusive_group()
     volume.add_argument("--verbose", "-v", action="store_true", help="report sizes and the time of each stage")
     volume.add_argument("--quiet", "-q", action="store_true", help="no progress bars")
@@ -232,10 +243,28 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             animation.write(animation.flows(progress=progress), options.save_flow, width=options.width)
         if options.preview:
             animation.write(animation.previews(progress=progress), options.preview, width=options.width)
+    _save_data(options, animation)
     if options.verbose:
         _report(animation)
     if not options.quiet:
         print(f"{options.output}: {len(animation)} frames at {animation.motion.frame_rate:g} frames a second")
+
+
+def _save_data(options: argparse.Namespace, animation: Animation) -> None:
+    """Write what other programs read."""
+    if options.save_tracks:
+        wanted = {
+            "points": options.track_points,
+            "static_points": options.track_static,
+            "frames": options.track_frames,
+            "width": options.width,
+            "height": options.width and animation.height_at(options.width),
+        }
+        animation.save_tracks(options.save_tracks, **{name: n for name, n in wanted.items() if n is not None})
+    if options.save_motion:
+        animation.save_motion(options.save_motion)
+    if options.save_svg:
+        animation.save_svg(options.save_svg)
 
 
 def _is_transparent(options: argparse.Namespace) -> bool:
@@ -246,6 +275,8 @@ def _is_transparent(options: argparse.Namespace) -> bool:
 
 def _check_outputs(options: argparse.Namespace) -> None:
     from .physics.errors import InvalidInputError
+    from .physics.tracks import check_track_options
+    from .rendering.text_files import check_text_output
     from .rendering.video import check_output
 
     check_output(options.output, alpha=_is_transparent(options))
@@ -256,6 +287,14 @@ def _check_outputs(options: argparse.Namespace) -> None:
         if path is not None:
             check_output(path)
             chosen.append(path)
+    for path, suffix in ((options.save_tracks, ".json"), (options.save_motion, ".json"), (options.save_svg, ".svg")):
+        if path is not None:
+            check_text_output(path, suffix)
+            chosen.append(path)
+    tracked = (options.track_points, options.track_static, options.track_frames)
+    if not options.save_tracks and tracked != (None, None, None):
+        raise InvalidInputError("--track-points, --track-static and --track-frames need --save-tracks. Got: without")
+    check_track_options(points=tracked[0], static_points=tracked[1], frames=tracked[2])
     if len({Path(path).resolve() for path in chosen}) < len(chosen):
         raise InvalidInputError(f"every output must have its own name. Got: {', '.join(chosen)}")
 

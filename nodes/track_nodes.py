@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from comfy_api.latest import io
 
+from ..physics.tracks import FITS, Fit
 from .previews import animated
 from .progress import host_progress
 from .tensors import picture_batch, pictures_for
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     import torch
     from numpy.typing import NDArray
 
-    from ..physics.tracks import Fit
     from ..physics.tracks import Tracks as PointTracks
 
 __all__ = ["Tracks"]
@@ -67,7 +67,7 @@ class Tracks(io.ComfyNode):
                 ),
                 io.Combo.Input(
                     "fit",
-                    options=["crop", "stretch"],
+                    options=list(FITS),
                     default="crop",
                     tooltip="How the illustration comes to that size: cut to its middle, as the Wan nodes do with their"
                     " start image, or stretched.",
@@ -78,7 +78,7 @@ class Tracks(io.ComfyNode):
                     min=0.0,
                     max=2.0,
                     step=0.05,
-                    tooltip="0 spreads the points evenly over the bodies; more gathers them where the movement is large.",
+                    tooltip="0 spreads the points evenly over the bodies; more gathers them where much moves.",
                 ),
                 io.Image.Input(
                     "image",
@@ -111,8 +111,16 @@ class Tracks(io.ComfyNode):
         from ..physics.tracks import tracks
 
         moved = motion.motion
-        size = {"width": width or None, "height": height or None, "fit": fit}
-        found = tracks(moved, points=points, static=static_points, frames=frames or None, weighting=weighting, **size)
+        found = tracks(
+            moved,
+            points=points,
+            static_points=static_points,
+            frames=frames or None,
+            width=width or None,
+            height=height or None,
+            fit=fit,
+            weighting=weighting,
+        )
         pictures = None
         if image is not None:
             pictures = pictures_for(image, moved.width, moved.height, frames=len(moved))

@@ -15,7 +15,7 @@ from .motion import Motion
 from .pixel_box import PixelBox
 from .raster import barycentric, triangle_ids
 
-__all__ = ["BodyPoints", "Frame", "body_points", "stacked_triangles", "static_points"]
+__all__ = ["BodyPoints", "Frame", "background_points", "body_points", "stacked_triangles"]
 
 FloatArray = NDArray[np.float64]
 
@@ -129,7 +129,7 @@ def _inset(visible: NDArray[np.bool_], distance: float) -> NDArray[np.bool_]:
     return visible & (depth >= min(distance, 0.5 * float(depth.max())))
 
 
-def static_points(motion: Motion, count: int, *, frame: Frame) -> FloatArray:
+def background_points(motion: Motion, count: int, *, frame: Frame) -> FloatArray:
     """Points of the background that no body covers in any frame, spread out evenly [px], shape [k, 2].
 
     Args:

@@ -17,9 +17,9 @@ from .errors import require
 from .flow import layer_order
 from .motion import Motion
 from .resampling import INTERPOLATIONS, Interpolation, frame_at, sample_times
-from .track_points import BodyPoints, Frame, body_points, static_points
+from .track_points import BodyPoints, Frame, background_points, body_points
 
-__all__ = ["FITS", "MOST_TRACKS", "Fit", "Tracks", "tracks"]
+__all__ = ["FITS", "MOST_TRACKS", "Fit", "Tracks", "check_track_options", "tracks"]
 
 FloatArray = NDArray[np.float64]
 
@@ -28,8 +28,13 @@ Fit = Literal["crop", "stretch"]
 FITS: tuple[Fit, ...] = get_args(Fit)
 
 MOST_TRACKS = 4096
-MOST_SAMPLES = 10_000
-LONGEST_SIDE = 16_384  # [px]
+_RANGES = {
+    "points": (1, MOST_TRACKS, ""),
+    "static_points": (0, MOST_TRACKS, ""),
+    "frames": (1, 10_000, ""),
+    "width": (1, 16_384, " px"),
+    "height": (1, 16_384, " px"),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +81,7 @@ def tracks(
     motion: Motion,
     *,
     points: int = 64,
-    static: int = 16,
+    static_points: int = 16,
     frames: int | None = None,
     width: int | None = None,
     height: int | None = None,
@@ -89,7 +94,7 @@ def tracks(
     Args:
         motion: how the bodies move. Points begin where they can be seen in its first frame.
         points: points on the bodies, by farthest-point sampling; fewer where the bodies have fewer pixels.
-        static: points of the background that no body reaches; fewer where there is less room.
+        static_points: points of the background that no body reaches; fewer where there is less room.
         frames: samples over the whole motion, from its first frame to its last; one a frame when None.
         width: of the picture that the tracks are for [px]; the illustration's when None.
         height: of that picture [px]; the illustration's when None.
@@ -103,17 +108,13 @@ def tracks(
     """
     frames = len(motion) if frames is None else frames
     size = (motion.width if width is None else width, motion.height if height is None else height)
-    require("points", points, 1 <= points <= MOST_TRACKS, f"1 to {MOST_TRACKS}")
-    require("static", static, 0 <= static <= MOST_TRACKS, f"0 to {MOST_TRACKS}")
-    require("frames", frames, 1 <= frames <= MOST_SAMPLES, f"1 to {MOST_SAMPLES}")
-    for name, value in zip(("width", "height"), size, strict=True):
-        require(name, value, 1 <= value <= LONGEST_SIDE, f"1 to {LONGEST_SIDE} px")
+    check_track_options(points=points, static_points=static_points, frames=frames, width=size[0], height=size[1])
     require("fit", fit, fit in FITS, f"one of {', '.join(FITS)}")
     require("weighting", weighting, 0 <= weighting <= 8, "0 to 8")
     require("interpolation", interpolation, interpolation in INTERPOLATIONS, f"one of {', '.join(INTERPOLATIONS)}")
     scale, frame = _placed(motion, size, fit)
     followed = body_points(motion, points, frame=frame, weighting=weighting)
-    still = static_points(motion, static, frame=frame)
+    still = background_points(motion, static_points, frame=frame)
     paths, seen = [], []
     for time in sample_times(len(motion), frames):
         positions = frame_at(motion.positions, time, interpolation)
@@ -125,6 +126,20 @@ def tracks(
     path = (np.stack(paths) - (frame.left, frame.top)) * scale
     rate = motion.frame_rate * (frames - 1) / (len(motion) - 1) if len(motion) > 1 and frames > 1 else motion.frame_rate
     return Tracks(path.astype(np.float32), np.stack(seen), *size, rate)
+
+
+def check_track_options(**numbers: int | None) -> None:
+    """Refuse numbers that :func:`tracks` would refuse, before any long work; None passes.
+
+    Args:
+        numbers: any of points, static_points, frames, width and height.
+
+    Raises:
+        InvalidInputError: one is out of its range.
+    """
+    for name, number in numbers.items():
+        least, most, unit = _RANGES[name]
+        require(name, number, number is None or least <= number <= most, f"{least} to {most}{unit}")
 
 
 def _placed(motion: Motion, size: tuple[int, int], fit: Fit) -> tuple[FloatArray, Frame]:

@@ -165,6 +165,10 @@ class Animation:
         """The motion of the frames that are shown."""
         return self.motion[self.first :]
 
+    def height_at(self, width: int) -> int:
+        """Height of written frames of a width [px]."""
+        return _height_at(self.image, width)
+
     def save_motion(self, path: StrPath) -> None:
         """Write every vertex of every frame as JSON; see :func:`~physanimator.physics.export.motion_to_dict`.
 
@@ -226,10 +230,14 @@ class Animation:
             yield picture
 
 
+def _height_at(picture: Image, width: int) -> int:
+    return max(1, round(picture.shape[0] * width / picture.shape[1]))
+
+
 def _resized(picture: Image, width: int) -> Image:
     import cv2
 
-    height = max(1, round(picture.shape[0] * width / picture.shape[1]))
+    height = _height_at(picture, width)
     finer = width > picture.shape[1]
     return cv2.resize(picture, (width, height), interpolation=cv2.INTER_CUBIC if finer else cv2.INTER_AREA)
 

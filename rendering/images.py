@@ -17,7 +17,7 @@ from .atomic import replacing
 if TYPE_CHECKING:
     from PIL import Image
 
-__all__ = ["LONGEST_SIDE", "load_image", "load_mask", "save_image", "to_uint8"]
+__all__ = ["LONGEST_SIDE", "data_address", "load_image", "load_mask", "save_image", "to_uint8"]
 
 LONGEST_SIDE = 8192
 """The longest side of a picture that is accepted [px]."""
