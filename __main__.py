@@ -57,6 +57,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     _add_animate(commands.add_parser("animate", help="animate an illustration", allow_abbrev=False))
     _add_demo(commands.add_parser("demo", help="animate the bundled example", allow_abbrev=False))
+    _add_figure(commands.add_parser("figure", help="draw a figure that explains the controls", allow_abbrev=False))
     schema = commands.add_parser("schema", help="print the JSON Schema of scene files", allow_abbrev=False)
     schema.set_defaults(run=_schema)
     return parser
@@ -110,6 +111,19 @@ def _add_demo(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(run=_demo)
     parser.description = "Animate the bundled example: hair, cape, ribbon and a plant in the wind."
     _add_output(parser, output="demo.mp4")
+
+
+def _add_figure(parser: argparse.ArgumentParser) -> None:
+    parser.set_defaults(run=_figure)
+    parser.description = "Draw one of the figures that show what the controls do, from simulations made on the spot."
+    parser.add_argument(
+        "name",
+        choices=("stiffness", "strokes"),
+        help="stiffness: a ball under a sweep of Young's modulus; strokes: the example under strokes of different"
+        " direction and strength",
+    )
+    parser.add_argument("--output", "-o", metavar="OUT", required=True, help="picture to write (PNG, JPEG, WebP)")
+    parser.add_argument("--quiet", "-q", action="store_true", help="no progress bar")
 
 
 def _add_output(parser: argparse.ArgumentParser, *, output: str | None) -> None:
@@ -170,15 +184,43 @@ def _schema(options: argparse.Namespace) -> None:
 
 
 def _demo(options: argparse.Namespace) -> None:
+    _check_outputs(options)
+    image, masks, scene = _example()
+    _run(options, image, masks=masks, scene=scene)
+
+
+def _example() -> tuple[Any, list[Any], Any]:
+    """The bundled illustration, the masks of its parts, and its scene document."""
     from .physics.json_text import read_json
     from .rendering.images import load_image, load_mask
 
-    _check_outputs(options)
     scene = read_json((EXAMPLE / "scene.json").read_text(encoding="utf-8"))
     image = load_image(EXAMPLE / "illustration.png")
     height, width = image.shape[:2]
     masks = [EXAMPLE / f"mask_{body['name']}.png" for body in scene["bodies"]]
-    _run(options, image, masks=[load_mask(path, width=width, height=height) for path in masks], scene=scene)
+    return image, [load_mask(path, width=width, height=height) for path in masks], scene
+
+
+def _figure(options: argparse.Namespace) -> None:
+    from .rendering.figures import stiffness_figure, strokes_figure
+    from .rendering.images import check_image_output, load_image, save_image
+
+    check_image_output(options.output)
+    with ExitStack() as bars:
+        stages = None if options.quiet else _progress_bars(bars)
+        progress = None if stages is None else lambda done, total: stages("simulate", done, total)
+        if options.name == "stiffness":
+            figure = stiffness_figure(progress=progress)
+        else:
+            from .physics.meshing import mesh_from_mask
+            from .physics.scene_json import scene_from_dict
+
+            image, masks, document = _example()
+            scene = scene_from_dict(document, meshes=[mesh_from_mask(mask) for mask in masks])
+            figure = strokes_figure(image, masks, scene, load_image(EXAMPLE / "clean_plate.png"), progress=progress)
+    save_image(options.output, figure)
+    if not options.quiet:
+        print(f"{options.output}: {figure.shape[1]} x {figure.shape[0]} px")
 
 
 def _animate(options: argparse.Namespace) -> None:
