@@ -103,6 +103,10 @@ def test_data_for_other_programs(folder: Path) -> None:
     arguments = "animate girl.png --mask hair.png --frames 6 --skip 2 --width 80 --quiet --output o.mp4"
     arguments += " --save-tracks tracks.json --track-points 5 --track-static 3 --track-frames 9"
     assert status(*arguments.split(), "--save-motion", "motion.json", "--save-svg", "motion.svg") == 0
+    arguments = arguments.replace("--track-frames 9", "").replace("tracks.json", "plain.json")
+    assert status(*arguments.split()) == 0
+    plain = json.loads((folder / "plain.json").read_text(encoding="utf-8"))
+    assert [len(track) for track in plain] == [4] * 8  # the frames that are shown
     tracks = json.loads((folder / "tracks.json").read_text(encoding="utf-8"))
     assert [len(track) for track in tracks] == [9] * 8
     assert all(0 <= point["x"] < 80 and 0 <= point["y"] < 60 for track in tracks for point in track)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import xml.etree.ElementTree as ET
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -82,7 +83,7 @@ def lines_of(data: str) -> list[np.ndarray]:
 
 
 def segments(lines: list[np.ndarray]) -> set[frozenset[tuple[float, ...]]]:
-    pairs = [pair for line in lines for pair in zip(line[:-1], line[1:], strict=True)]
+    pairs = [pair for line in lines for pair in pairwise(line)]
     return {frozenset(tuple(np.round(point, 1).tolist()) for point in pair) for pair in pairs}
 
 

@@ -178,6 +178,13 @@ def test_a_later_part_of_a_motion_begins_where_its_bodies_are() -> None:
     assert (found.path[0, :, 0] < 110).all()
 
 
+def test_a_body_that_has_come_into_the_picture_has_tracks() -> None:
+    motion = sliding((block(-60, 30, -20, 90), (10.0, 0.0), 0))
+    with pytest.raises(InvalidInputError, match="none can be seen"):
+        tracks(motion)
+    assert tracks(motion[8:], points=10, static_points=0).visibility.all()
+
+
 def test_json_is_a_list_of_points_for_each_track() -> None:
     found = tracks(leaning(), points=3, static_points=2, frames=121)
     read = json.loads(found.to_json())
@@ -231,6 +238,7 @@ def test_farthest_points_of_a_line() -> None:
     line = np.stack([np.arange(11.0), np.zeros(11)], axis=1)
     assert farthest_points(line, 4).tolist() == [0, 10, 5, 2]
     assert sorted(farthest_points(line, 99).tolist()) == list(range(11))
+    assert sorted(farthest_points(np.zeros((3, 2)), 3).tolist()) == [0, 1, 2]
     weights = np.where(np.arange(11) == 7, 5.0, 1.0)
     assert farthest_points(line, 1, weights=weights).tolist() == [7]
 
