@@ -101,7 +101,8 @@ def _small(shape: tuple[int, ...]) -> dict[str, Any]:
 
 
 def test_without_a_picture_the_preview_has_the_size_of_the_tracks(host: Any) -> None:
-    outputs = host.run(tracked(frames=121, width=832, height=480) | {"seen": core("PreviewImage", images=["tracks", 2])})
+    prompt = tracked(frames=121, width=832, height=480) | {"seen": core("PreviewImage", images=["tracks", 2])}
+    outputs = host.run(prompt)
     assert pictures(host, outputs, "seen").shape == (61, 369, 640, 3)
 
 
