@@ -28,6 +28,7 @@ Fit = Literal["crop", "stretch"]
 FITS: tuple[Fit, ...] = get_args(Fit)
 
 MOST_TRACKS = 4096
+_MOST_PAIRS = 2_000_000  # of points and triangles that are compared at once: bounds the memory
 _RANGES = {
     "points": (1, MOST_TRACKS, ""),
     "static_points": (0, MOST_TRACKS, ""),
@@ -167,12 +168,14 @@ def _hidden(motion: Motion, followed: BodyPoints, positions: FloatArray, moved: 
 def _covered(points: FloatArray, triangles: FloatArray) -> NDArray[np.bool_]:
     """Whether each point, shape [n, 2], lies in one of the triangles, whichever way they wind, shape [t, 3, 2]."""
     low, high = triangles.min(axis=1), triangles.max(axis=1)
-    near = ((points[:, None] >= low) & (points[:, None] <= high)).all(axis=2)
-    which, triangle = np.nonzero(near)
-    corners, point = triangles[triangle], points[which, None]
-    along, across = np.roll(corners, -1, axis=1) - corners, point - corners
-    side = along[..., 0] * across[..., 1] - along[..., 1] * across[..., 0]
-    inside = (side >= 0).all(axis=1) | (side <= 0).all(axis=1)
     covered = np.zeros(len(points), dtype=bool)
-    covered[which[inside]] = True
+    at_once = max(1, _MOST_PAIRS // len(triangles))
+    for first in range(0, len(points), at_once):
+        some = points[first : first + at_once, None]
+        which, triangle = np.nonzero(((some >= low) & (some <= high)).all(axis=2))
+        corners = triangles[triangle]
+        along, across = np.roll(corners, -1, axis=1) - corners, some[which] - corners
+        side = along[..., 0] * across[..., 1] - along[..., 1] * across[..., 0]
+        inside = (side >= 0).all(axis=1) | (side <= 0).all(axis=1)
+        covered[first + which[inside]] = True
     return covered
