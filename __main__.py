@@ -57,6 +57,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     _add_animate(commands.add_parser("animate", help="animate an illustration", allow_abbrev=False))
     _add_demo(commands.add_parser("demo", help="animate the bundled example", allow_abbrev=False))
+    _add_figure(commands.add_parser("figure", help="draw a figure that explains the controls", allow_abbrev=False))
     schema = commands.add_parser("schema", help="print the JSON Schema of scene files", allow_abbrev=False)
     schema.set_defaults(run=_schema)
     return parser
@@ -112,6 +113,19 @@ def _add_demo(parser: argparse.ArgumentParser) -> None:
     _add_output(parser, output="demo.mp4")
 
 
+def _add_figure(parser: argparse.ArgumentParser) -> None:
+    parser.set_defaults(run=_figure)
+    parser.description = "Draw one of the figures that show what the controls do, from simulations made on the spot."
+    parser.add_argument(
+        "name",
+        choices=("stiffness", "strokes"),
+        help="stiffness: a ball under a sweep of Young's modulus; strokes: the example under strokes of different"
+        " direction and strength",
+    )
+    parser.add_argument("--output", "-o", metavar="OUT", required=True, help="picture to write (PNG, JPEG, WebP)")
+    parser.add_argument("--quiet", "-q", action="store_true", help="no progress bar")
+
+
 def _add_output(parser: argparse.ArgumentParser, *, output: str | None) -> None:
     drawing = parser.add_argument_group("what is written")
     drawing.add_argument(
@@ -145,6 +159,17 @@ def _add_output(parser: argparse.ArgumentParser, *, output: str | None) -> None:
     drawing.add_argument(
         "--preview", metavar="OUT", help="also write the animation with meshes, pins and strokes on it"
     )
+    data = parser.add_argument_group("data for other programs")
+    data.add_argument(
+        "--save-tracks",
+        metavar="OUT.json",
+        help="write paths of points for motion-controlled video models: a list of {x, y} for each point",
+    )
+    data.add_argument("--track-points", metavar="N", type=int, help="points on the moving parts (default: 64)")
+    data.add_argument("--track-static", metavar="N", type=int, help="points of the background (default: 16)")
+    data.add_argument("--track-frames", metavar="N", type=int, help="samples over the clip (default: one a frame)")
+    data.add_argument("--save-motion", metavar="OUT.json", help="write every vertex of the meshes in every frame")
+    data.add_argument("--save-svg", metavar="OUT.svg", help="write the moving meshes as an SVG that plays in a browser")
     volume = parser.add_mutually_exclusive_group()
     volume.add_argument("--verbose", "-v", action="store_true", help="report sizes and the time of each stage")
     volume.add_argument("--quiet", "-q", action="store_true", help="no progress bars")
@@ -159,15 +184,43 @@ def _schema(options: argparse.Namespace) -> None:
 
 
 def _demo(options: argparse.Namespace) -> None:
+    _check_outputs(options)
+    image, masks, scene = _example()
+    _run(options, image, masks=masks, scene=scene)
+
+
+def _example() -> tuple[Any, list[Any], Any]:
+    """The bundled illustration, the masks of its parts, and its scene document."""
     from .physics.json_text import read_json
     from .rendering.images import load_image, load_mask
 
-    _check_outputs(options)
     scene = read_json((EXAMPLE / "scene.json").read_text(encoding="utf-8"))
     image = load_image(EXAMPLE / "illustration.png")
     height, width = image.shape[:2]
     masks = [EXAMPLE / f"mask_{body['name']}.png" for body in scene["bodies"]]
-    _run(options, image, masks=[load_mask(path, width=width, height=height) for path in masks], scene=scene)
+    return image, [load_mask(path, width=width, height=height) for path in masks], scene
+
+
+def _figure(options: argparse.Namespace) -> None:
+    from .rendering.figures import stiffness_figure, strokes_figure
+    from .rendering.images import check_image_output, load_image, save_image
+
+    check_image_output(options.output)
+    with ExitStack() as bars:
+        stages = None if options.quiet else _progress_bars(bars)
+        progress = None if stages is None else lambda done, total: stages("simulate", done, total)
+        if options.name == "stiffness":
+            figure = stiffness_figure(progress=progress)
+        else:
+            from .physics.meshing import mesh_from_mask
+            from .physics.scene_json import scene_from_dict
+
+            image, masks, document = _example()
+            scene = scene_from_dict(document, meshes=[mesh_from_mask(mask) for mask in masks])
+            figure = strokes_figure(image, masks, scene, load_image(EXAMPLE / "clean_plate.png"), progress=progress)
+    save_image(options.output, figure)
+    if not options.quiet:
+        print(f"{options.output}: {figure.shape[1]} x {figure.shape[0]} px")
 
 
 def _animate(options: argparse.Namespace) -> None:
@@ -232,10 +285,28 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             animation.write(animation.flows(progress=progress), options.save_flow, width=options.width)
         if options.preview:
             animation.write(animation.previews(progress=progress), options.preview, width=options.width)
+    _save_data(options, animation)
     if options.verbose:
         _report(animation)
     if not options.quiet:
         print(f"{options.output}: {len(animation)} frames at {animation.motion.frame_rate:g} frames a second")
+
+
+def _save_data(options: argparse.Namespace, animation: Animation) -> None:
+    """Write what other programs read."""
+    if options.save_tracks:
+        wanted = {
+            "points": options.track_points,
+            "static_points": options.track_static,
+            "frames": options.track_frames,
+            "width": options.width,
+            "height": options.width and animation.height_at(options.width),
+        }
+        animation.save_tracks(options.save_tracks, **{name: n for name, n in wanted.items() if n is not None})
+    if options.save_motion:
+        animation.save_motion(options.save_motion)
+    if options.save_svg:
+        animation.save_svg(options.save_svg)
 
 
 def _is_transparent(options: argparse.Namespace) -> bool:
@@ -246,6 +317,8 @@ def _is_transparent(options: argparse.Namespace) -> bool:
 
 def _check_outputs(options: argparse.Namespace) -> None:
     from .physics.errors import InvalidInputError
+    from .physics.tracks import check_track_options
+    from .rendering.text_files import check_text_output
     from .rendering.video import check_output
 
     check_output(options.output, alpha=_is_transparent(options))
@@ -256,6 +329,14 @@ def _check_outputs(options: argparse.Namespace) -> None:
         if path is not None:
             check_output(path)
             chosen.append(path)
+    for path, suffix in ((options.save_tracks, ".json"), (options.save_motion, ".json"), (options.save_svg, ".svg")):
+        if path is not None:
+            check_text_output(path, suffix)
+            chosen.append(path)
+    tracked = (options.track_points, options.track_static, options.track_frames)
+    if not options.save_tracks and tracked != (None, None, None):
+        raise InvalidInputError("--track-points, --track-static and --track-frames need --save-tracks. Got: without")
+    check_track_options(points=tracked[0], static_points=tracked[1], frames=tracked[2])
     if len({Path(path).resolve() for path in chosen}) < len(chosen):
         raise InvalidInputError(f"every output must have its own name. Got: {', '.join(chosen)}")
 

@@ -14,6 +14,7 @@ from .rig_nodes import RigPoint
 from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
 from .sketch_nodes import ExtractSketch, WarpSketch
 from .stroke_nodes import EnergyStroke
+from .track_nodes import Tracks
 
 __all__ = ["NODES", "PhysAnimatorExtension"]
 
@@ -32,6 +33,7 @@ NODES: list[type[io.ComfyNode]] = [
     PreviewMotion,
     OpticalFlow,
     PreviewFlow,
+    Tracks,
     ExtractSketch,
     WarpSketch,
     Render,

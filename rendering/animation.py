@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..physics.errors import InvalidInputError, require
 from ..physics.motion import Motion
 from ..physics.scene import Scene
+from .text_files import check_text_output, write_text
 from .video import check_output, write_animation
 
 if TYPE_CHECKING:
@@ -159,6 +160,59 @@ class Animation:
         drawing = sum(self.seconds.values()) - drawing
         self.seconds["write"] = self.seconds.get("write", 0.0) + time.perf_counter() - start - drawing
 
+    @property
+    def shown_motion(self) -> Motion:
+        """The motion of the frames that are shown."""
+        return self.motion[self.first :]
+
+    def height_at(self, width: int) -> int:
+        """Height of written frames of a width [px]."""
+        return _height_at(self.image, width)
+
+    def save_motion(self, path: StrPath) -> None:
+        """Write every vertex of every frame as JSON; see :func:`~physanimator.physics.export.motion_to_dict`.
+
+        Args:
+            path: a name in .json.
+
+        Raises:
+            InvalidInputError: nothing can be written there.
+        """
+        from ..physics.export import motion_to_json
+
+        check_text_output(path, ".json")
+        write_text(path, motion_to_json(self.shown_motion))
+
+    def save_svg(self, path: StrPath) -> None:
+        """Write the moving meshes over the faded illustration as an SVG that plays in a browser.
+
+        Args:
+            path: a name in .svg.
+
+        Raises:
+            InvalidInputError: nothing can be written there.
+        """
+        from ..physics.export import motion_to_svg
+        from .images import data_address
+
+        check_text_output(path, ".svg")
+        write_text(path, motion_to_svg(self.shown_motion, background=data_address(self.image)))
+
+    def save_tracks(self, path: StrPath, **options: Any) -> None:
+        """Write tracks for motion-controlled video models as JSON; see :func:`~physanimator.physics.tracks.tracks`.
+
+        Args:
+            path: a name in .json.
+            options: those of :func:`~physanimator.physics.tracks.tracks`.
+
+        Raises:
+            InvalidInputError: nothing can be written there, or an option is out of its range.
+        """
+        from ..physics.tracks import tracks
+
+        check_text_output(path, ".json")
+        write_text(path, tracks(self.shown_motion, **options).to_json() + "\n")
+
     def _with_in_betweens(self, every: int) -> Iterator[Image]:
         from .interpolation import interpolate, keyframe_indices
 
@@ -176,10 +230,14 @@ class Animation:
             yield picture
 
 
+def _height_at(picture: Image, width: int) -> int:
+    return max(1, round(picture.shape[0] * width / picture.shape[1]))
+
+
 def _resized(picture: Image, width: int) -> Image:
     import cv2
 
-    height = max(1, round(picture.shape[0] * width / picture.shape[1]))
+    height = _height_at(picture, width)
     finer = width > picture.shape[1]
     return cv2.resize(picture, (width, height), interpolation=cv2.INTER_CUBIC if finer else cv2.INTER_AREA)
 

@@ -17,7 +17,7 @@ from .atomic import replacing
 if TYPE_CHECKING:
     from PIL import Image
 
-__all__ = ["LONGEST_SIDE", "load_image", "load_mask", "save_image", "to_uint8"]
+__all__ = ["LONGEST_SIDE", "check_image_output", "data_address", "load_image", "load_mask", "save_image", "to_uint8"]
 
 LONGEST_SIDE = 8192
 """The longest side of a picture that is accepted [px]."""
@@ -94,13 +94,47 @@ def save_image(path: StrPath, image: NDArray[Any]) -> None:
     """
     from PIL import Image
 
+    target = check_image_output(path)
+    with replacing(target) as temporary:
+        Image.fromarray(to_uint8(image)).save(temporary)
+
+
+def check_image_output(path: StrPath) -> Path:
+    """Refuse a place that :func:`save_image` could not write to, before any long work.
+
+    Args:
+        path: where the picture is to be.
+
+    Returns:
+        The same place.
+
+    Raises:
+        InvalidInputError: the suffix is not that of a picture, or the folder does not exist.
+    """
+    from PIL import Image
+
     target = Path(path)
     if target.suffix.lower() not in Image.registered_extensions():
         raise InvalidInputError(f"a picture's name must end in .png, .jpg or .webp. Got: {path}")
     if not target.parent.is_dir():
         raise InvalidInputError(f"the folder for {path} must exist. Got: no folder {target.parent}")
-    with replacing(target) as temporary:
-        Image.fromarray(to_uint8(image)).save(temporary)
+    return target
+
+
+def data_address(image: NDArray[Any]) -> str:
+    """A picture as a ``data:`` address, to be part of an SVG or a web page.
+
+    Args:
+        image: RGB, uint8 or 0..1 float, shape [h, w, 3].
+    """
+    import base64
+    import io
+
+    from PIL import Image
+
+    file = io.BytesIO()
+    Image.fromarray(to_uint8(image)).save(file, format="JPEG", quality=88)
+    return "data:image/jpeg;base64," + base64.b64encode(file.getvalue()).decode("ascii")
 
 
 def to_uint8(image: NDArray[Any]) -> NDArray[np.uint8]:

@@ -99,6 +99,32 @@ def test_webm_is_transparent_unless_told_otherwise(folder: Path) -> None:
             assert ("1" in container.streams.video[0].metadata.values()) == expected
 
 
+def test_data_for_other_programs(folder: Path) -> None:
+    arguments = "animate girl.png --mask hair.png --frames 6 --skip 2 --width 80 --quiet --output o.mp4"
+    arguments += " --save-tracks tracks.json --track-points 5 --track-static 3 --track-frames 9"
+    assert status(*arguments.split(), "--save-motion", "motion.json", "--save-svg", "motion.svg") == 0
+    arguments = arguments.replace("--track-frames 9", "").replace("tracks.json", "plain.json")
+    assert status(*arguments.split()) == 0
+    plain = json.loads((folder / "plain.json").read_text(encoding="utf-8"))
+    assert [len(track) for track in plain] == [4] * 8  # the frames that are shown
+    tracks = json.loads((folder / "tracks.json").read_text(encoding="utf-8"))
+    assert [len(track) for track in tracks] == [9] * 8
+    assert all(0 <= point["x"] < 80 and 0 <= point["y"] < 60 for track in tracks for point in track)
+    motion = json.loads((folder / "motion.json").read_text(encoding="utf-8"))
+    assert (motion["format"], motion["width"], motion["frames"]) == ("physanimator-motion", WIDTH, 4)
+    text = (folder / "motion.svg").read_text(encoding="utf-8")
+    assert text.startswith("<svg")
+    assert "data:image/jpeg;base64," in text
+
+
+@pytest.mark.parametrize("name", ["stiffness", "strokes"])
+def test_figures_are_written(folder: Path, capsys: Output, name: str) -> None:
+    assert status("figure", name, "--output", f"{name}.png") == 0
+    height, width = load_image(f"{name}.png").shape[:2]
+    assert capsys.readouterr().out == f"{name}.png: {width} x {height} px\n"
+    assert min(height, width) > 1000
+
+
 def test_quiet_says_nothing(folder: Path, capsys: Output) -> None:
     assert status("animate", "girl.png", "--mask", "hair.png", "--frames", "2", "--quiet", "--output", "o.mp4") == 0
     assert capsys.readouterr() == ("", "")
@@ -132,6 +158,16 @@ def test_quiet_says_nothing(folder: Path, capsys: Output) -> None:
         ("animate girl.png --mask hair.png", "--output"),
         ("animate girl.png --mask hair.png --output o.mp4 --frames many", "invalid int value"),
         ("animate girl.png --mask hair.png --out o.mp4", "unrecognized arguments|required: --output"),
+        ("animate girl.png --mask hair.png --output o.mp4 --save-tracks t.txt", "must end in .json"),
+        ("animate girl.png --mask hair.png --output o.mp4 --save-motion none/m.json", "none/m.json must exist"),
+        ("animate girl.png --mask hair.png --output o.mp4 --save-svg m.png", "must end in .svg"),
+        ("animate girl.png --mask hair.png --output o.mp4 --save-tracks a.json --save-motion a.json", "its own name"),
+        ("animate girl.png --mask hair.png --output o.mp4 --track-points 3", "need --save-tracks"),
+        ("animate girl.png --mask hair.png --output o.mp4 --save-tracks t.json --track-points 0", "points must be 1"),
+        ("figure ballet --output f.png", "invalid choice"),
+        ("figure stiffness --output f.mp4", "must end in .png"),
+        ("figure stiffness --output none/f.png", "folder for none/f.png must exist"),
+        ("figure stiffness", "required: --output"),
         ("dance", "invalid choice"),
         ("", "required: COMMAND"),
     ],

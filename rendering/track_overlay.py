@@ -1,0 +1,122 @@
+"""Tracks on a picture: each point as a dot with a tail of where it came from."""
+
+from __future__ import annotations
+
+import colorsys
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from ..physics.errors import require
+from ..physics.tracks import Fit, Tracks
+
+__all__ = ["draw_tracks", "fitted"]
+
+_BITS = 4  # cv2 takes coordinates in sixteenths of a pixel
+_DARK = (20, 20, 30)
+_GREY = (200, 205, 215)
+_STILL = 0.5  # [px]: a track that spans less does not move
+
+
+def fitted(image: NDArray[Any], width: int, height: int, fit: Fit) -> NDArray[Any]:
+    """A picture brought to another size as tracks are.
+
+    Args:
+        image: uint8 or float, shape [h, w, 3].
+        width: wanted width [px].
+        height: wanted height [px].
+        fit: scaled to cover the size and cut to its middle, or stretched.
+
+    Returns:
+        The picture, shape [height, width, 3], same type.
+    """
+    scale = np.array([width / image.shape[1], height / image.shape[0]])
+    if fit == "crop":
+        scale[:] = scale.max()
+        shown = np.rint(np.array([width, height]) / scale).astype(int)
+        left, top = (np.array(image.shape[1::-1]) - shown) // 2
+        image = image[top : top + shown[1], left : left + shown[0]]
+    smaller = scale.max() < 1
+    return cv2.resize(image, (width, height), interpolation=cv2.INTER_AREA if smaller else cv2.INTER_LINEAR)
+
+
+def draw_tracks(image: NDArray[Any], tracks: Tracks, sample: int, *, tail: int = 16) -> NDArray[Any]:
+    """The picture with the tracks at one time.
+
+    Moving points have a colour each and a tail that fades and narrows; hidden ones are rings without a tail; points
+    that stand still are grey.
+
+    Args:
+        image: what the tracks belong to, RGB, uint8 or float in 0..1, shape [h, w, 3]; of any size.
+        tracks: where points are.
+        sample: number of the time.
+        tail: how many samples back the tails reach.
+
+    Returns:
+        A new picture of the same size and type.
+    """
+    require("sample", sample, 0 <= sample < len(tracks), f"0 to {len(tracks) - 1}")
+    shape = image.shape
+    require("image", f"shape {shape}", len(shape) == 3 and shape[2] == 3, "an RGB picture of shape [h, w, 3]")
+    whole = image.dtype == np.uint8
+    canvas = np.array(image) if whole else np.rint(np.clip(image, 0, 1) * 255).astype(np.uint8)
+    path = tracks.path.astype(np.float64) * (shape[1] / tracks.width, shape[0] / tracks.height)
+    unit = max(shape[:2]) / 1280
+    colours = _colours(path)
+    first = max(0, sample - tail)
+    for number, colour in enumerate(colours):
+        if colour != _GREY and tracks.visibility[sample, number]:
+            _tail(canvas, path[first : sample + 1, number], colour, unit)
+    for number, colour in enumerate(colours):
+        radius = unit * (3.5 if colour == _GREY else 5.5)
+        _dot(canvas, path[sample, number], colour, radius, filled=bool(tracks.visibility[sample, number]))
+    return canvas if whole else (canvas / 255).astype(image.dtype)
+
+
+def _colours(path: NDArray[np.float64]) -> list[tuple[int, int, int]]:
+    """A colour for each point: far apart for neighbours in order, grey for what stands still."""
+    moves = (path.max(axis=0) - path.min(axis=0)).max(axis=1) > _STILL
+    hues = (0.618034 * np.arange(len(moves))) % 1.0
+    bright = [tuple(round(255 * part) for part in colorsys.hsv_to_rgb(hue, 0.75, 1.0)) for hue in hues]
+    return [(red, green, blue) if moved else _GREY for (red, green, blue), moved in zip(bright, moves, strict=True)]
+
+
+def _tail(canvas: NDArray[np.uint8], line: NDArray[np.float64], colour: tuple[int, int, int], unit: float) -> None:
+    steps = len(line) - 1
+    for number in range(steps):
+        strength = (number + 1) / steps
+        segment = _fixed(line[number : number + 2])
+        low = np.maximum(segment.min(axis=0) // 2**_BITS - 12, 0)
+        high = segment.max(axis=0) // 2**_BITS + 12
+        patch = canvas[low[1] : high[1], low[0] : high[0]]
+        if not patch.size:
+            continue
+        drawn = patch.copy()
+        width = max(1, round(unit * 5 * strength))
+        cv2.polylines(drawn, [segment - low * 2**_BITS], False, colour, width, cv2.LINE_AA, _BITS)
+        cv2.addWeighted(drawn, strength, patch, 1 - strength, 0, dst=drawn)
+        patch[:] = drawn
+
+
+def _dot(
+    canvas: NDArray[np.uint8],
+    centre: NDArray[np.float64],
+    colour: tuple[int, int, int],
+    radius: float,
+    *,
+    filled: bool,
+) -> None:
+    x, y = (int(value) for value in _fixed(centre))
+    sixteenths = round(radius * 2**_BITS)
+    if filled:
+        cv2.circle(canvas, (x, y), sixteenths + 20, _DARK, -1, cv2.LINE_AA, _BITS)
+        cv2.circle(canvas, (x, y), sixteenths, colour, -1, cv2.LINE_AA, _BITS)
+    else:
+        cv2.circle(canvas, (x, y), sixteenths, colour, 1, cv2.LINE_AA, _BITS)
+
+
+def _fixed(points: NDArray[np.float64]) -> NDArray[np.int32]:
+    """Coordinates as cv2 draws them: pixel centres at integers, in fixed point."""
+    return np.rint(np.clip((points - 0.5) * 2**_BITS, -(2**24), 2**24)).astype(np.int32)
