@@ -44,7 +44,7 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
     pairs = ti.types.ndarray(dtype=ti.types.vector(2, ti.i32), ndim=1)
     triples = ti.types.ndarray(dtype=ti.types.vector(3, ti.i32), ndim=1)
     stiffnesses = ti.types.ndarray(dtype=vec3, ndim=1)
-    paths = ti.types.ndarray(dtype=vec2, ndim=2)
+    paths = ti.types.ndarray(dtype=vec6, ndim=2)
 
     @ti.func
     def displacement_gradient(u0: vec2, u1: vec2, u2: vec2, b: vec4):
@@ -125,6 +125,11 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
         """The cubic from a to b that starts with va and ends with vb."""
         return a + s * (va + s * (3.0 * (b - a) - 2.0 * va - vb + s * (2.0 * (a - b) + va + vb)))
 
+    @ti.func
+    def led(x: vec2, c: vec6):
+        """M x + d by the coefficients of a rig point."""
+        return vec2(c[0] * x[0] + c[1] * x[1] + c[4], c[2] * x[0] + c[3] * x[1] + c[5])
+
     @ti.kernel
     def advance(
         starts: pairs,
@@ -140,8 +145,8 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
         force: vectors,
         push: vectors,
         decay: scalars,
-        rig_displacements: paths,
-        rig_velocities: paths,
+        rig_leads: paths,
+        rig_rates: paths,
         first_particles: integers,
         particles: vectors6,
         kinds: integers,
@@ -189,8 +194,9 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
                             v[i] = speed
                             u[i] = u[i] + dt * speed
                         else:
-                            a, b = rig_displacements[tick, leader], rig_displacements[tick + 1, leader]
-                            va, vb = rig_velocities[tick, leader], rig_velocities[tick + 1, leader]
+                            x = vec2(vertices[i][0], vertices[i][1])
+                            a, b = led(x, rig_leads[tick, leader]), led(x, rig_leads[tick + 1, leader])
+                            va, vb = led(x, rig_rates[tick, leader]), led(x, rig_rates[tick + 1, leader])
                             v[i] = vb
                             u[i] = hermite(a, b, TICK * va, TICK * vb, (step + 1.0) / count)
                         force[i] = vec2(0.0, 0.0)

@@ -1,24 +1,21 @@
 """Rigging: which vertices follow a rig point, and where it leads them.
 
-Paper, Appendix "Details of Interactive Animation": the region follows the rig point's motion rigidly, by translation.
+Paper, Appendix "Details of Interactive Animation": the region follows the rig point's motion rigidly. How it turns
+and is squashed meanwhile stands in ``leading``.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .easing import eased, eased_rate
 from .mesh import TriangleMesh
-from .rig import Circle, KeyedPath, Polygon, RigMotion, RigPoint, Wave
+from .rig import Circle, Combined, KeyedPath, Polygon, RigMotion, RigPoint, Wave
 from .scene import Scene
-
-if TYPE_CHECKING:
-    from scipy.interpolate import PchipInterpolator
 
 __all__ = ["displacement", "leaders_of", "unused_rig_points", "velocity", "vertices_of"]
 
@@ -65,23 +62,26 @@ def leaders_of(rig_points: Sequence[RigPoint], mesh: TriangleMesh, *, body: int 
 
 
 def displacement(motion: RigMotion, t: ArrayLike) -> FloatArray:
-    """How far a motion has led its region from where it was drawn.
+    """How far a motion has led its rig point from where it was drawn.
 
     Args:
-        motion: pinned stays; a keyed path runs smoothly through its keys without overshoot (monotone cubic, each
-            coordinate for itself), relative to the first; a wave swings as amplitude sin(2 pi t / period) direction.
+        motion: pinned stays, and so does what only turns or squashes; a keyed path runs from key to key as its easing
+            says, relative to the first; a wave swings as amplitude sin(2 pi t / period) direction; the ways of
+            combined motions add up.
         t: time [s], a number or shape [n].
 
     Returns:
         [px], shape [2] or [n, 2].
     """
     times = np.asarray(t, dtype=np.float64)
+    if isinstance(motion, Combined):
+        return np.sum([displacement(single, times) for single in motion.motions], axis=0)
     if isinstance(motion, Wave):
-        swing = motion.amplitude * np.sin(2 * np.pi * times / motion.period)
+        start = np.radians(motion.phase)
+        swing = motion.amplitude * (np.sin(2 * np.pi * times / motion.period + start) - np.sin(start))
         return swing[..., None] * np.array(motion.direction)
     if isinstance(motion, KeyedPath):
-        inside = np.clip(times, motion.times[0], motion.times[-1])
-        return np.asarray(_interpolator(motion)(inside)) - np.array(motion.points[0])
+        return eased(motion.times, motion.points, motion.easing, times) - np.array(motion.points[0])
     return np.zeros((*times.shape, 2))
 
 
@@ -98,21 +98,15 @@ def velocity(motion: RigMotion, t: ArrayLike) -> FloatArray:
         [px/s], shape [2] or [n, 2].
     """
     times = np.asarray(t, dtype=np.float64)
+    if isinstance(motion, Combined):
+        return np.sum([velocity(single, times) for single in motion.motions], axis=0)
     if isinstance(motion, Wave):
         rate = 2 * np.pi / motion.period
-        return (motion.amplitude * rate * np.cos(rate * times))[..., None] * np.array(motion.direction)
+        swing = motion.amplitude * rate * np.cos(rate * times + np.radians(motion.phase))
+        return swing[..., None] * np.array(motion.direction)
     if isinstance(motion, KeyedPath):
-        moving = (motion.times[0] <= times) & (times < motion.times[-1])
-        inside = np.clip(times, motion.times[0], motion.times[-1])
-        return np.where(moving[..., None], _interpolator(motion)(inside, 1), 0.0)
+        return eased_rate(motion.times, motion.points, motion.easing, times)
     return np.zeros((*times.shape, 2))
-
-
-@lru_cache(maxsize=1024)
-def _interpolator(path: KeyedPath) -> PchipInterpolator:
-    from scipy.interpolate import PchipInterpolator
-
-    return PchipInterpolator(path.times, path.points, axis=0)
 
 
 def unused_rig_points(scene: Scene) -> list[str]:

@@ -72,8 +72,9 @@ class Drive(NamedTuple):
     """What acts on the bodies in each of n ticks.
 
     Attributes:
-        rig_displacements: of each rig point at the ticks' ends [side], float32, shape [n + 1, g, 2].
-        rig_velocities: [side/s], float32, shape [n + 1, g, 2].
+        rig_leads: M row by row and d [side] of the displacement M X + d that each rig point gives its region at the
+            ticks' ends, float32, shape [n + 1, g, 6].
+        rig_rates: their time derivatives [1/s], float32, shape [n + 1, g, 6].
         first_particles: particles of tick i are those from entry i to before entry i + 1, int32, shape [n + 1].
         particles: position and direction of travel of each particle in the middle of its tick [side],
             radius [side], strength [side/s^2], float32, shape [p, 6].
@@ -81,8 +82,8 @@ class Drive(NamedTuple):
         gravity: acceleration of every vertex [side/s^2].
     """
 
-    rig_displacements: Float32Array
-    rig_velocities: Float32Array
+    rig_leads: Float32Array
+    rig_rates: Float32Array
     first_particles: Int32Array
     particles: Float32Array
     kinds: Int32Array
