@@ -14,6 +14,7 @@ from .points import Point, Scale, checked_points, scaled_points
 from .rig_turns import Easing, Pulse, Rotation, Squash, Swing, checked_easing, checked_phase, checked_times
 
 __all__ = [
+    "MOST_COMBINED",
     "Circle",
     "Combined",
     "KeyedPath",
@@ -27,7 +28,7 @@ __all__ = [
 ]
 
 _UNIT = 1e-15  # a direction that is this close to length 1 stays as it is, so that scaling it again changes nothing
-_MOST_COMBINED = 8
+MOST_COMBINED = 8
 
 
 @dataclass(frozen=True)
@@ -171,7 +172,7 @@ class Combined:
 
     def __post_init__(self) -> None:
         motions = tuple(self.motions)
-        require("motions", f"{len(motions)} motions", 1 <= len(motions) <= _MOST_COMBINED, f"1 to {_MOST_COMBINED}")
+        require("motions", f"{len(motions)} motions", 1 <= len(motions) <= MOST_COMBINED, f"1 to {MOST_COMBINED}")
         if any(isinstance(motion, Combined) for motion in motions):
             raise InvalidInputError("motions must not be combined themselves. Got: a combined motion among them")
         object.__setattr__(self, "motions", motions)

@@ -13,6 +13,8 @@ from .points import Scale
 
 __all__ = [
     "EASINGS",
+    "MOST_DEGREES",
+    "MOST_STRETCH",
     "Easing",
     "Pulse",
     "Rotation",

@@ -14,10 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from .easing import eased, eased_rate
 from .mesh import TriangleMesh
-from .rig import Circle, Combined, KeyedPath, Polygon, RigMotion, RigPoint, Wave
+from .rig import Circle, Combined, KeyedPath, MaskRegion, Polygon, RigMotion, RigPoint, Wave
 from .scene import Scene
 
-__all__ = ["displacement", "leaders_of", "unused_rig_points", "velocity", "vertices_of"]
+__all__ = ["displacement", "distances_of", "leaders_of", "unused_rig_points", "velocity", "vertices_of"]
 
 FloatArray = NDArray[np.float64]
 
@@ -39,6 +39,19 @@ def vertices_of(rig_point: RigPoint, mesh: TriangleMesh) -> NDArray[np.bool_]:
     if isinstance(region, Polygon):
         return _outside_polygon(region.points, mesh.vertices) <= _EDGE
     return _in_mask(region.mask, mesh)
+
+
+def distances_of(rig_point: RigPoint, mesh: TriangleMesh) -> FloatArray:
+    """How far outside a rig point's region each vertex of a mesh lies [px], 0 or less inside, shape [v].
+
+    The distance from a mask is good to about a pixel of the mask.
+    """
+    region = rig_point.region
+    if isinstance(region, Circle):
+        return _outside_circle(rig_point.position, region.radius, mesh.vertices)
+    if isinstance(region, Polygon):
+        return _outside_polygon(region.points, mesh.vertices)
+    return _outside_mask(region.mask, mesh)
 
 
 def leaders_of(rig_points: Sequence[RigPoint], mesh: TriangleMesh, *, body: int = 0) -> NDArray[np.int32]:
@@ -123,16 +136,14 @@ def unused_rig_points(scene: Scene) -> list[str]:
 
 def _whereabouts(rig_point: RigPoint, meshes: Sequence[TriangleMesh]) -> str:
     region = rig_point.region
+    if isinstance(region, MaskRegion) and not region.mask.any():
+        return "nothing is painted in its mask"
+    distance = min(float(distances_of(rig_point, mesh).min()) for mesh in meshes)
     if isinstance(region, Circle):
-        distance = min(float(_outside_circle(rig_point.position, region.radius, m.vertices).min()) for m in meshes)
         away = f"its region of radius {region.radius:g} px lies {round(distance, 1):g} px away"
         return f"{away}; a radius of {math.ceil(region.radius + distance)} px would reach it"
     if isinstance(region, Polygon):
-        distance = min(float(_outside_polygon(region.points, mesh.vertices).min()) for mesh in meshes)
         return f"its polygon lies {round(distance, 1):g} px away from the nearest vertex"
-    if not region.mask.any():
-        return "nothing is painted in its mask"
-    distance = min(_distance_to_mask(region.mask, mesh) for mesh in meshes)
     return f"its mask lies about {round(distance, 1):g} px away from the nearest vertex"
 
 
@@ -166,12 +177,14 @@ def _in_mask(mask: NDArray[np.bool_], mesh: TriangleMesh) -> NDArray[np.bool_]:
     return np.logical_or.reduce([mask[y[:, 1], x[:, 0]] for x in (low, high) for y in (low, high)])
 
 
-def _distance_to_mask(mask: NDArray[np.bool_], mesh: TriangleMesh) -> float:
-    """Distance of the painted pixels from the nearest vertex, to about a pixel [px]."""
+def _outside_mask(mask: NDArray[np.bool_], mesh: TriangleMesh) -> FloatArray:
+    """Distance of each vertex from the nearest painted pixel, to about a pixel [px]; infinite without any, shape [v]."""
     import cv2
 
+    if not mask.any():
+        return np.full(len(mesh.vertices), np.inf)
     size = np.array([mask.shape[1], mask.shape[0]])
     scaled = mesh.vertices * (size / [mesh.width, mesh.height])
     column, row = np.clip(np.floor(scaled), 0, size - 1).astype(np.int64).T
     distances = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    return float(distances[row, column].min()) * mesh.longest_side / float(size.max())
+    return distances[row, column].astype(np.float64) * (mesh.longest_side / float(size.max()))

@@ -56,6 +56,7 @@ def solid_of(rest: RestShape, *, led: tuple[int, ...] = (), reach: float = np.in
         vertices=np.column_stack([rest.positions, inverse_mass, np.full(count, DAMPING)]).astype(np.float32),
         reach=np.full(count, reach, dtype=np.float32),
         leaders=leaders,
+        grips=np.zeros(count, dtype=np.float32),
         triangles=rest.triangles,
         inverse_edges=rest.inverse_edges.reshape(-1, 4).astype(np.float32),
         stiffness=np.column_stack([2 * mu * rest.areas, lam * rest.areas, squared]).astype(np.float32),
