@@ -41,7 +41,7 @@ def drive(scene: Scene, first_tick: int, count: int) -> Drive:
 
 
 def _rig_tables(
-    rig_points: Sequence[RigPoint], times: NDArray[np.float64], side: float
+    rig_points: Sequence[RigPoint], times: NDArray[np.floating], side: float
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Coefficients of each rig point's affine displacement in sides, and their rates, two of shape [n + 1, g, 6]."""
     tables = np.zeros((2, len(times), max(1, len(rig_points)), 6), dtype=np.float32)

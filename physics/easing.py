@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,7 +69,7 @@ def _course(easing: str, s: FloatArray, values: FloatArray) -> FloatArray:
     return _spread(s if easing == "linear" else s * s * (3 - 2 * s), values)
 
 
-def _spread(array: NDArray[np.generic], like: FloatArray) -> NDArray[np.generic]:
+def _spread(array: NDArray[Any], like: FloatArray) -> NDArray[Any]:
     """The array with an axis of length 1 where the values have their coordinates."""
     return array[..., None] if like.ndim > array.ndim else array
 

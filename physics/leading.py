@@ -33,7 +33,7 @@ class Lead(NamedTuple):
     rates: FloatArray
 
 
-def lead(motion: RigMotion, position: tuple[float, float], t: FloatArray) -> Lead:
+def lead(motion: RigMotion, position: tuple[float, float], t: NDArray[np.floating]) -> Lead:
     """How a motion displaces the vertices of its region from where they were drawn.
 
     Args:
@@ -107,9 +107,7 @@ def _turn(angle: FloatArray, rate: FloatArray) -> tuple[FloatArray, FloatArray]:
     return linear, rate[..., None, None] * (quarter @ linear)
 
 
-def _stretch(
-    degrees: float, keep_area: bool, logarithm: FloatArray, rate: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+def _stretch(degrees: float, keep_area: bool, logarithm: FloatArray, rate: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Stretching along a direction; across it by the reciprocal where the area is kept."""
     direction = np.array([np.cos(np.radians(degrees)), -np.sin(np.radians(degrees))])
     along = np.outer(direction, direction)

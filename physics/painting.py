@@ -6,6 +6,7 @@ Each triangle takes the mean of the mask over it and with it a factor between tw
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -39,7 +40,7 @@ def painted(
     Args:
         material: what is painted on.
         mesh: of the body that will be made of it.
-        stiffness: mask, bool, 0..1 float or 0..255 integers, shape [h, w]; stretched over the illustration. Under a sway
+        stiffness: mask, bool, 0..1 float or 0..255 integers, shape [h, w]; stretched over the picture. Under a sway
             frequency it says where the body is stiffer than elsewhere; the whole still sways as often.
         damping: mask of the damping.
         density: mask of the mass.
@@ -52,7 +53,7 @@ def painted(
     """
     for name, factor in (("low", low), ("high", high)):
         require(name, factor, 0.001 <= factor <= 1000, "0.001 to 1000")
-    changes = {}
+    changes: dict[str, Any] = {}
     for name, mask in (("stiffness", stiffness), ("damping", damping), ("density", density)):
         if mask is not None:
             before = getattr(material, f"{name}_scale")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal, get_args
+from typing import Literal, TypeVar, get_args
 
 from .errors import require
 from .limits import LARGEST
@@ -25,6 +25,7 @@ __all__ = [
     "checked_times",
 ]
 
+T = TypeVar("T")
 Easing = Literal["smooth", "linear", "ease", "hold"]
 
 EASINGS: tuple[str, ...] = get_args(Easing)
@@ -81,7 +82,7 @@ def _checked_values(name: str, values: Sequence[float], low: float, high: float,
 
 
 class _SameAtAnySize:
-    def rescaled(self, scale: Scale) -> _SameAtAnySize:
+    def rescaled(self: T, scale: Scale) -> T:
         """Itself: angles and factors do not depend on the picture's size."""
         return self
 
@@ -161,7 +162,7 @@ class Squash(_SameAtAnySize):
 
 @dataclass(frozen=True)
 class Pulse(_SameAtAnySize):
-    """Stretched and squashed to and fro about the rig point: factor = stretch^(sin(2 pi t / period + phase) - sin phase).
+    """Stretched and squashed to and fro: factor = stretch^(sin(2 pi t / period + phase) - sin phase).
 
     Attributes:
         stretch: largest factor; 1.2 stretches by a fifth and squashes to 1 / 1.2.

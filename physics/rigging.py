@@ -178,7 +178,7 @@ def _in_mask(mask: NDArray[np.bool_], mesh: TriangleMesh) -> NDArray[np.bool_]:
 
 
 def _outside_mask(mask: NDArray[np.bool_], mesh: TriangleMesh) -> FloatArray:
-    """Distance of each vertex from the nearest painted pixel, to about a pixel [px]; infinite without any, shape [v]."""
+    """Distance of each vertex from the nearest painted pixel [px], to about a pixel; infinite without any: [v]."""
     import cv2
 
     if not mask.any():

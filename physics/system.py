@@ -153,7 +153,9 @@ def assemble(scene: Scene) -> System:
     return replace(system, masses=_masses_with_slower_slivers(system))
 
 
-def _damping_scale(bodies: Sequence[Body], rest: RestShape, density: FloatArray, along: IndexArray) -> FloatArray:
+def _damping_scale(
+    bodies: Sequence[Body], rest: RestShape, density: FloatArray, along: NDArray[np.integer]
+) -> FloatArray:
     """Factor on the damping of each vertex: the mean over its triangles, weighted by their mass, shape [v]."""
     scales = [
         np.ones(len(body.mesh.triangles)) if body.material.damping_scale is None else body.material.damping_scale

@@ -75,31 +75,39 @@ def test_motions_go_there_and_back(motion: RigMotion) -> None:
     assert read == scene.rig_points[0]
 
 
-MOTION = "rig_points[0].motion"
 SWING = {"type": "swing"}
 WRONG: list[tuple[dict[str, Any], str, str]] = [
-    ({"motion": {"type": "rotation", "times": [0, 1]}}, f"{MOTION}.angles", "is missing"),
-    ({"motion": {"type": "rotation", "times": [0], "angles": [0]}}, f"{MOTION}.angles", "at least 2 entries"),
-    ({"motion": {"type": "rotation", "times": [0, 1], "angles": [0, 1e9]}}, f"{MOTION}.angles[1]", "at most 36000"),
-    ({"motion": {"type": "rotation", "times": [0, 1, 2], "angles": [0, 1]}}, f"{MOTION}.times", "one per angle"),
-    ({"motion": {"type": "wave", "phase": "late"}}, f"{MOTION}.phase", "must be a number"),
-    ({"motion": {"type": "path", "times": [0, 1], "points": [[0, 0]] * 2, "easing": "eas"}}, f"{MOTION}.easing", "'ease'"),
-    ({"motion": {"type": "squash", "times": [0, 1], "factors": [1, 0]}}, f"{MOTION}.factors[1]", "at least 0.05"),
-    ({"motion": {"type": "pulse", "keep_area": 1}}, f"{MOTION}.keep_area", "must be true or false"),
-    ({"motion": {"type": "combined", "motions": []}}, f"{MOTION}.motions", "at least 1 entry"),
-    ({"motion": {"type": "combined", "motions": [SWING, {"type": "swing", "period": 0}]}}, f"{MOTION}.motions[1].period", "0.01"),
-    ({"motion": {"type": "combined", "motions": [{"type": "combined", "motions": [SWING]}]}}, f"{MOTION}.motions[0].type", "must be one of pinned"),
-    ({"falloff": -1}, "rig_points[0].falloff", "must be at least 0 px"),
-]  # fmt: skip
+    ({"type": "rotation", "times": [0, 1]}, ".angles", "is missing"),
+    ({"type": "rotation", "times": [0], "angles": [0]}, ".angles", "at least 2 entries"),
+    ({"type": "rotation", "times": [0, 1], "angles": [0, 1e9]}, ".angles[1]", "at most 36000"),
+    ({"type": "rotation", "times": [0, 1, 2], "angles": [0, 1]}, ".times", "one per angle"),
+    ({"type": "wave", "phase": "late"}, ".phase", "must be a number"),
+    ({"type": "path", "times": [0, 1], "points": [[0, 0]] * 2, "easing": "eas"}, ".easing", "'ease'"),
+    ({"type": "squash", "times": [0, 1], "factors": [1, 0]}, ".factors[1]", "at least 0.05"),
+    ({"type": "pulse", "keep_area": 1}, ".keep_area", "must be true or false"),
+    ({"type": "combined", "motions": []}, ".motions", "at least 1 entry"),
+    ({"type": "combined", "motions": [SWING, {"type": "swing", "period": 0}]}, ".motions[1].period", "0.01"),
+    (
+        {"type": "combined", "motions": [{"type": "combined", "motions": [SWING]}]},
+        ".motions[0].type",
+        "must be one of pinned",
+    ),
+]
 
 
-@pytest.mark.parametrize(("changes", "path", "message"), WRONG)
-def test_wrong_values_of_version_2_are_named(changes: dict[str, Any], path: str, message: str) -> None:
-    data = {"version": 2, "width": 1280, "height": 720, "rig_points": [{"position": [1, 2], **changes}]}
+@pytest.mark.parametrize(("motion", "place", "message"), WRONG)
+def test_wrong_values_of_version_2_are_named(motion: dict[str, Any], place: str, message: str) -> None:
+    data = {"version": 2, "width": 1280, "height": 720, "rig_points": [{"position": [1, 2], "motion": motion}]}
     with pytest.raises(SceneError) as caught:
         loads(json.dumps(data), meshes=meshes(1))
-    assert caught.value.path == path
+    assert caught.value.path == f"rig_points[0].motion{place}"
     assert message in str(caught.value)
+
+
+def test_a_negative_falloff_is_named() -> None:
+    data = {"version": 2, "width": 1280, "height": 720, "rig_points": [{"position": [1, 2], "falloff": -1}]}
+    with pytest.raises(SceneError, match=r"rig_points\[0\].falloff: must be at least 0 px"):
+        loads(json.dumps(data), meshes=meshes(1))
 
 
 def test_what_is_newer_is_refused() -> None:
