@@ -14,6 +14,7 @@ from .literals import PATH_FORMS, chosen, numbers_of, times_of
 from .tensors import mask_of
 
 __all__ = [
+    "OPTIONAL_INPUTS",
     "motion_of",
     "motion_options",
     "region_of",
@@ -23,6 +24,9 @@ __all__ = [
     "turn_of",
     "turn_options",
 ]
+
+OPTIONAL_INPUTS = ("phase", "easing")
+"""Inputs that a choice brings and that a prompt may leave out."""
 
 _REGIONS = ("circle", "polygon", "mask")
 _MOTIONS = ("pinned", "wave", "path")
@@ -116,7 +120,7 @@ def squash_options() -> list[io.DynamicCombo.Option]:
 
 def region_of(region: dict[str, Any] | None) -> RigRegion:
     """The region that was chosen; InvalidInputError where it is unusable."""
-    kind, values = chosen(region, "region", _REGIONS)
+    kind, values = _chosen(region, "region", _REGIONS)
     if kind == "circle":
         return Circle(values["radius"])
     if kind == "polygon":
@@ -126,7 +130,7 @@ def region_of(region: dict[str, Any] | None) -> RigRegion:
 
 def motion_of(motion: dict[str, Any] | None) -> RigMotion:
     """The way that was chosen; InvalidInputError where it is unusable."""
-    kind, values = chosen(motion, "motion", _MOTIONS)
+    kind, values = _chosen(motion, "motion", _MOTIONS)
     if kind == "pinned":
         return Pinned()
     if kind == "wave":
@@ -139,7 +143,7 @@ def motion_of(motion: dict[str, Any] | None) -> RigMotion:
 
 def turn_of(turn: dict[str, Any] | None) -> RigMotion | None:
     """The turn that was chosen, None for none; InvalidInputError where it is unusable."""
-    kind, values = chosen(turn or {"turn": "none"}, "turn", _TURNS)
+    kind, values = _chosen(turn, "turn", _TURNS)
     if kind == "none":
         return None
     if kind == "swing":
@@ -151,7 +155,7 @@ def turn_of(turn: dict[str, Any] | None) -> RigMotion | None:
 
 def squash_of(squash: dict[str, Any] | None) -> RigMotion | None:
     """The squash that was chosen, None for none; InvalidInputError where it is unusable."""
-    kind, values = chosen(squash or {"squash": "none"}, "squash", _SQUASHES)
+    kind, values = _chosen(squash, "squash", _SQUASHES)
     if kind == "none":
         return None
     if kind == "pulse":
@@ -159,6 +163,14 @@ def squash_of(squash: dict[str, Any] | None) -> RigMotion | None:
     factors = numbers_of(values.pop("factors"), name="squash factors", like="factors such as [1, 0.8, 1]")
     times = times_of(values.pop("times"), name="squash times") or _seconds(len(factors))
     return Squash(times, factors, **values)
+
+
+def _chosen(choice: dict[str, Any] | None, name: str, options: tuple[str, ...]) -> tuple[str, dict[str, Any]]:
+    """The option and what was given of its inputs; a prompt made before this pack had an input leaves it out."""
+    if "none" in options and (choice or {}).get(name) is None:
+        return "none", {}
+    kind, values = chosen(choice, name, options)
+    return kind, {key: value for key, value in values.items() if value is not None}
 
 
 def _seconds(count: int) -> tuple[float, ...]:

@@ -13,6 +13,7 @@ from ..physics.rig import RigPoint as PhysicalRigPoint
 from ..rendering.points import parse_polyline
 from .literals import PATH_FORMS, refusal
 from .rig_inputs import (
+    OPTIONAL_INPUTS,
     motion_of,
     motion_options,
     region_of,
@@ -108,7 +109,7 @@ class RigPoint(io.ComfyNode):
         if position is not None:
             checks.append(lambda: parse_polyline(position, name="position"))
         for name, choice in {"region": region, "motion": motion, "turn": turn, "squash": squash}.items():
-            if None not in (choice or {}).values():
+            if None not in [value for key, value in (choice or {}).items() if key not in OPTIONAL_INPUTS]:
                 checks.append(partial(_PARTS[name], choice))
         return refusal(*checks)
 
