@@ -22,6 +22,8 @@ __all__ = ["FIRMNESS", "grips_of"]
 FIRMNESS = 2 * math.pi * 10
 """Angular frequency of the spring at the region's edge [1/s]: well above any sway, so that it follows closely there."""
 
+_NARROWEST = 1e-6  # [px]: nothing overflows when divided by it
+
 
 def grips_of(
     rig_points: Sequence[RigPoint], mesh: TriangleMesh, *, body: int = 0
@@ -41,7 +43,7 @@ def grips_of(
     grips, grippers = np.zeros(len(mesh.vertices)), np.full(len(mesh.vertices), -1, dtype=np.int32)
     for index, rig_point in enumerate(rig_points):
         if rig_point.falloff > 0 and rig_point.body in (None, body):
-            grip = np.clip(1 - distances_of(rig_point, mesh) / rig_point.falloff, 0.0, 1.0)
+            grip = np.clip(1 - distances_of(rig_point, mesh) / max(rig_point.falloff, _NARROWEST), 0.0, 1.0)
             firmer = (grip > 0) & (grip >= grips)
             grips[firmer], grippers[firmer] = grip[firmer], index
     return grips, grippers
