@@ -9,6 +9,7 @@ from .example_nodes import ExampleIllustration
 from .flow_nodes import OpticalFlow, PreviewFlow
 from .mask_nodes import MaskToMesh, SegmentByPoints
 from .motion_nodes import PreviewMotion, Simulate
+from .paint_nodes import PaintMaterial
 from .render_nodes import Interpolate, Render
 from .rig_nodes import RigPoint
 from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
@@ -23,6 +24,7 @@ NODES: list[type[io.ComfyNode]] = [
     SegmentByPoints,
     MaskToMesh,
     Material,
+    PaintMaterial,
     Body,
     EnergyStroke,
     RigPoint,

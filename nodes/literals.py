@@ -8,7 +8,7 @@ from typing import Any
 
 from ..physics.errors import InvalidInputError, PhysAnimatorError
 
-__all__ = ["PATH_FORMS", "chosen", "refusal", "times_of"]
+__all__ = ["PATH_FORMS", "chosen", "numbers_of", "refusal", "times_of"]
 
 PATH_FORMS = 'as JSON: [[x, y], ...] or [{"x": .., "y": ..}, ...], as spline editors write it.'
 """How a tooltip says what may be typed for a path."""
@@ -58,6 +58,20 @@ def times_of(text: str, *, name: str = "times") -> tuple[float, ...]:
     Raises:
         InvalidInputError: the text holds something else.
     """
+    return numbers_of(text, name=name, like="seconds such as [0, 0.5, 2]")
+
+
+def numbers_of(text: str, *, name: str, like: str) -> tuple[float, ...]:
+    """Numbers from text: a JSON list, or numbers with commas between them; empty text gives none.
+
+    Args:
+        text: what was typed.
+        name: what the node calls the input.
+        like: what the list holds, with an example, for the message.
+
+    Raises:
+        InvalidInputError: the text holds something else.
+    """
     bare = text.strip().removeprefix("[").removesuffix("]").strip()
     if not bare:
         return ()
@@ -65,4 +79,4 @@ def times_of(text: str, *, name: str = "times") -> tuple[float, ...]:
         values = json.loads(f"[{bare}]")
         return tuple(float(value) for value in values)
     except (TypeError, ValueError):
-        raise InvalidInputError(f"{name} must be a list of seconds such as [0, 0.5, 2]. Got: {text[:60]}") from None
+        raise InvalidInputError(f"{name} must be a list of {like}. Got: {text[:60]}") from None

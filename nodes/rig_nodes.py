@@ -3,22 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
-import numpy as np
 from comfy_api.latest import io
 
-from ..physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigMotion, RigRegion, Wave
+from ..physics.rig import Combined, Pinned, RigMotion
 from ..physics.rig import RigPoint as PhysicalRigPoint
 from ..rendering.points import parse_polyline
-from .literals import PATH_FORMS, chosen, refusal, times_of
-from .tensors import mask_of
+from .literals import PATH_FORMS, refusal
+from .rig_inputs import (
+    OPTIONAL_INPUTS,
+    motion_of,
+    motion_options,
+    region_of,
+    region_options,
+    squash_of,
+    squash_options,
+    turn_of,
+    turn_options,
+)
 from .wires import RigWire
 
 __all__ = ["RigPoint"]
 
-_REGIONS = ("circle", "polygon", "mask")
-_MOTIONS = ("pinned", "wave", "path")
+_PARTS: dict[str, Callable[[dict[str, Any] | None], Any]] = {
+    "region": region_of,
+    "motion": motion_of,
+    "turn": turn_of,
+    "squash": squash_of,
+}
 
 
 class RigPoint(io.ComfyNode):
@@ -28,7 +42,7 @@ class RigPoint(io.ComfyNode):
             node_id="PhysAnimator_RigPoint",
             display_name="Rig Point",
             category="PhysAnimator/scene",
-            description="Holds a region of a body still, swings it, or leads it along a path.",
+            description="Holds a region of a body still, swings it, leads it along a path, turns it or squashes it.",
             inputs=[
                 io.String.Input(
                     "position",
@@ -37,12 +51,12 @@ class RigPoint(io.ComfyNode):
                 ),
                 io.DynamicCombo.Input(
                     "region",
-                    options=_region_options(),
+                    options=region_options(),
                     tooltip="What follows the rig point: a circle around it, a polygon, or what a mask covers.",
                 ),
                 io.DynamicCombo.Input(
                     "motion",
-                    options=_motion_options(),
+                    options=motion_options(),
                     tooltip="pinned holds the region as drawn, wave swings it, path leads it along keyed points.",
                 ),
                 io.Int.Input(
@@ -51,6 +65,27 @@ class RigPoint(io.ComfyNode):
                     min=-1,
                     max=4095,
                     tooltip="Number of the body it acts on, counted from 0 along the chain; -1 is every body.",
+                ),
+                io.DynamicCombo.Input(
+                    "turn",
+                    options=turn_options(),
+                    optional=True,
+                    tooltip="Turns the region about the rig point: swing to and fro, rotation by keyed angles.",
+                ),
+                io.DynamicCombo.Input(
+                    "squash",
+                    options=squash_options(),
+                    optional=True,
+                    tooltip="Squashes and stretches the region about the rig point: pulse to and fro, squash by keys.",
+                ),
+                io.Float.Input(
+                    "falloff",
+                    default=PhysicalRigPoint.falloff,
+                    min=0.0,
+                    max=16384.0,
+                    step=1.0,
+                    optional=True,
+                    tooltip="How far beyond the region its pull fades out [px]; 0 leaves all outside free.",
                 ),
                 RigWire.Input("rig_points", optional=True, tooltip="Rig points that act besides this one."),
             ],
@@ -65,19 +100,17 @@ class RigPoint(io.ComfyNode):
         position: str | None = None,
         region: dict[str, Any] | None = None,
         motion: dict[str, Any] | None = None,
+        turn: dict[str, Any] | None = None,
+        squash: dict[str, Any] | None = None,
         **others: Any,
     ) -> bool | str:
         # The host hands over the inputs that a choice brings only to a function that takes every input.
-        checks: list[Callable[[], Any]] = [
-            lambda: chosen(region, "region", _REGIONS),
-            lambda: chosen(motion, "motion", _MOTIONS),
-        ]
+        checks: list[Callable[[], Any]] = []
         if position is not None:
             checks.append(lambda: parse_polyline(position, name="position"))
-        if None not in (region or {}).values():
-            checks.append(lambda: _region(region))
-        if None not in (motion or {}).values():
-            checks.append(lambda: _motion(motion))
+        for name, choice in {"region": region, "motion": motion, "turn": turn, "squash": squash}.items():
+            if None not in [value for key, value in (choice or {}).items() if key not in OPTIONAL_INPUTS]:
+                checks.append(partial(_PARTS[name], choice))
         return refusal(*checks)
 
     @classmethod
@@ -85,119 +118,19 @@ class RigPoint(io.ComfyNode):
         cls,
         position: str,
         body: int,
+        falloff: float = PhysicalRigPoint.falloff,
         region: dict[str, Any] | None = None,
         motion: dict[str, Any] | None = None,
+        turn: dict[str, Any] | None = None,
+        squash: dict[str, Any] | None = None,
         rig_points: tuple[PhysicalRigPoint, ...] = (),
     ) -> io.NodeOutput:
         places = parse_polyline(position, name="position")
-        follows, moves = _region(region), _motion(motion)
-        made = [PhysicalRigPoint(place, follows, moves, None if body < 0 else body) for place in places]
+        follows, moves = region_of(region), _together(motion_of(motion), turn_of(turn), squash_of(squash))
+        made = [PhysicalRigPoint(place, follows, moves, None if body < 0 else body, falloff) for place in places]
         return io.NodeOutput((*rig_points, *made))
 
 
-def _region_options() -> list[io.DynamicCombo.Option]:
-    radius = PhysicalRigPoint.region.radius
-    return [
-        io.DynamicCombo.Option(
-            "circle",
-            [
-                io.Float.Input(
-                    "radius",
-                    default=radius,
-                    min=0.5,
-                    max=16384.0,
-                    step=1.0,
-                    display_name="radius",
-                    tooltip="What lies within this distance follows [px].",
-                )
-            ],
-        ),
-        io.DynamicCombo.Option(
-            "polygon",
-            [
-                io.String.Input(
-                    "points",
-                    default="[[600, 80], [680, 80], [680, 160], [600, 160]]",
-                    display_name="points",
-                    tooltip=f"Corners of the region in pixels {PATH_FORMS}",
-                )
-            ],
-        ),
-        io.DynamicCombo.Option("mask", [io.Mask.Input("mask", display_name="mask", tooltip="What it covers follows.")]),
-    ]
-
-
-def _motion_options() -> list[io.DynamicCombo.Option]:
-    wave = Wave()
-    return [
-        io.DynamicCombo.Option("pinned", []),
-        io.DynamicCombo.Option(
-            "wave",
-            [
-                io.Float.Input(
-                    "amplitude",
-                    default=wave.amplitude,
-                    min=-16384.0,
-                    max=16384.0,
-                    step=1.0,
-                    display_name="amplitude",
-                    tooltip="How far it swings to either side [px].",
-                ),
-                io.Float.Input(
-                    "period",
-                    default=wave.period,
-                    min=0.05,
-                    max=3600.0,
-                    step=0.1,
-                    display_name="period",
-                    tooltip="Time of one swing forth and back [s].",
-                ),
-                io.Float.Input(
-                    "angle",
-                    default=0.0,
-                    min=-360.0,
-                    max=360.0,
-                    step=5.0,
-                    display_name="angle",
-                    tooltip="Where it swings to first [degrees]: 0 to the right, 90 up.",
-                ),
-            ],
-        ),
-        io.DynamicCombo.Option(
-            "path",
-            [
-                io.String.Input(
-                    "points",
-                    default="[[640, 120], [700, 120]]",
-                    display_name="points",
-                    tooltip=f"Keys in pixels {PATH_FORMS} The region moves by the difference to the first.",
-                ),
-                io.String.Input(
-                    "times",
-                    default="[0, 1]",
-                    display_name="times",
-                    tooltip="When it is at each key, as a list of rising seconds [s]; empty means one second apart.",
-                ),
-            ],
-        ),
-    ]
-
-
-def _region(region: dict[str, Any] | None) -> RigRegion:
-    kind, values = chosen(region, "region", _REGIONS)
-    if kind == "circle":
-        return Circle(values["radius"])
-    if kind == "polygon":
-        return Polygon(tuple(parse_polyline(values["points"], name="region points")))
-    return MaskRegion(mask_of(values["mask"], name="region mask") >= 0.5)
-
-
-def _motion(motion: dict[str, Any] | None) -> RigMotion:
-    kind, values = chosen(motion, "motion", _MOTIONS)
-    if kind == "pinned":
-        return Pinned()
-    if kind == "wave":
-        radians = np.deg2rad(values["angle"])
-        return Wave(values["amplitude"], values["period"], (float(np.cos(radians)), -float(np.sin(radians))))
-    points = tuple(parse_polyline(values["points"], name="motion points"))
-    return KeyedPath(times_of(values["times"], name="motion times") or tuple(map(float, range(len(points)))), points)
+def _together(*motions: RigMotion | None) -> RigMotion:
+    moving = tuple(motion for motion in motions if not isinstance(motion, Pinned | None))
+    return Combined(moving) if len(moving) > 1 else moving[0] if moving else Pinned()

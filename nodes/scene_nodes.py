@@ -19,7 +19,7 @@ __all__ = ["AutomaticScene", "Scene", "SceneFromJSON"]
 
 _SAMPLE = """\
 {
-  "version": 1,
+  "version": 2,
   "width": 1280,
   "height": 720,
   "strokes": [

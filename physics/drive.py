@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
+from .leading import lead
 from .particles import Particles, all_particles
-from .rigging import displacement, velocity
+from .rig import RigPoint
 from .scene import Scene
 from .solver import Drive
 from .stepping import TICK
@@ -24,12 +27,12 @@ def drive(scene: Scene, first_tick: int, count: int) -> Drive:
     """
     times = (first_tick + np.arange(count + 1)) * TICK
     side = scene.bodies[0].mesh.longest_side
-    motions = [rig_point.motion for rig_point in scene.rig_points]
+    leads, rates = _rig_tables(scene.rig_points, times, side)
     groups = [all_particles(scene.strokes, float(t) + TICK / 2) for t in times[:-1]] if scene.strokes else []
     sizes = [len(group.kind) for group in groups] or [0] * count
     return Drive(
-        rig_displacements=_rig_table([displacement(motion, times) / side for motion in motions], count),
-        rig_velocities=_rig_table([velocity(motion, times) / side for motion in motions], count),
+        rig_leads=leads,
+        rig_rates=rates,
         first_particles=np.cumsum([0, *sizes]).astype(np.int32),
         particles=np.concatenate([_rows(group, side) for group in groups] or [np.zeros((0, 6), np.float32)]),
         kinds=np.concatenate([group.kind for group in groups] or [np.zeros(0, np.int32)]),
@@ -37,10 +40,14 @@ def drive(scene: Scene, first_tick: int, count: int) -> Drive:
     )
 
 
-def _rig_table(columns: list[NDArray[np.float64]], count: int) -> NDArray[np.float32]:
-    if not columns:
-        return np.zeros((count + 1, 1, 2), dtype=np.float32)
-    return np.ascontiguousarray(np.stack(columns, axis=1), dtype=np.float32)
+def _rig_tables(
+    rig_points: Sequence[RigPoint], times: NDArray[np.floating], side: float
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Coefficients of each rig point's affine displacement in sides, and their rates, two of shape [n + 1, g, 6]."""
+    tables = np.zeros((2, len(times), max(1, len(rig_points)), 6), dtype=np.float32)
+    for index, rig_point in enumerate(rig_points):
+        tables[:, :, index] = np.array(lead(rig_point.motion, rig_point.position, times)) / ([1] * 4 + [side] * 2)
+    return tables[0], tables[1]
 
 
 def _rows(group: Particles, side: float) -> NDArray[np.float32]:

@@ -11,6 +11,7 @@ there are several. Within a part all is serial, which for some thousand triangle
 
 from typing import Any
 
+from .falloff import FIRMNESS
 from .stepping import SAFETY, TICK
 
 __all__ = ["MOST_REFINEMENT", "REACH", "SPEED_FLOOR", "build_kernels"]
@@ -44,7 +45,7 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
     pairs = ti.types.ndarray(dtype=ti.types.vector(2, ti.i32), ndim=1)
     triples = ti.types.ndarray(dtype=ti.types.vector(3, ti.i32), ndim=1)
     stiffnesses = ti.types.ndarray(dtype=vec3, ndim=1)
-    paths = ti.types.ndarray(dtype=vec2, ndim=2)
+    paths = ti.types.ndarray(dtype=vec6, ndim=2)
 
     @ti.func
     def displacement_gradient(u0: vec2, u1: vec2, u2: vec2, b: vec4):
@@ -125,6 +126,29 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
         """The cubic from a to b that starts with va and ends with vb."""
         return a + s * (va + s * (3.0 * (b - a) - 2.0 * va - vb + s * (2.0 * (a - b) + va + vb)))
 
+    @ti.func
+    def led(x: vec2, c: vec6):
+        """M x + d by the coefficients of a rig point."""
+        return vec2(c[0] * x[0] + c[1] * x[1] + c[4], c[2] * x[0] + c[3] * x[1] + c[5])
+
+    @ti.func
+    def place(vertex: vec4):
+        """Where a vertex was drawn."""
+        return vec2(vertex[0], vertex[1])
+
+    @ti.func
+    def goal(x: vec2, tick: ti.i32, leader: ti.i32, s: ti.f32, rig_leads: paths, rig_rates: paths):
+        """Displacement to which a rig point leads what was drawn at x, at a part s of a tick."""
+        a, b = led(x, rig_leads[tick, leader]), led(x, rig_leads[tick + 1, leader])
+        va, vb = led(x, rig_rates[tick, leader]), led(x, rig_rates[tick + 1, leader])
+        return hermite(a, b, TICK * va, TICK * vb, s)
+
+    @ti.func
+    def pulled(speed: vec2, u: vec2, before: vec2, after: vec2, grip: ti.f32, dt: ti.f32):
+        """Velocity after a step of the critically damped spring between a vertex and its goal, taken implicitly."""
+        rate = dt * FIRMNESS * grip
+        return (speed + (rate * rate * (after - u) + 2.0 * rate * (after - before)) / dt) / (1.0 + rate * (2.0 + rate))
+
     @ti.kernel
     def advance(
         starts: pairs,
@@ -132,6 +156,7 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
         vertices: vectors4,
         reach: scalars,
         leaders: integers,
+        grips: scalars,
         triangles: triples,
         inverse_edges: vectors4,
         stiffness: stiffnesses,
@@ -140,8 +165,8 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
         force: vectors,
         push: vectors,
         decay: scalars,
-        rig_displacements: paths,
-        rig_velocities: paths,
+        rig_leads: paths,
+        rig_rates: paths,
         first_particles: integers,
         particles: vectors6,
         kinds: integers,
@@ -179,9 +204,14 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
                 for step in range(count):
                     add_forces(first_triangle, end_triangle, triangles, inverse_edges, stiffness, u, force)
                     for i in range(first_vertex, end_vertex):
-                        leader = leaders[i]
-                        if leader < 0:
+                        leader, grip = leaders[i], grips[i]
+                        if leader < 0 or grip > 0.0:
                             speed = decay[i] * (v[i] + dt * (vertices[i][2] * force[i] + push[i]))
+                            if grip > 0.0:
+                                x, s = place(vertices[i]), (step + 1.0) / count
+                                before = goal(x, tick, leader, step / ti.cast(count, ti.f32), rig_leads, rig_rates)
+                                after = goal(x, tick, leader, s, rig_leads, rig_rates)
+                                speed = pulled(speed, u[i], before, after, grip, dt)
                             limit = ti.max(reach[i] / dt, SPEED_FLOOR)
                             squared_speed = speed.norm_sqr()
                             if squared_speed > limit * limit:
@@ -189,10 +219,8 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
                             v[i] = speed
                             u[i] = u[i] + dt * speed
                         else:
-                            a, b = rig_displacements[tick, leader], rig_displacements[tick + 1, leader]
-                            va, vb = rig_velocities[tick, leader], rig_velocities[tick + 1, leader]
-                            v[i] = vb
-                            u[i] = hermite(a, b, TICK * va, TICK * vb, (step + 1.0) / count)
+                            v[i] = led(place(vertices[i]), rig_rates[tick + 1, leader])
+                            u[i] = goal(place(vertices[i]), tick, leader, (step + 1.0) / count, rig_leads, rig_rates)
                         force[i] = vec2(0.0, 0.0)
 
     @ti.kernel

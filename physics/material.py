@@ -10,12 +10,15 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .errors import InvalidInputError, require
 from .limits import LARGEST, STIFFEST
 
-__all__ = ["PRESETS", "Material", "preset"]
+__all__ = ["PRESETS", "SCALES", "Material", "preset"]
+
+SCALES = ("stiffness_scale", "damping_scale", "density_scale")
+"""Fields of a material that hold one factor for each triangle."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +34,8 @@ class Material:
             about its pinned points [Hz], 0.001 to 1000; shorter parts sway faster, as pendulums do, and parts without
             a pinned point keep ``youngs_modulus``.
         stiffness_scale: factor on Young's modulus for each triangle, shape [t]; None means 1 everywhere.
+        damping_scale: factor on the damping for each triangle, shape [t]; None means 1 everywhere.
+        density_scale: factor on the density for each triangle, shape [t]; None means 1 everywhere.
         name: the preset it came from, or empty; the automatic scene reads from it how such bodies are attached.
     """
 
@@ -41,6 +46,8 @@ class Material:
     sway_frequency: float | None = None
     stiffness_scale: NDArray[np.float64] | None = None
     name: str = ""
+    damping_scale: NDArray[np.float64] | None = None
+    density_scale: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         bounded = 0 < self.youngs_modulus <= STIFFEST
@@ -50,20 +57,27 @@ class Material:
         require("damping", self.damping, 0 <= self.damping <= LARGEST, f"0 to {LARGEST} per second")
         if self.sway_frequency is not None:
             require("sway_frequency", self.sway_frequency, 0.001 <= self.sway_frequency <= 1_000, "0.001 to 1000 Hz")
-        if self.stiffness_scale is not None:
-            scale = np.array(self.stiffness_scale, dtype=np.float64)
-            if scale.ndim != 1 or not ((scale > 0) & (scale <= LARGEST)).all():
-                raise InvalidInputError(
-                    f"stiffness_scale must be one factor a triangle, above 0 and at most {LARGEST}. Got: {scale}"
-                )
-            scale.setflags(write=False)
-            object.__setattr__(self, "stiffness_scale", scale)
+        for field in SCALES:
+            if getattr(self, field) is not None:
+                object.__setattr__(self, field, _checked_scale(field, getattr(self, field)))
+
+    def densities(self, count: int) -> NDArray[np.float64]:
+        """Mass per area of each of so many triangles, shape [t]."""
+        return self.density * (np.ones(count) if self.density_scale is None else self.density_scale)
 
     @property
     def lame(self) -> tuple[float, float]:
         """Lame parameters (mu, lambda) in plane strain [density side^2 / s^2]."""
         e, nu = self.youngs_modulus, self.poisson_ratio
         return e / (2 * (1 + nu)), e * nu / ((1 + nu) * (1 - 2 * nu))
+
+
+def _checked_scale(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    scale = np.array(values, dtype=np.float64)
+    if scale.ndim != 1 or not ((scale > 0) & (scale <= LARGEST)).all():
+        raise InvalidInputError(f"{name} must be one factor a triangle, above 0 and at most {LARGEST}. Got: {scale}")
+    scale.setflags(write=False)
+    return scale
 
 
 PRESETS: dict[str, Material] = {

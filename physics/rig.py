@@ -4,19 +4,31 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import require
+from .errors import InvalidInputError, require
 from .limits import LARGEST
 from .points import Point, Scale, checked_points, scaled_points
+from .rig_turns import Easing, Pulse, Rotation, Squash, Swing, checked_easing, checked_phase, checked_times
 
-__all__ = ["Circle", "KeyedPath", "MaskRegion", "Pinned", "Polygon", "RigMotion", "RigPoint", "RigRegion", "Wave"]
+__all__ = [
+    "MOST_COMBINED",
+    "Circle",
+    "Combined",
+    "KeyedPath",
+    "MaskRegion",
+    "Pinned",
+    "Polygon",
+    "RigMotion",
+    "RigPoint",
+    "RigRegion",
+    "Wave",
+]
 
-_SHORTEST = 0.001  # [s] between two keys: no speed grows beyond what a float can bear
 _UNIT = 1e-15  # a direction that is this close to length 1 stays as it is, so that scaling it again changes nothing
+MOST_COMBINED = 8
 
 
 @dataclass(frozen=True)
@@ -87,27 +99,24 @@ class Pinned:
 
 @dataclass(frozen=True)
 class KeyedPath:
-    """Led through keyed points; smooth between them, at rest before the first and after the last.
+    """Led through keyed points; at rest before the first and after the last.
 
     The region moves by the difference to the first key, so it never jumps at the start.
 
     Attributes:
         times: one per key [s], increasing by at least 1 ms, from 0 or later.
         points: where the rig point is at each key [px].
+        easing: how it goes from key to key, one of ``rig_turns.EASINGS``.
     """
 
     times: tuple[float, ...]
     points: tuple[Point, ...]
+    easing: Easing = "smooth"
 
     def __post_init__(self) -> None:
-        times = tuple(float(t) for t in self.times)
-        object.__setattr__(self, "times", times)
         object.__setattr__(self, "points", checked_points("points", self.points, least=2))
-        require("times", f"{len(times)} times", len(times) == len(self.points), f"one per point ({len(self.points)})")
-        bounded = times[0] >= 0 and all(t <= LARGEST for t in times)
-        require("times", times[:8], bounded, f"from 0 to {LARGEST} s")
-        rising = all(b - a > _SHORTEST * (1 - 1e-6) for a, b in pairwise(times))
-        require("times", times[:8], rising, f"increasing by at least {_SHORTEST} s from key to key")
+        object.__setattr__(self, "times", checked_times(self.times, len(self.points), "point"))
+        checked_easing(self.easing)
 
     def rescaled(self, scale: Scale) -> KeyedPath:
         """The same path over the picture at another size."""
@@ -118,15 +127,19 @@ class KeyedPath:
 class Wave:
     """Swings: displacement = amplitude * sin(2 pi t / period) * direction (the paper's wavy rigging point).
 
+    With a phase p it is amplitude * (sin(2 pi t / period + p) - sin p) * direction: it begins where it was drawn.
+
     Attributes:
         amplitude: [px].
         period: time of one swing forth and back [s], at least 0.01.
         direction: of the swing; scaled to unit length.
+        phase: where in the swing it begins [degrees]; at -90 it begins at rest.
     """
 
     amplitude: float = 20.0
     period: float = 2.0
     direction: Point = (1.0, 0.0)
+    phase: float = 0.0
 
     def __post_init__(self) -> None:
         x, y = (float(value) for value in self.direction)
@@ -137,6 +150,7 @@ class Wave:
         if abs(length - 1) > _UNIT:
             x, y = x / length, y / length
         object.__setattr__(self, "direction", (x, y))
+        checked_phase(self.phase)
 
     def rescaled(self, scale: Scale) -> Wave:
         """The same swing over the picture at another size."""
@@ -144,8 +158,32 @@ class Wave:
         return replace(self, amplitude=self.amplitude * math.hypot(x, y), direction=(x, y))
 
 
+@dataclass(frozen=True)
+class Combined:
+    """Several motions of one rig point at once.
+
+    Ways add up. Turns and squashes act about the moving point, in the order in which they are given.
+
+    Attributes:
+        motions: at least one, none of them combined itself.
+    """
+
+    motions: tuple[Pinned | KeyedPath | Wave | Rotation | Swing | Squash | Pulse, ...]
+
+    def __post_init__(self) -> None:
+        motions = tuple(self.motions)
+        require("motions", f"{len(motions)} motions", 1 <= len(motions) <= MOST_COMBINED, f"1 to {MOST_COMBINED}")
+        if any(isinstance(motion, Combined) for motion in motions):
+            raise InvalidInputError("motions must not be combined themselves. Got: a combined motion among them")
+        object.__setattr__(self, "motions", motions)
+
+    def rescaled(self, scale: Scale) -> Combined:
+        """The same motions over the picture at another size."""
+        return Combined(tuple(motion.rescaled(scale) for motion in self.motions))
+
+
 RigRegion = Circle | Polygon | MaskRegion
-RigMotion = Pinned | KeyedPath | Wave
+RigMotion = Pinned | KeyedPath | Wave | Rotation | Swing | Squash | Pulse | Combined
 
 
 @dataclass(frozen=True)
@@ -155,22 +193,27 @@ class RigPoint:
     Attributes:
         position: [px].
         region: which vertices follow.
-        motion: how they move.
+        motion: how they move; several motions at once may be given as a tuple.
         body: number of the body that it acts on; None means every body.
+        falloff: how far beyond the region the pull fades out [px]; 0 leaves everything outside free.
     """
 
     position: Point
     region: RigRegion = Circle(20.0)
     motion: RigMotion = Pinned()
     body: int | None = None
+    falloff: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "position", checked_points("position", (self.position,), least=1)[0])
+        if isinstance(self.motion, tuple | list):
+            object.__setattr__(self, "motion", Combined(tuple(self.motion)))
         if self.body is not None:
             require("body", self.body, self.body >= 0, "a body's number from 0")
+        require("falloff", self.falloff, 0 <= self.falloff <= LARGEST, f"0 to {LARGEST} px")
 
     def rescaled(self, scale: Scale) -> RigPoint:
         """The same rig point over the picture at another size."""
         (position,) = scaled_points((self.position,), scale)
         region, motion = self.region.rescaled(scale), self.motion.rescaled(scale)
-        return replace(self, position=position, region=region, motion=motion)
+        return replace(self, position=position, region=region, motion=motion, falloff=self.falloff * scale[2])

@@ -1,26 +1,23 @@
 """Rigging: which vertices follow a rig point, and where it leads them.
 
-Paper, Appendix "Details of Interactive Animation": the region follows the rig point's motion rigidly, by translation.
+Paper, Appendix "Details of Interactive Animation": the region follows the rig point's motion rigidly. How it turns
+and is squashed meanwhile stands in ``leading``.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .easing import eased, eased_rate
 from .mesh import TriangleMesh
-from .rig import Circle, KeyedPath, Polygon, RigMotion, RigPoint, Wave
+from .rig import Circle, Combined, KeyedPath, MaskRegion, Polygon, RigMotion, RigPoint, Wave
 from .scene import Scene
 
-if TYPE_CHECKING:
-    from scipy.interpolate import PchipInterpolator
-
-__all__ = ["displacement", "leaders_of", "unused_rig_points", "velocity", "vertices_of"]
+__all__ = ["displacement", "distances_of", "leaders_of", "unused_rig_points", "velocity", "vertices_of"]
 
 FloatArray = NDArray[np.float64]
 
@@ -44,6 +41,19 @@ def vertices_of(rig_point: RigPoint, mesh: TriangleMesh) -> NDArray[np.bool_]:
     return _in_mask(region.mask, mesh)
 
 
+def distances_of(rig_point: RigPoint, mesh: TriangleMesh) -> FloatArray:
+    """How far outside a rig point's region each vertex of a mesh lies [px], 0 or less inside, shape [v].
+
+    The distance from a mask is good to about a pixel of the mask.
+    """
+    region = rig_point.region
+    if isinstance(region, Circle):
+        return _outside_circle(rig_point.position, region.radius, mesh.vertices)
+    if isinstance(region, Polygon):
+        return _outside_polygon(region.points, mesh.vertices)
+    return _outside_mask(region.mask, mesh)
+
+
 def leaders_of(rig_points: Sequence[RigPoint], mesh: TriangleMesh, *, body: int = 0) -> NDArray[np.int32]:
     """Index of the rig point that leads each vertex of a body, -1 where the vertex is free.
 
@@ -65,23 +75,26 @@ def leaders_of(rig_points: Sequence[RigPoint], mesh: TriangleMesh, *, body: int 
 
 
 def displacement(motion: RigMotion, t: ArrayLike) -> FloatArray:
-    """How far a motion has led its region from where it was drawn.
+    """How far a motion has led its rig point from where it was drawn.
 
     Args:
-        motion: pinned stays; a keyed path runs smoothly through its keys without overshoot (monotone cubic, each
-            coordinate for itself), relative to the first; a wave swings as amplitude sin(2 pi t / period) direction.
+        motion: pinned stays, and so does what only turns or squashes; a keyed path runs from key to key as its easing
+            says, relative to the first; a wave swings as amplitude sin(2 pi t / period) direction; the ways of
+            combined motions add up.
         t: time [s], a number or shape [n].
 
     Returns:
         [px], shape [2] or [n, 2].
     """
     times = np.asarray(t, dtype=np.float64)
+    if isinstance(motion, Combined):
+        return np.sum([displacement(single, times) for single in motion.motions], axis=0)
     if isinstance(motion, Wave):
-        swing = motion.amplitude * np.sin(2 * np.pi * times / motion.period)
+        start = np.radians(motion.phase)
+        swing = motion.amplitude * (np.sin(2 * np.pi * times / motion.period + start) - np.sin(start))
         return swing[..., None] * np.array(motion.direction)
     if isinstance(motion, KeyedPath):
-        inside = np.clip(times, motion.times[0], motion.times[-1])
-        return np.asarray(_interpolator(motion)(inside)) - np.array(motion.points[0])
+        return eased(motion.times, motion.points, motion.easing, times) - np.array(motion.points[0])
     return np.zeros((*times.shape, 2))
 
 
@@ -98,21 +111,15 @@ def velocity(motion: RigMotion, t: ArrayLike) -> FloatArray:
         [px/s], shape [2] or [n, 2].
     """
     times = np.asarray(t, dtype=np.float64)
+    if isinstance(motion, Combined):
+        return np.sum([velocity(single, times) for single in motion.motions], axis=0)
     if isinstance(motion, Wave):
         rate = 2 * np.pi / motion.period
-        return (motion.amplitude * rate * np.cos(rate * times))[..., None] * np.array(motion.direction)
+        swing = motion.amplitude * rate * np.cos(rate * times + np.radians(motion.phase))
+        return swing[..., None] * np.array(motion.direction)
     if isinstance(motion, KeyedPath):
-        moving = (motion.times[0] <= times) & (times < motion.times[-1])
-        inside = np.clip(times, motion.times[0], motion.times[-1])
-        return np.where(moving[..., None], _interpolator(motion)(inside, 1), 0.0)
+        return eased_rate(motion.times, motion.points, motion.easing, times)
     return np.zeros((*times.shape, 2))
-
-
-@lru_cache(maxsize=1024)
-def _interpolator(path: KeyedPath) -> PchipInterpolator:
-    from scipy.interpolate import PchipInterpolator
-
-    return PchipInterpolator(path.times, path.points, axis=0)
 
 
 def unused_rig_points(scene: Scene) -> list[str]:
@@ -129,16 +136,14 @@ def unused_rig_points(scene: Scene) -> list[str]:
 
 def _whereabouts(rig_point: RigPoint, meshes: Sequence[TriangleMesh]) -> str:
     region = rig_point.region
+    if isinstance(region, MaskRegion) and not region.mask.any():
+        return "nothing is painted in its mask"
+    distance = min(float(distances_of(rig_point, mesh).min()) for mesh in meshes)
     if isinstance(region, Circle):
-        distance = min(float(_outside_circle(rig_point.position, region.radius, m.vertices).min()) for m in meshes)
         away = f"its region of radius {region.radius:g} px lies {round(distance, 1):g} px away"
         return f"{away}; a radius of {math.ceil(region.radius + distance)} px would reach it"
     if isinstance(region, Polygon):
-        distance = min(float(_outside_polygon(region.points, mesh.vertices).min()) for mesh in meshes)
         return f"its polygon lies {round(distance, 1):g} px away from the nearest vertex"
-    if not region.mask.any():
-        return "nothing is painted in its mask"
-    distance = min(_distance_to_mask(region.mask, mesh) for mesh in meshes)
     return f"its mask lies about {round(distance, 1):g} px away from the nearest vertex"
 
 
@@ -172,12 +177,14 @@ def _in_mask(mask: NDArray[np.bool_], mesh: TriangleMesh) -> NDArray[np.bool_]:
     return np.logical_or.reduce([mask[y[:, 1], x[:, 0]] for x in (low, high) for y in (low, high)])
 
 
-def _distance_to_mask(mask: NDArray[np.bool_], mesh: TriangleMesh) -> float:
-    """Distance of the painted pixels from the nearest vertex, to about a pixel [px]."""
+def _outside_mask(mask: NDArray[np.bool_], mesh: TriangleMesh) -> FloatArray:
+    """Distance of each vertex from the nearest painted pixel [px], to about a pixel; infinite without any: [v]."""
     import cv2
 
+    if not mask.any():
+        return np.full(len(mesh.vertices), np.inf)
     size = np.array([mask.shape[1], mask.shape[0]])
     scaled = mesh.vertices * (size / [mesh.width, mesh.height])
     column, row = np.clip(np.floor(scaled), 0, size - 1).astype(np.int64).T
     distances = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    return float(distances[row, column].min()) * mesh.longest_side / float(size.max())
+    return distances[row, column].astype(np.float64) * (mesh.longest_side / float(size.max()))

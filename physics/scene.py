@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 from .errors import InvalidInputError, require
 from .limits import LARGEST, MAX_BODIES, MAX_PARTICLES, MAX_RIG_POINTS, MAX_STROKES
-from .material import Material
+from .material import SCALES, Material
 from .mesh import TriangleMesh
 from .rig import RigPoint
 from .strokes import EnergyStroke
@@ -31,12 +31,13 @@ class Body:
     name: str = ""
 
     def __post_init__(self) -> None:
-        scale = self.material.stiffness_scale
-        if scale is not None and len(scale) != len(self.mesh.triangles):
-            raise InvalidInputError(
-                f"stiffness_scale must have one factor for each of the {len(self.mesh.triangles)} triangles."
-                f" Got: {len(scale)}"
-            )
+        for name in SCALES:
+            scale = getattr(self.material, name)
+            if scale is not None and len(scale) != len(self.mesh.triangles):
+                raise InvalidInputError(
+                    f"{name} must have one factor for each of the {len(self.mesh.triangles)} triangles."
+                    f" Got: {len(scale)}"
+                )
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,12 +31,13 @@ _TYPES = {
     "number": "a number",
     "object": "an object in braces",
     "string": "a text in quotes",
+    "boolean": "true or false",
 }
 _BOUNDS = {"minimum": "at least", "exclusiveMinimum": "above", "maximum": "at most", "exclusiveMaximum": "below"}
 
 
 def check_document(data: object) -> dict[str, Any]:
-    """The data, if it is a scene document of this version.
+    """The data, if it is a scene document of a version that can be read.
 
     Raises:
         SceneError: with the path of the first wrong value, in the order of the path.
@@ -150,21 +151,21 @@ def _expected(error: ValidationError) -> str:
     if rule in ("minItems", "maxItems"):
         return f"have at {'least' if rule == 'minItems' else 'most'} {value} {'entry' if value == 1 else 'entries'}"
     if rule == "enum":
-        return f"be one of {', '.join(value)}"
+        return f"be one of {', '.join(map(str, value))}"
     return f"be {json.dumps(value)}"  # const
 
 
 def _possible(schema: dict[str, Any], key: str) -> str:
     """The values among which a missing key chooses."""
     choices = schema["properties"][key].get("enum")
-    return f"; one of {', '.join(choices)}" if choices else ""
+    return f"; one of {', '.join(map(str, choices))}" if choices else ""
 
 
 def _meant(error: ValidationError) -> str:
     """The choice that a misspelt one may stand for."""
     if error.validator != "enum" or not isinstance(error.instance, str):
         return ""
-    near = get_close_matches(error.instance.lower(), error.validator_value, n=1)
+    near = get_close_matches(error.instance.lower(), map(str, error.validator_value), n=1)
     return f" (did you mean '{near[0]}'?)" if near else ""
 
 

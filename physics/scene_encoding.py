@@ -8,18 +8,28 @@ from typing import Any
 import numpy as np
 
 from .material import Material
-from .rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
+from .rig import Circle, Combined, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
+from .rig_turns import Pulse, Rotation, Squash, Swing
 from .run_lengths import runs_of
 from .scene import Body, Scene
 from .strokes import EnergyStroke
 
 __all__ = ["MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "encode", "scene_to_dict"]
 
-SCENE_VERSION = 1
+SCENE_VERSION = 2
 """Version of the document's format; a reader refuses what is newer."""
 
 REGION_TYPES: dict[str, type] = {"circle": Circle, "polygon": Polygon, "mask": MaskRegion}
-MOTION_TYPES: dict[str, type] = {"pinned": Pinned, "path": KeyedPath, "wave": Wave}
+MOTION_TYPES: dict[str, type] = {
+    "pinned": Pinned,
+    "path": KeyedPath,
+    "wave": Wave,
+    "rotation": Rotation,
+    "swing": Swing,
+    "squash": Squash,
+    "pulse": Pulse,
+    "combined": Combined,
+}
 
 _TYPE_NAMES = {kind: name for name, kind in (REGION_TYPES | MOTION_TYPES).items()}
 
@@ -47,6 +57,8 @@ def encode(value: Any) -> Any:
     """The JSON form of a value or of a part of a scene; fields that are None are left out."""
     if value is None or isinstance(value, str):
         return value
+    if isinstance(value, bool):
+        return value
     if isinstance(value, int | np.integer):
         return int(value)
     if isinstance(value, float | np.floating):
@@ -59,7 +71,7 @@ def encode(value: Any) -> Any:
     if isinstance(value, MaskRegion):
         height, width = value.mask.shape
         return {**tag, "width": width, "height": height, "runs": runs_of(value.mask)}
-    if not isinstance(value, Material | EnergyStroke | RigPoint | Circle | Polygon | Pinned | KeyedPath | Wave):
+    if type(value) not in _TYPE_NAMES and not isinstance(value, Material | EnergyStroke | RigPoint):
         raise TypeError(f"a scene holds no {type(value).__name__}")
     entries = {field.name: encode(getattr(value, field.name)) for field in fields(value)}
     return {**tag, **{name: entry for name, entry in entries.items() if entry is not None}}

@@ -19,11 +19,12 @@ from .limits import MAX_MASK_PIXELS
 from .material import Material, preset
 from .mesh import TriangleMesh
 from .points import Scale
-from .rig import MaskRegion, RigPoint
+from .rig import Combined, MaskRegion, RigPoint
 from .run_lengths import mask_of
 from .scene import Body, Scene
 from .scene_checking import check_document, join_path
 from .scene_encoding import MOTION_TYPES, REGION_TYPES, SCENE_VERSION, scene_to_dict
+from .scene_migration import migrated
 from .scene_schema import scene_schema
 from .strokes import EnergyStroke
 
@@ -73,7 +74,7 @@ def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = Non
     Raises:
         SceneError: a value is wrong; ``path`` says which, such as ``strokes[2].radius``.
     """
-    document = check_document(data)
+    document = migrated(check_document(data))
     supply = list(meshes or ())
     size = (int(document["width"]), int(document["height"]))
     target = (supply[0].width, supply[0].height) if supply else size
@@ -142,6 +143,9 @@ def _read_rig_point(entry: dict[str, Any], path: str) -> RigPoint:
 def _read_typed(entry: dict[str, Any], types: dict[str, type], path: str) -> Any:
     values = _floats({name: value for name, value in entry.items() if name != "type"})
     kind = types[entry["type"]]
+    if kind is Combined:
+        parts = enumerate(entry["motions"])
+        values["motions"] = tuple(_read_typed(part, types, join_path(path, "motions", i)) for i, part in parts)
     with _located(path):
         if kind is MaskRegion:
             return MaskRegion(mask_of(values["runs"], width=int(values["width"]), height=int(values["height"])))

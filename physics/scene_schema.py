@@ -19,8 +19,10 @@ from .limits import (
 )
 from .material import PRESETS, Material
 from .rig_schema import rig_definitions
+from .rig_turns import MOST_DEGREES, MOST_STRETCH
 from .scene import Body, Scene
 from .scene_encoding import SCENE_VERSION
+from .scene_migration import READABLE_VERSIONS
 from .schema_blocks import (
     ABOVE_0,
     ANY_SIZE,
@@ -37,7 +39,7 @@ from .strokes import STROKE_KINDS, EnergyStroke
 __all__ = ["scene_schema"]
 
 _EXAMPLE = {
-    "version": 1,
+    "version": 2,
     "width": 1280,
     "height": 720,
     "bodies": [{"name": "hair", "material": {"preset": "hair", "damping": 2}}],
@@ -73,7 +75,11 @@ def scene_schema() -> Schema:
 def _document() -> dict[str, Schema]:
     return {
         "$schema": {"type": "string", "title": "Schema", "description": "Where editors find this schema; not read."},
-        "version": {"const": SCENE_VERSION, "title": "Version", "description": "Version of the format."},
+        "version": {
+            "enum": list(READABLE_VERSIONS),
+            "title": "Version",
+            "description": f"Version of the format, now {SCENE_VERSION}; a document of version 1 is read as before.",
+        },
         "width": whole_number("Width [px]", "Width of the illustration that the positions refer to.", 1, MAX_SIDE),
         "height": whole_number("Height [px]", "Height of the illustration that the positions refer to.", 1, MAX_SIDE),
         "frame_rate": number(
@@ -151,12 +157,15 @@ def _material() -> dict[str, Schema]:
             ),
             "type": ["number", "null"],
         },
-        "stiffness_scale": {
-            "type": ["array", "null"],
-            "title": "Stiffness scale",
-            "description": "A factor on the stiffness of each triangle of the mesh; null means 1 everywhere.",
-            "items": {"$ref": "#/$defs/factor"},
-            "maxItems": MAX_TRIANGLES,
+        **{
+            f"{quantity}_scale": {
+                "type": ["array", "null"],
+                "title": f"{quantity.capitalize()} scale",
+                "description": f"A factor on the {quantity} of each triangle of the mesh; null means 1 everywhere.",
+                "items": {"$ref": "#/$defs/factor"},
+                "maxItems": MAX_TRIANGLES,
+            }
+            for quantity in ("stiffness", "damping", "density")
         },
     }
 
@@ -210,6 +219,8 @@ def _entries() -> dict[str, Schema]:
         "point": pair_of_numbers("Point [px]", "x to the right, y down.", **ANY_SIZE),
         "time": {"type": "number", **FROM_0},
         "factor": {"type": "number", **ABOVE_0},
+        "angle": {"type": "number", "minimum": -MOST_DEGREES, "maximum": MOST_DEGREES},
+        "stretch": {"type": "number", "minimum": 1 / MOST_STRETCH, "maximum": MOST_STRETCH},
         "run": {**whole, "maximum": MAX_MASK_PIXELS},
         "triangle": {
             "type": "array",

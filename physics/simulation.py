@@ -113,6 +113,8 @@ def _solid(scene: Scene, system: System) -> Solid:
     altitudes = np.full(len(free), np.inf)
     np.minimum.at(altitudes, rest.triangles, rest.smallest_altitudes[:, None])
     moving = [index for index, point in enumerate(scene.rig_points) if not isinstance(point.motion, Pinned)]
+    gripped = free & (system.grips > 0)
+    leaders = np.where(np.isin(system.leaders, moving), system.leaders, -1)
     squared = squared_frequencies(rest, mu, lam, system.density)
     squared = np.minimum(squared, system.highest[system.part_of_triangle])
     stiffness = np.column_stack([2 * mu * rest.areas, lam * rest.areas, squared])
@@ -121,7 +123,8 @@ def _solid(scene: Scene, system: System) -> Solid:
         substeps=system.substeps,
         vertices=np.column_stack([rest.positions, inverse_mass, system.damping]).astype(np.float32),
         reach=np.where(free, REACH * altitudes, 0.0).astype(np.float32),
-        leaders=np.where(np.isin(system.leaders, moving), system.leaders, -1).astype(np.int32),
+        leaders=np.where(gripped, system.grippers, leaders).astype(np.int32),
+        grips=np.where(gripped, system.grips, 0.0).astype(np.float32),
         triangles=np.ascontiguousarray(rest.triangles[active]),
         inverse_edges=rest.inverse_edges[active].reshape(-1, 4).astype(np.float32),
         stiffness=stiffness[active].astype(np.float32),

@@ -28,7 +28,8 @@ class Solid(NamedTuple):
         substeps: planned substeps of each part in a tick, int32, shape [p].
         vertices: rest position X [side], inverse mass (0: led or held), damping [1/s], float32, shape [v, 4].
         reach: largest displacement in a substep [side], float32, shape [v].
-        leaders: index of the rig point that leads each vertex, -1 for none, int32, shape [v].
+        leaders: index of the rig point that leads each vertex or pulls it along, -1 for none, int32, shape [v].
+        grips: how firmly it pulls, 0..1; 0 where it leads, float32, shape [v].
         triangles: vertex indices, int32, shape [t, 3].
         inverse_edges: row-major inverse of the rest edge columns [1/side], float32, shape [t, 4].
         stiffness: 2 mu V, lambda V, and the omega^2 at rest to plan with [1/s^2], float32, shape [t, 3].
@@ -39,6 +40,7 @@ class Solid(NamedTuple):
     vertices: Float32Array
     reach: Float32Array
     leaders: Int32Array
+    grips: Float32Array
     triangles: Int32Array
     inverse_edges: Float32Array
     stiffness: Float32Array
@@ -72,8 +74,9 @@ class Drive(NamedTuple):
     """What acts on the bodies in each of n ticks.
 
     Attributes:
-        rig_displacements: of each rig point at the ticks' ends [side], float32, shape [n + 1, g, 2].
-        rig_velocities: [side/s], float32, shape [n + 1, g, 2].
+        rig_leads: M row by row and d [side] of the displacement M X + d that each rig point gives its region at the
+            ticks' ends, float32, shape [n + 1, g, 6].
+        rig_rates: their time derivatives [1/s], float32, shape [n + 1, g, 6].
         first_particles: particles of tick i are those from entry i to before entry i + 1, int32, shape [n + 1].
         particles: position and direction of travel of each particle in the middle of its tick [side],
             radius [side], strength [side/s^2], float32, shape [p, 6].
@@ -81,8 +84,8 @@ class Drive(NamedTuple):
         gravity: acceleration of every vertex [side/s^2].
     """
 
-    rig_displacements: Float32Array
-    rig_velocities: Float32Array
+    rig_leads: Float32Array
+    rig_rates: Float32Array
     first_particles: Int32Array
     particles: Float32Array
     kinds: Int32Array

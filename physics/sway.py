@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .elasticity import RestShape, lame_parameters, lumped_masses, rest_shape, stiffness_matrix
 from .mesh import TriangleMesh
@@ -50,14 +50,14 @@ class SwayPart:
 
 
 def first_frequency(
-    rest: RestShape, mu: FloatArray, lam: FloatArray, density: float, held: NDArray[np.bool_]
+    rest: RestShape, mu: FloatArray, lam: FloatArray, density: ArrayLike, held: NDArray[np.bool_]
 ) -> float | None:
     """Lowest frequency at which a connected shape vibrates about its held vertices [Hz].
 
     Args:
         rest: the shape [side].
         mu, lam: Lame parameters of each triangle, shape [t].
-        density: mass per area.
+        density: mass per area, one number or shape [t].
         held: which vertices do not move, shape [v]; with a single one, turning about it does not count.
 
     Returns:
@@ -91,17 +91,18 @@ def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> t
     if material.sway_frequency is None:
         return modulus, report
     rest, part_of_triangle = rest_shape(mesh), mesh.components[mesh.triangles[:, 0]]
-    lengths = _lengths(mesh)
+    lengths, densities = _lengths(mesh), material.densities(len(modulus))
     for part in np.unique(part_of_triangle[held[mesh.triangles].any(axis=1)]):
         chosen = part_of_triangle == part
         shape, held_here = _part_of(rest, chosen, held)
         mu, lam = lame_parameters(modulus[chosen], material.poisson_ratio)
-        natural = first_frequency(shape, mu, lam, material.density, held_here)
+        density = densities[chosen]
+        natural = first_frequency(shape, mu, lam, density, held_here)
         if natural is None:
             continue
         wanted = material.sway_frequency * math.sqrt(lengths.max() / lengths[part])
         factor = (wanted / natural) ** 2
-        factor = min(factor, _most_stiffening(shape, mu, lam, material.density, held_here, wanted=factor))
+        factor = min(factor, _most_stiffening(shape, mu, lam, density, held_here, wanted=factor))
         modulus[chosen] *= factor
         achieved = natural * math.sqrt(factor)
         stiffness = material.youngs_modulus * factor
@@ -125,7 +126,7 @@ def _part_of(
 
 
 def _most_stiffening(
-    shape: RestShape, mu: FloatArray, lam: FloatArray, density: float, held: NDArray[np.bool_], *, wanted: float
+    shape: RestShape, mu: FloatArray, lam: FloatArray, density: ArrayLike, held: NDArray[np.bool_], *, wanted: float
 ) -> float:
     """Largest factor on the stiffness of a part that leaves it within ``SWAY_SUBSTEPS``."""
     allowed = (SAFETY * 2 * SWAY_SUBSTEPS / TICK) ** 2
@@ -138,7 +139,7 @@ def _most_stiffening(
 
 
 def _free_system(
-    rest: RestShape, mu: FloatArray, lam: FloatArray, density: float, held: NDArray[np.bool_]
+    rest: RestShape, mu: FloatArray, lam: FloatArray, density: ArrayLike, held: NDArray[np.bool_]
 ) -> tuple[csr_array, FloatArray]:
     """Stiffness matrix and masses of the coordinates that are free to move."""
     free = np.repeat(~held, 2)

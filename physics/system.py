@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .elasticity import RestShape, lame_parameters, lumped_masses, stiffness_matrix
+from .falloff import grips_of
 from .modes import highest_eigenvalue
 from .rigging import leaders_of
-from .scene import Scene
+from .scene import Body, Scene
 from .stepping import frequency_limits, substeps, vertex_frequencies
 from .sway import SwayPart, resolve_stiffness
 
@@ -40,6 +41,8 @@ class System:
             a little higher than what the density gives.
         damping: of each vertex [1/s], shape [v].
         leaders: index of the rig point that leads each vertex, -1 where it is free, shape [v].
+        grips: how firmly a rig point pulls each vertex along that it does not lead, 0..1, shape [v].
+        grippers: index of that rig point, -1 where there is none, shape [v].
         sway: what became of the sway frequencies that materials ask for.
     """
 
@@ -53,6 +56,8 @@ class System:
     masses: FloatArray
     damping: FloatArray
     leaders: IndexArray
+    grips: FloatArray
+    grippers: IndexArray
     sway: tuple[SwayPart, ...]
 
     @cached_property
@@ -126,7 +131,8 @@ def assemble(scene: Scene) -> System:
     order, rank = np.argsort(parts, kind="stable").astype(np.int32), np.empty(len(parts), dtype=np.int32)
     rank[order] = np.arange(len(order), dtype=np.int32)
     along = np.argsort(parts[triangles[:, 0]], kind="stable")
-    density = np.repeat([body.material.density for body in bodies], triangle_counts)[along]
+    density = np.concatenate([b.material.densities(n) for b, n in zip(bodies, triangle_counts, strict=True)])[along]
+    grips = [grips_of(scene.rig_points, body.mesh, body=number) for number, body in enumerate(bodies)]
     rest = RestShape(np.concatenate([body.mesh.vertices / side for body in bodies])[order], rank[triangles[along]])
     system = System(
         rest=rest,
@@ -137,11 +143,27 @@ def assemble(scene: Scene) -> System:
         poisson_ratio=np.repeat([body.material.poisson_ratio for body in bodies], triangle_counts)[along],
         density=density,
         masses=lumped_masses(rest, density),
-        damping=np.repeat([body.material.damping for body in bodies], vertex_counts)[order],
+        damping=np.repeat([body.material.damping for body in bodies], vertex_counts)[order]
+        * _damping_scale(bodies, rest, density, along),
         leaders=np.concatenate(leaders)[order],
+        grips=np.concatenate([grip for grip, _ in grips])[order],
+        grippers=np.concatenate([gripper for _, gripper in grips])[order],
         sway=tuple(part for _, parts in stiffness for part in parts),
     )
     return replace(system, masses=_masses_with_slower_slivers(system))
+
+
+def _damping_scale(
+    bodies: Sequence[Body], rest: RestShape, density: FloatArray, along: NDArray[np.integer]
+) -> FloatArray:
+    """Factor on the damping of each vertex: the mean over its triangles, weighted by their mass, shape [v]."""
+    scales = [
+        np.ones(len(body.mesh.triangles)) if body.material.damping_scale is None else body.material.damping_scale
+        for body in bodies
+    ]
+    masses = lumped_masses(rest, density)
+    weighted = lumped_masses(rest, density * np.concatenate(scales)[along])
+    return np.divide(weighted, masses, out=np.ones_like(masses), where=masses > 0)
 
 
 def _masses_with_slower_slivers(system: System) -> FloatArray:

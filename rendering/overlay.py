@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..physics.errors import require
+from ..physics.leading import linear_part
 from ..physics.mesh import TriangleMesh
 from ..physics.motion import Motion
 from ..physics.particles import particles
-from ..physics.rig import Circle, KeyedPath, Polygon, RigPoint, RigRegion, Wave
+from ..physics.rig import Circle, Combined, KeyedPath, Polygon, RigMotion, RigPoint, RigRegion, Wave
 from ..physics.rigging import displacement
 from ..physics.scene import Scene
 from ..physics.strokes import EnergyStroke
@@ -31,6 +32,7 @@ Colour = tuple[int, int, int]
 
 STROKE_COLOURS: dict[str, Colour] = {"wind": (70, 190, 255), "repel": (255, 110, 70), "attract": (120, 235, 110)}
 RIG_COLOURS: dict[str, Colour] = {"Pinned": (255, 80, 100), "KeyedPath": (215, 130, 255), "Wave": (255, 205, 60)}
+_TURN_COLOUR: Colour = (90, 225, 215)
 _MESH_COLOUR: Colour = (255, 240, 120)
 _DARK: Colour = (20, 20, 30)
 
@@ -67,21 +69,23 @@ def draw_rig(image: NDArray[Any], rig_points: Sequence[RigPoint], t: float, *, s
 
     Args:
         image: RGB, uint8 or float in 0..1, shape [h, w, 3].
-        rig_points: pins in red, keyed paths in violet, waves in yellow.
+        rig_points: pins in red, keyed paths in violet, waves in yellow, what turns or is squashed in turquoise.
         t: time at which they are shown [s].
         scale: picture's size over the illustration's, a number or (x, y).
     """
     canvas, scale = _canvas(image), np.asarray(scale, dtype=np.float64)
     unit = _unit(canvas)
     for rig_point in rig_points:
-        colour = RIG_COLOURS[type(rig_point.motion).__name__]
-        moved = displacement(rig_point.motion, t)
-        outlines = [(outline + moved) * scale for outline in _outlines(rig_point.position, rig_point.region)]
+        colour = RIG_COLOURS.get(type(rig_point.motion).__name__, _TURN_COLOUR)
+        position = np.array(rig_point.position)
+        moved, (turned, _) = displacement(rig_point.motion, t), linear_part(rig_point.motion, t)
+        drawn = _outlines(rig_point.position, rig_point.region)
+        outlines = [((outline - position) @ turned.T + position + moved) * scale for outline in drawn]
         _lay(canvas, partial(_area, outlines=outlines, colour=colour), 0.2)
         for outline in outlines:
             _lines(canvas, [np.concatenate([outline, outline[:1]])], colour, 2 * unit)
         _lines(canvas, [way * scale for way in _way(rig_point)], colour, 2 * unit)
-        _dot(canvas, (np.array(rig_point.position) + moved) * scale, colour, 4 * unit)
+        _dot(canvas, (position + moved) * scale, colour, 4 * unit)
     return _returned(canvas, image)
 
 
@@ -231,9 +235,15 @@ def _outlines(position: tuple[float, float], region: RigRegion) -> list[NDArray[
 def _way(rig_point: RigPoint) -> list[NDArray[np.float64]]:
     """The line along which a rig point goes."""
     position, motion = np.array(rig_point.position), rig_point.motion
+    singles = motion.motions if isinstance(motion, Combined) else (motion,)
+    spans = [span for single in singles for span in _span(single)]
+    if not spans:
+        return []
+    return [position + displacement(motion, np.linspace(min(spans), max(spans), 129))]
+
+
+def _span(motion: RigMotion) -> tuple[float, ...]:
+    """First and last time of the way that a motion leads along, none where it stays in its place [s]."""
     if isinstance(motion, Wave):
-        swing = motion.amplitude * np.array(motion.direction)
-        return [np.stack([position - swing, position + swing])]
-    if isinstance(motion, KeyedPath):
-        return [position + displacement(motion, np.linspace(motion.times[0], motion.times[-1], 64))]
-    return []
+        return 0.0, motion.period
+    return (motion.times[0], motion.times[-1]) if isinstance(motion, KeyedPath) else ()

@@ -106,6 +106,35 @@ def test_own_materials_regions_and_paths(host: Any) -> None:
     assert path["motion"]["times"] == [0, 1]
 
 
+def test_rig_points_turn_ease_and_fade_out_and_paint_stiffens(host: Any) -> None:
+    turned = {
+        "region": "circle", "region.radius": 40.0, "motion": "path", "motion.points": "[[480, 90], [500, 90]]",
+        "motion.times": "", "motion.easing": "hold", "turn": "rotation", "turn.angles": "[0, 20, 0]",
+        "turn.times": "[0, 0.5, 1]", "turn.easing": "ease", "squash": "pulse", "squash.stretch": 1.2,
+        "squash.period": 1.0, "squash.phase": -90.0, "squash.angle": 90.0, "squash.keep_area": True, "falloff": 25.0,
+    }  # fmt: skip
+    prompt = ribbon(3) | {
+        "paint": ours("PaintMaterial", mesh=["mesh", 0], preset="ribbon", black=1.0, white=5.0,
+                      stiffness=["example", 2], mass=["example", 2]),
+        "turned": ours("RigPoint", position="480,90", body=0, **turned),
+        "seen": core("PreviewAny", source=["scene", 1]),
+    }  # fmt: skip
+    prompt["body"]["inputs"]["material"] = ["paint", 0]
+    prompt["scene"]["inputs"]["rig_points"] = ["turned", 0]
+    document = json.loads(host.run(prompt)["seen"]["text"][0])
+    assert document["version"] == 2
+    material = document["bodies"][0]["material"]
+    assert np.allclose(np.median(material["stiffness_scale"]), 5)
+    assert material["density_scale"] == material["stiffness_scale"]
+    assert "damping_scale" not in material
+    (point,) = document["rig_points"]
+    assert point["falloff"] == 25
+    path, rotation, pulse = point["motion"]["motions"]
+    assert (path["type"], path["easing"]) == ("path", "hold")
+    assert (rotation["type"], rotation["angles"], rotation["times"]) == ("rotation", [0, 20, 0], [0, 0.5, 1])
+    assert (pulse["type"], pulse["stretch"], pulse["keep_area"]) == ("pulse", 1.2, True)
+
+
 def test_keyframes_are_kept_and_in_betweens_drawn(host: Any) -> None:
     prompt = {
         "dark": core("EmptyImage", width=64, height=32, batch_size=1, color=0x000000),

@@ -340,10 +340,10 @@ REGION = ["rig_points", 0, "region"]
 MOTION = ["rig_points", 0, "motion"]
 BODY = ["bodies", 0]
 WRONG = [
-    (["version"], 2, "version", "made by a newer PhysAnimator (format 2, known here up to 1)"),
-    (["version"], 0, "version", "must be 1. Got: 0"),
-    (["version"], "1", "version", 'must be 1. Got: "1"'),
-    (["version"], True, "version", "must be 1. Got: true"),
+    (["version"], 3, "version", "made by a newer PhysAnimator (format 3, known here up to 2)"),
+    (["version"], 0, "version", "must be one of 1, 2. Got: 0"),
+    (["version"], "1", "version", 'must be one of 1, 2. Got: "1"'),
+    (["version"], True, "version", "must be one of 1, 2. Got: true"),
     (["width"], 0, "width", "must be at least 1 px. Got: 0"),
     (["width"], 10.5, "width", "must be a whole number. Got: 10.5"),
     (["height"], 10**9, "height", "must be at most 65536 px"),

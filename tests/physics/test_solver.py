@@ -56,6 +56,7 @@ def solid_of(rest: RestShape, *, led: tuple[int, ...] = (), reach: float = np.in
         vertices=np.column_stack([rest.positions, inverse_mass, np.full(count, DAMPING)]).astype(np.float32),
         reach=np.full(count, reach, dtype=np.float32),
         leaders=leaders,
+        grips=np.zeros(count, dtype=np.float32),
         triangles=rest.triangles,
         inverse_edges=rest.inverse_edges.reshape(-1, 4).astype(np.float32),
         stiffness=np.column_stack([2 * mu * rest.areas, lam * rest.areas, squared]).astype(np.float32),
@@ -75,7 +76,7 @@ def highest_frequency(rest: RestShape) -> float:
 
 def still(ticks: int, gravity: tuple[float, float] = (0.0, 0.0)) -> Drive:
     """Nothing but gravity."""
-    zeros = np.zeros((ticks + 1, 1, 2), dtype=np.float32)
+    zeros = np.zeros((ticks + 1, 1, 6), dtype=np.float32)
     nothing = np.zeros((0, 6), dtype=np.float32), np.zeros(0, dtype=np.int32)
     return Drive(zeros, zeros, np.zeros(ticks + 1, dtype=np.int32), *nothing, gravity)
 
@@ -201,8 +202,8 @@ def test_led_vertices_follow_the_cubic_and_hold_their_velocity() -> None:
     start, end = np.array([0.0, 0.0]), np.array([0.01, -0.02])
     v_start, v_end = np.array([1.0, 0.5]), np.array([-2.0, 3.0])
     drive = still(1)._replace(
-        rig_displacements=np.array([[start], [end]], dtype=np.float32),
-        rig_velocities=np.array([[v_start], [v_end]], dtype=np.float32),
+        rig_leads=np.array([[[0, 0, 0, 0, *start]], [[0, 0, 0, 0, *end]]], dtype=np.float32),
+        rig_rates=np.array([[[0, 0, 0, 0, *v_start]], [[0, 0, 0, 0, *v_end]]], dtype=np.float32),
     )
     state = State.at_rest(len(rest.positions))
     advance(solid, state, drive)

@@ -1,0 +1,23 @@
+"""Documents of older versions in the form of the present one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .scene_encoding import SCENE_VERSION
+
+__all__ = ["READABLE_VERSIONS", "migrated"]
+
+READABLE_VERSIONS = tuple(range(1, SCENE_VERSION + 1))
+"""Versions of documents that can be read."""
+
+
+def migrated(document: dict[str, Any]) -> dict[str, Any]:
+    """A document of any readable version as one of the present version; the argument is left as it is.
+
+    Version 2 only adds keys to version 1, all with defaults under which a scene moves as it did.
+
+    Args:
+        document: a checked document.
+    """
+    return {**document, "version": SCENE_VERSION}
