@@ -23,13 +23,14 @@ def drive(scene: Scene, first_tick: int, count: int) -> Drive:
         count: number of ticks.
     """
     times = (first_tick + np.arange(count + 1)) * TICK
+    led = times if scene.loop is None else times % scene.loop
     side = scene.bodies[0].mesh.longest_side
     motions = [rig_point.motion for rig_point in scene.rig_points]
     groups = [all_particles(scene.strokes, float(t) + TICK / 2) for t in times[:-1]] if scene.strokes else []
     sizes = [len(group.kind) for group in groups] or [0] * count
     return Drive(
-        rig_displacements=_rig_table([displacement(motion, times) / side for motion in motions], count),
-        rig_velocities=_rig_table([velocity(motion, times) / side for motion in motions], count),
+        rig_displacements=_rig_table([displacement(motion, led) / side for motion in motions], count),
+        rig_velocities=_rig_table([velocity(motion, led) / side for motion in motions], count),
         first_particles=np.cumsum([0, *sizes]).astype(np.int32),
         particles=np.concatenate([_rows(group, side) for group in groups] or [np.zeros((0, 6), np.float32)]),
         kinds=np.concatenate([group.kind for group in groups] or [np.zeros(0, np.int32)]),

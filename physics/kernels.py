@@ -106,18 +106,27 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
 
     @ti.func
     def particle_push(q: vec2, particle: vec6, kind: ti.i32):
-        """Acceleration at q by one flow particle (Appendix "Interactive Animation"), nothing beyond its radius."""
+        """Acceleration at q by one flow particle (Appendix "Interactive Animation"), nothing beyond its radius.
+
+        The kind is 0 wind, 1 repel, 2 attract, plus 3 for a smooth or 6 for a constant falloff.
+        """
         push = vec2(0.0, 0.0)
         offset = q - vec2(particle[0], particle[1])
         distance, radius = offset.norm(), particle[4]
         if distance <= radius:
             falling = 1.0 - distance / radius
-            if kind == 0:
+            if kind >= 6:
+                falling = 1.0
+            elif kind >= 3:
+                falling = falling * falling * (1.0 + distance / radius) * (1.0 + distance / radius)
+            if kind % 3 == 0:
                 push = falling * vec2(particle[2], particle[3])
             elif kind == 1:
                 push = offset / radius
             elif distance > 0.0:
-                push = -falling / distance * offset
+                push = falling / distance * offset
+                if kind % 3 == 2:
+                    push = -push
         return push * particle[5]
 
     @ti.func

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from .errors import InvalidInputError, require
-from .limits import LARGEST, MAX_BODIES, MAX_PARTICLES, MAX_RIG_POINTS, MAX_STROKES
+from .limits import LARGEST, MAX_BODIES, MAX_LOOP, MAX_PARTICLES, MAX_RIG_POINTS, MAX_STROKES
 from .material import Material
 from .mesh import TriangleMesh
 from .rig import RigPoint
@@ -49,6 +49,8 @@ class Scene:
         rig_points: pins and leads.
         gravity: acceleration of every vertex [side/s^2], x right, y down.
         frame_rate: frames a second.
+        loop: length of a seamless loop [s]; then frame 0 is not the drawing but a state that comes again after the
+            loop, and all that acts is fitted to it (see ``loop.periodic``). None: no loop.
     """
 
     bodies: tuple[Body, ...]
@@ -56,6 +58,7 @@ class Scene:
     rig_points: tuple[RigPoint, ...] = ()
     gravity: tuple[float, float] = (0.0, 0.0)
     frame_rate: float = 24.0
+    loop: float | None = None
 
     def __post_init__(self) -> None:
         for name, most in (("bodies", MAX_BODIES), ("strokes", MAX_STROKES), ("rig_points", MAX_RIG_POINTS)):
@@ -72,6 +75,8 @@ class Scene:
         require("gravity", gravity, bounded, f"two numbers from -{LARGEST} to {LARGEST} side/s^2")
         object.__setattr__(self, "gravity", gravity)
         require("frame_rate", self.frame_rate, 1 <= self.frame_rate <= 240, "1 to 240 frames a second")
+        if self.loop is not None:
+            require("loop", self.loop, 2 / self.frame_rate <= self.loop <= MAX_LOOP, f"2 frames to {MAX_LOOP} s long")
         count = len(self.bodies)
         for number, rig_point in enumerate(self.rig_points):
             known = rig_point.body is None or rig_point.body < count

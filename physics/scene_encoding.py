@@ -31,11 +31,13 @@ def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
         scene: the scene.
         meshes: whether to include the bodies' meshes; without, reading it again needs them.
     """
+    loop = {} if scene.loop is None else {"loop": float(scene.loop)}
     return {
         "version": SCENE_VERSION,
         "width": int(scene.width),
         "height": int(scene.height),
         "frame_rate": float(scene.frame_rate),
+        **loop,
         "gravity": encode(scene.gravity),
         "bodies": [_encode_body(body, mesh=meshes) for body in scene.bodies],
         "strokes": encode(scene.strokes),

@@ -85,7 +85,7 @@ def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = Non
         scale = (target[0] / size[0], target[1] / size[1], max(target) / max(size))
         strokes = _rescaled("strokes", strokes, scale)
         rig_points = _rescaled("rig_points", rig_points, scale)
-    options = _floats({name: value for name, value in document.items() if name in ("gravity", "frame_rate")})
+    options = _floats({name: value for name, value in document.items() if name in ("gravity", "frame_rate", "loop")})
     with _located(""):
         return Scene(tuple(bodies), tuple(strokes), tuple(rig_points), **options)
 
