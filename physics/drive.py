@@ -8,14 +8,15 @@ from numpy.typing import NDArray
 from .particles import Particles, all_particles
 from .rigging import displacement, velocity
 from .scene import Scene
-from .solver import Drive
+from .solver import CALM, Drive, WindTable
 from .stepping import TICK
+from .wind import eddies, uniform
 
 __all__ = ["drive"]
 
 
 def drive(scene: Scene, first_tick: int, count: int) -> Drive:
-    """Rig points and flow particles of a scene during some ticks.
+    """Rig points, flow particles and wind of a scene during some ticks.
 
     Args:
         scene: the scene.
@@ -35,6 +36,7 @@ def drive(scene: Scene, first_tick: int, count: int) -> Drive:
         particles=np.concatenate([_rows(group, side) for group in groups] or [np.zeros((0, 6), np.float32)]),
         kinds=np.concatenate([group.kind for group in groups] or [np.zeros(0, np.int32)]),
         gravity=scene.gravity,
+        wind=_wind_table(scene, times[:-1] + TICK / 2),
     )
 
 
@@ -47,3 +49,16 @@ def _rig_table(columns: list[NDArray[np.float64]], count: int) -> NDArray[np.flo
 def _rows(group: Particles, side: float) -> NDArray[np.float32]:
     scaled = (group.position / side, group.direction, group.radius / side, group.strength)
     return np.column_stack(scaled).astype(np.float32)
+
+
+def _wind_table(scene: Scene, times: NDArray[np.float64]) -> WindTable:
+    if scene.wind is None:
+        return CALM
+    side = scene.bodies[0].mesh.longest_side
+    waves = eddies(scene.wind, loop=scene.loop)
+    phases = np.mod(waves.phase + times[:, None] * waves.rate, 2 * np.pi)  # small, to keep their digits
+    return WindTable(
+        uniform=uniform(scene.wind, times, loop=scene.loop).astype(np.float32),
+        waves=np.column_stack([waves.wave * side, waves.amplitude]).astype(np.float32),
+        phases=phases.astype(np.float32) if phases.size else np.zeros((len(times), 1), dtype=np.float32),
+    )

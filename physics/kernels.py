@@ -45,6 +45,7 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
     triples = ti.types.ndarray(dtype=ti.types.vector(3, ti.i32), ndim=1)
     stiffnesses = ti.types.ndarray(dtype=vec3, ndim=1)
     paths = ti.types.ndarray(dtype=vec2, ndim=2)
+    tables = ti.types.ndarray(dtype=ti.f32, ndim=2)
 
     @ti.func
     def displacement_gradient(u0: vec2, u1: vec2, u2: vec2, b: vec4):
@@ -156,6 +157,9 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
         kinds: integers,
         gravity_x: ti.f32,
         gravity_y: ti.f32,
+        wind: vectors,
+        wind_waves: vectors4,
+        wind_phases: tables,
     ):
         ti.loop_config(block_dim=1)
         for part in range(planned.shape[0]):
@@ -181,6 +185,12 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
                     if vertices[i][2] > 0.0:
                         total = vec2(gravity_x, gravity_y)
                         q = vec2(vertices[i][0], vertices[i][1]) + u[i]
+                        if wind.shape[0] > 0:
+                            total = total + wind[tick]
+                            for m in range(wind_waves.shape[0]):
+                                wave = wind_waves[m]
+                                turned = ti.sin(wave[0] * q[0] + wave[1] * q[1] + wind_phases[tick, m])
+                                total = total + turned * vec2(wave[2], wave[3])
                         for p in range(first_particles[tick], first_particles[tick + 1]):
                             total = total + particle_push(q, particles[p], kinds[p])
                     push[i] = total

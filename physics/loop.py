@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from .errors import InvalidInputError, SimulationError, require
 from .motion import LoopReport
 from .progress import Progress
+from .rhythm import fitted_period
 from .rig import Pinned, RigMotion, Wave
 from .rigging import displacement
 from .scene import Scene
@@ -50,7 +51,7 @@ def periodic(scene: Scene) -> Scene:
 
     The loop becomes a whole number of frames. Strokes without an end keep their rhythm as nearly as a whole number of
     particles in a cycle allows; one that ends repeats in each cycle, or more often if it repeats already; one that
-    lasts longer than the loop never ends. Waves swing a whole number of times. Other motions of rig points begin anew
+    lasts longer than the loop never ends. Waves swing a whole number of times, and so do the gusts of wind. Other motions of rig points begin anew
     in each cycle, and must then be back where they began.
 
     Raises:
@@ -65,16 +66,11 @@ def periodic(scene: Scene) -> Scene:
     return replace(scene, strokes=strokes, rig_points=tuple(rig_points), loop=seconds)
 
 
-def _whole(period: float, seconds: float) -> float:
-    """The nearest period of which a whole number fills a cycle."""
-    return seconds / max(1, round(seconds / period))
-
-
 def _periodic_stroke(stroke: EnergyStroke, seconds: float) -> EnergyStroke:
     window = math.inf if stroke.end is None else stroke.end - stroke.start
     if window == math.inf or (stroke.repeat is None and window >= seconds * (1 - _PERIODS)):
-        return replace(stroke, end=None, repeat=None, interval=_whole(stroke.interval, seconds))
-    repeat = seconds if stroke.repeat is None else _whole(stroke.repeat, seconds)
+        return replace(stroke, end=None, repeat=None, interval=fitted_period(stroke.interval, seconds))
+    repeat = seconds if stroke.repeat is None else fitted_period(stroke.repeat, seconds)
     end = stroke.start + min(window, repeat)  # a repetition that had to become shorter
     return replace(stroke, end=end, repeat=repeat)
 
@@ -83,7 +79,7 @@ def _periodic_motion(motion: RigMotion, seconds: float, path: str) -> RigMotion:
     if isinstance(motion, Pinned):
         return motion
     if isinstance(motion, Wave):
-        return replace(motion, period=_whole(motion.period, seconds))
+        return replace(motion, period=fitted_period(motion.period, seconds))
     last = max(getattr(motion, "times", (0.0,)))
     if last > seconds * (1 + _PERIODS):
         raise InvalidInputError(

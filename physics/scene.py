@@ -10,6 +10,7 @@ from .material import Material
 from .mesh import TriangleMesh
 from .rig import RigPoint
 from .strokes import EnergyStroke
+from .wind import Wind
 
 __all__ = ["Body", "Scene"]
 
@@ -51,6 +52,7 @@ class Scene:
         frame_rate: frames a second.
         loop: length of a seamless loop [s]; then frame 0 is not the drawing but a state that comes again after the
             loop, and all that acts is fitted to it (see ``loop.periodic``). None: no loop.
+        wind: blows everywhere beside the strokes; None for calm.
     """
 
     bodies: tuple[Body, ...]
@@ -59,6 +61,7 @@ class Scene:
     gravity: tuple[float, float] = (0.0, 0.0)
     frame_rate: float = 24.0
     loop: float | None = None
+    wind: Wind | None = None
 
     def __post_init__(self) -> None:
         for name, most in (("bodies", MAX_BODIES), ("strokes", MAX_STROKES), ("rig_points", MAX_RIG_POINTS)):
@@ -104,6 +107,7 @@ class Scene:
             bodies=tuple(replace(body, mesh=body.mesh.rescaled(width, height)) for body in self.bodies),
             strokes=tuple(stroke.rescaled(scale) for stroke in self.strokes),
             rig_points=tuple(rig_point.rescaled(scale) for rig_point in self.rig_points),
+            wind=self.wind and self.wind.rescaled(scale),
         )
 
     def _require_few_particles(self) -> None:

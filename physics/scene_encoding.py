@@ -12,6 +12,7 @@ from .rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
 from .run_lengths import runs_of
 from .scene import Body, Scene
 from .strokes import EnergyStroke
+from .wind import Wind
 
 __all__ = ["MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "encode", "scene_to_dict"]
 
@@ -31,13 +32,13 @@ def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
         scene: the scene.
         meshes: whether to include the bodies' meshes; without, reading it again needs them.
     """
-    loop = {} if scene.loop is None else {"loop": float(scene.loop)}
+    options = {"loop": encode(scene.loop), "wind": encode(scene.wind)}
     return {
         "version": SCENE_VERSION,
         "width": int(scene.width),
         "height": int(scene.height),
         "frame_rate": float(scene.frame_rate),
-        **loop,
+        **{name: entry for name, entry in options.items() if entry is not None},
         "gravity": encode(scene.gravity),
         "bodies": [_encode_body(body, mesh=meshes) for body in scene.bodies],
         "strokes": encode(scene.strokes),
@@ -61,7 +62,7 @@ def encode(value: Any) -> Any:
     if isinstance(value, MaskRegion):
         height, width = value.mask.shape
         return {**tag, "width": width, "height": height, "runs": runs_of(value.mask)}
-    if not isinstance(value, Material | EnergyStroke | RigPoint | Circle | Polygon | Pinned | KeyedPath | Wave):
+    if not isinstance(value, Material | EnergyStroke | RigPoint | Circle | Polygon | Pinned | KeyedPath | Wave | Wind):
         raise TypeError(f"a scene holds no {type(value).__name__}")
     entries = {field.name: encode(getattr(value, field.name)) for field in fields(value)}
     return {**tag, **{name: entry for name, entry in entries.items() if entry is not None}}

@@ -34,6 +34,8 @@ from .schema_blocks import (
     whole_number,
 )
 from .strokes import FALLOFFS, STROKE_KINDS, EnergyStroke
+from .wind import Wind
+from .wind_schema import wind_properties
 
 __all__ = ["scene_schema"]
 
@@ -65,6 +67,7 @@ def scene_schema() -> Schema:
             "material": object_of(Material, "Material", _material()),
             "mesh": object_of(None, "Mesh", _mesh(), required=["vertices", "triangles"]),
             "stroke": object_of(EnergyStroke, "Energy stroke", _stroke()),
+            "wind": object_of(Wind, "Wind", wind_properties()),
             **rig_definitions(),
             **_entries(),
         },
@@ -90,6 +93,7 @@ def _document() -> dict[str, Schema]:
             ),
             "type": ["number", "null"],
         },
+        "wind": {"$ref": "#/$defs/wind"},
         "gravity": pair_of_numbers(
             "Gravity [side/s^2]",
             "A steady pull on everything, x and y. [0, 0.5] pulls down gently. Bodies are drawn at rest, so they will"
