@@ -48,11 +48,13 @@ class Scene:
         bodies: at least one; all over an illustration of one size.
         strokes: energy strokes.
         rig_points: pins and leads.
-        gravity: acceleration of every vertex [side/s^2], x right, y down.
+        gravity: acceleration of every vertex [side/s^2], x right, y down. The drawing is how it hangs: held bodies
+            stay as drawn until something else acts, and swing more stiffly (hanging) or softly (standing).
         frame_rate: frames a second.
         loop: length of a seamless loop [s]; then frame 0 is not the drawing but a state that comes again after the
             loop, and all that acts is fitted to it (see ``loop.periodic``). None: no loop.
         wind: blows everywhere beside the strokes; None for calm.
+        sag: gravity instead acts on the drawing as on an undeformed shape, which sags from the first frame on.
     """
 
     bodies: tuple[Body, ...]
@@ -62,6 +64,7 @@ class Scene:
     frame_rate: float = 24.0
     loop: float | None = None
     wind: Wind | None = None
+    sag: bool = False
 
     def __post_init__(self) -> None:
         for name, most in (("bodies", MAX_BODIES), ("strokes", MAX_STROKES), ("rig_points", MAX_RIG_POINTS)):

@@ -32,7 +32,7 @@ def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
         scene: the scene.
         meshes: whether to include the bodies' meshes; without, reading it again needs them.
     """
-    options = {"loop": encode(scene.loop), "wind": encode(scene.wind)}
+    options = {"loop": encode(scene.loop), "wind": encode(scene.wind), "sag": True if scene.sag else None}
     return {
         "version": SCENE_VERSION,
         "width": int(scene.width),

@@ -96,10 +96,15 @@ def _document() -> dict[str, Schema]:
         "wind": {"$ref": "#/$defs/wind"},
         "gravity": pair_of_numbers(
             "Gravity [side/s^2]",
-            "A steady pull on everything, x and y. [0, 0.5] pulls down gently. Bodies are drawn at rest, so they will"
-            " sag from the first frame on.",
+            "A steady pull on everything, x and y. [0, 0.5] pulls down gently. Held bodies hang as they are drawn.",
             **ANY_SIZE,
         ),
+        "sag": {
+            "type": "boolean",
+            "title": "Sag",
+            "description": "Whether bodies are drawn without their weight, so that gravity makes them sag from the first"
+            " frame on.",
+        },
         "bodies": list_of(
             "Bodies",
             "What can move, in the order of the masks. Bodies left out are of default material.",

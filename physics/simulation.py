@@ -8,17 +8,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .drive import drive
+from .elasticity import RestShape
 from .errors import SimulationError, require
 from .kernels import REACH
 from .loop import MOST_CYCLES, first_frame, loop_frames, periodic, settled
 from .motion import Motion
 from .plan import MAX_WORK, SimulationPlan, check_work, plan, plan_system
+from .prestress import unsagged
 from .progress import Progress
 from .rig import Pinned
 from .scene import Scene
@@ -61,9 +64,9 @@ def simulate(
     planned = plan_system(scene, system, frames=frames)
     check_work(scene, planned, max_work=max_work)
     side, order = scene.bodies[0].mesh.longest_side, system.order
-    rest = np.concatenate([body.mesh.vertices for body in scene.bodies])[order]
+    rest, system, start = _at_rest(scene, system)
     positions = np.empty((frames, len(rest), 2), dtype=np.float32)
-    for frame, displacement in zip(range(frames), _displacements(scene, system, planned), strict=False):
+    for frame, displacement in zip(range(frames), _displacements(scene, system, planned, start), strict=False):
         positions[frame, order] = rest + displacement.astype(np.float64) * side
         if not np.isfinite(positions[frame]).all():
             raise SimulationError(
@@ -82,25 +85,41 @@ def _looped(scene: Scene, *, frames: int | None, progress: Progress | None, max_
     planned = plan_system(scene, system, frames=length + 1)
     check_work(scene, planned, max_work=max_work)
     most = int(min(MOST_CYCLES, max(2.0, max_work / max(planned.work, 1.0))))
-    endless = _displacements(scene, system, planned, first=first_frame(scene))
-    cycle, report = settled(scene, endless, most_cycles=most, progress=progress)
     side, order = scene.bodies[0].mesh.longest_side, system.order
-    rest = np.concatenate([body.mesh.vertices for body in scene.bodies])[order]
+    rest, system, start = _at_rest(scene, system)
+    endless = _displacements(scene, system, planned, start, first=first_frame(scene))
+    cycle, report = settled(scene, endless, most_cycles=most, progress=progress)
     positions = np.empty((length, len(rest), 2), dtype=np.float32)
     positions[:, order] = rest + cycle.astype(np.float64) * side
     shown = np.arange(length if frames is None else frames) % length
     return Motion(scene.bodies, positions[shown], scene.frame_rate, report)
 
 
+def _at_rest(scene: Scene, system: System) -> tuple[NDArray[np.float64], System, NDArray[np.float32]]:
+    """Rest positions [px], the system with these, and the displacement of the drawing from them [side].
+
+    The drawing is at rest, unless gravity acts on it: then the rest shape is what gravity deforms into the drawing.
+    """
+    side = scene.bodies[0].mesh.longest_side
+    drawn = np.concatenate([body.mesh.vertices for body in scene.bodies])[system.order]
+    if scene.sag or not any(scene.gravity):
+        return drawn, system, np.zeros(drawn.shape, dtype=np.float32)
+    start = unsagged(scene, system)
+    offset = start.astype(np.float64)
+    rest = RestShape(system.rest.positions - offset, system.rest.triangles)
+    return drawn - offset * side, replace(system, rest=rest), start
+
+
 def _displacements(
-    scene: Scene, system: System, planned: SimulationPlan, *, first: int = 0
+    scene: Scene, system: System, planned: SimulationPlan, start: NDArray[np.float32], *, first: int = 0
 ) -> Iterator[NDArray[np.float32]]:
     """Displacement of every vertex of the system in frame after frame, without end [side], shape [v, 2].
 
     Args:
-        first: number of the frame with which to begin, at rest.
+        start: displacement to begin with, without velocity [side], shape [v, 2].
+        first: number of the frame with which to begin.
     """
-    solid, state = _solid(scene, system), State.at_rest(len(system.masses))
+    solid, state = _solid(scene, system), State.at_rest(len(system.masses))._replace(displacement=start.copy())
     done, _ = _ticks(first, scene.frame_rate)
     ticks = max(1.0, (planned.frames - 1) / (planned.frame_rate * TICK))
     block = max(1, int(_LAUNCH_WORK * ticks / (planned.work + ticks * len(system.masses))))
