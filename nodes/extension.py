@@ -14,6 +14,7 @@ from .rig_nodes import RigPoint
 from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
 from .sketch_nodes import ExtractSketch, WarpSketch
 from .stroke_nodes import EnergyStroke
+from .wind_nodes import Wind
 
 __all__ = ["NODES", "PhysAnimatorExtension"]
 
@@ -24,6 +25,7 @@ NODES: list[type[io.ComfyNode]] = [
     Material,
     Body,
     EnergyStroke,
+    Wind,
     RigPoint,
     Scene,
     AutomaticScene,

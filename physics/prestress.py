@@ -148,9 +148,7 @@ def rest_shape_derivative(rest: RestShape, positions: FloatArray, mu: FloatArray
     return _assembled(rest, blocks)
 
 
-def is_stable(
-    rest: RestShape, positions: FloatArray, mu: FloatArray, lam: FloatArray, held: NDArray[np.bool_]
-) -> bool:
+def is_stable(rest: RestShape, positions: FloatArray, mu: FloatArray, lam: FloatArray, held: NDArray[np.bool_]) -> bool:
     """Whether a shape returns to its equilibrium from a small push: whether d2E/dx2 is positive definite."""
     from scipy.sparse.linalg import splu
 

@@ -89,7 +89,9 @@ def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = Non
     options = _floats({name: value for name, value in document.items() if name in ("gravity", "frame_rate", "loop")})
     wind = _read_wind(document.get("wind"), max(target) / max(size))
     with _located(""):
-        return Scene(tuple(bodies), tuple(strokes), tuple(rig_points), wind=wind, sag=document.get("sag", False), **options)
+        return Scene(
+            tuple(bodies), tuple(strokes), tuple(rig_points), wind=wind, sag=document.get("sag", False), **options
+        )
 
 
 def _read_bodies(

@@ -102,8 +102,8 @@ def _document() -> dict[str, Schema]:
         "sag": {
             "type": "boolean",
             "title": "Sag",
-            "description": "Whether bodies are drawn without their weight, so that gravity makes them sag from the first"
-            " frame on.",
+            "description": "Whether bodies are drawn without their weight, so that gravity makes them sag from the"
+            " first frame on.",
         },
         "bodies": list_of(
             "Bodies",

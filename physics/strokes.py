@@ -107,7 +107,8 @@ class EnergyStroke:
             window = math.inf if self.end is None else self.end - self.start
             long_enough = window * (1 - ROUNDING) <= self.repeat <= LARGEST
             expected = f"at least the time from start to end ({window:g} s) and at most {LARGEST} s"
-            require("repeat", self.repeat, long_enough, "None where the stroke has no end" if self.end is None else expected)
+            expected = "None where the stroke has no end" if self.end is None else expected
+            require("repeat", self.repeat, long_enough, expected)
         object.__setattr__(self, "strength_keys", checked_keys("strength_keys", self.strength_keys))
         object.__setattr__(self, "speed_keys", checked_keys("speed_keys", self.speed_keys, positive=True))
         if self.kind == "wind":
@@ -152,12 +153,11 @@ class EnergyStroke:
         if self.rests:
             return 1
         lifetime = self.travel.lifetime
-        alive = lifetime / self.interval
-        most = min(self.emissions, math.ceil(alive - ROUNDING) if alive < math.inf else math.inf)
-        if self.repeat is None:
-            return most
-        earlier = lifetime / self.repeat  # windows whose particles may all still be under way
-        return self.emissions * math.floor(earlier) + most if earlier < math.inf else math.inf
+        if self.repeat is None or lifetime == math.inf:
+            alive = lifetime / self.interval
+            return min(self.emissions, math.ceil(alive - ROUNDING) if alive < math.inf else math.inf)
+        rounds, rest = divmod(lifetime, self.repeat)
+        return self.emissions * rounds + min(self.emissions, math.ceil(rest / self.interval) + 1)
 
     def rescaled(self, scale: Scale) -> EnergyStroke:
         """The same stroke over the picture at another size."""

@@ -24,9 +24,7 @@ def wind_properties() -> dict[str, Schema]:
             maximum=1,
         ),
         "gust_period": number("Gust period [s]", "Time from gust to gust.", minimum=0.05, maximum=LARGEST),
-        "turbulence": number(
-            "Turbulence", "How strong the eddies are, as a share of the wind.", minimum=0, maximum=1
-        ),
+        "turbulence": number("Turbulence", "How strong the eddies are, as a share of the wind.", minimum=0, maximum=1),
         "turbulence_size": number("Turbulence size [px]", "How large an eddy is.", minimum=1, maximum=LARGEST),
         "seed": whole_number("Seed", "Chooses among winds that are alike in all else.", 0, 2**31 - 1),
     }

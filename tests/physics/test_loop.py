@@ -153,7 +153,10 @@ def test_a_closed_path_begins_anew_in_each_cycle() -> None:
 
 @pytest.mark.parametrize(
     ("times", "end", "reason"),
-    [((0.0, 1.0), 470.0, "must come back to where it began.*40.0 px away"), ((0.0, 2.5), 430.0, "within the loop of 2 s")],
+    [
+        ((0.0, 1.0), 470.0, "must come back to where it began.*40.0 px away"),
+        ((0.0, 2.5), 430.0, "within the loop of 2 s"),
+    ],
 )
 def test_a_path_that_does_not_return_is_refused(times: tuple[float, ...], end: float, reason: str) -> None:
     path = KeyedPath(times, ((430.0, 100.0), (end, 100.0)))
