@@ -227,7 +227,12 @@ def _stroke() -> dict[str, Schema]:
             " kink, constant not at all.",
         },
         "repeat": {
-            **number("Repeat [s]", "The time from start to end begins anew every so often. null: never.", **ABOVE_0),
+            **number(
+                "Repeat [s]",
+                "The time from start to end begins anew every so often. null: never.",
+                minimum=0.01,
+                maximum=LARGEST,
+            ),
             "type": ["number", "null"],
         },
         "strength_keys": list_of(

@@ -105,9 +105,9 @@ class EnergyStroke:
         require("falloff", self.falloff, self.falloff in FALLOFFS, f"one of {', '.join(FALLOFFS)}")
         if self.repeat is not None:
             window = math.inf if self.end is None else self.end - self.start
-            long_enough = window * (1 - ROUNDING) <= self.repeat <= LARGEST
-            expected = f"at least the time from start to end ({window:g} s) and at most {LARGEST} s"
-            expected = "None where the stroke has no end" if self.end is None else expected
+            long_enough = max(window * (1 - ROUNDING), 0.01) <= self.repeat <= LARGEST
+            expected = f"at least 0.01 s and the time from start to end ({window:g} s), and at most {LARGEST} s"
+            expected = "left out where the stroke has no end" if self.end is None else expected
             require("repeat", self.repeat, long_enough, expected)
         object.__setattr__(self, "strength_keys", checked_keys("strength_keys", self.strength_keys))
         object.__setattr__(self, "speed_keys", checked_keys("speed_keys", self.speed_keys, positive=True))

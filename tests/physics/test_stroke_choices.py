@@ -138,6 +138,7 @@ def test_speed_goes_by_its_keys() -> None:
     [
         ("falloff", "sharp"),
         ("repeat", 0.5),
+        ("repeat", 0.0),
         ("repeat", np.nan),
         ("strength_keys", ((0.5, 1.0), (0.5, 2.0))),
         ("strength_keys", ((0.5, 1.0), (1.1, 2.0))),
@@ -152,7 +153,7 @@ def test_unusable_choices_are_refused(field: str, value: object) -> None:
 
 
 def test_a_stroke_without_an_end_cannot_repeat() -> None:
-    with pytest.raises(InvalidInputError, match="repeat must be None where the stroke has no end"):
+    with pytest.raises(InvalidInputError, match="repeat must be left out where the stroke has no end"):
         EnergyStroke(path=LINE, repeat=1.0)
 
 
