@@ -36,8 +36,8 @@ class Simulate(io.ComfyNode):
                     default=73,
                     min=1,
                     max=100_000,
-                    tooltip="Number of frames; the first is the drawing. 73 frames at 24 a second last 3 s. With a loop,"
-                    " its own length in frames is used instead.",
+                    tooltip="Number of frames; the first is the drawing. 73 frames at 24 a second last 3 s. With a"
+                    " loop, its own length in frames is used instead.",
                 ),
                 io.Float.Input(
                     "loop",

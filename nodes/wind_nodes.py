@@ -40,7 +40,7 @@ class Wind(io.ComfyNode):
                 _share(
                     "gust",
                     usual.gust,
-                    "Share of the strength that comes and goes [1]: 0 blows steadily, at 1 it is calm between two gusts.",
+                    "Share of the strength that comes and goes [1]: 0 blows steadily, at 1 it is calm between gusts.",
                 ),
                 io.Float.Input(
                     "gust_period",

@@ -36,7 +36,7 @@ def drive(scene: Scene, first_tick: int, count: int) -> Drive:
         particles=np.concatenate([_rows(group, side) for group in groups] or [np.zeros((0, 6), np.float32)]),
         kinds=np.concatenate([group.kind for group in groups] or [np.zeros(0, np.int32)]),
         gravity=scene.gravity,
-        wind=_wind_table(scene, times[:-1] + TICK / 2),
+        wind=_wind_table(scene, first_tick, count),
     )
 
 
@@ -51,9 +51,10 @@ def _rows(group: Particles, side: float) -> NDArray[np.float32]:
     return np.column_stack(scaled).astype(np.float32)
 
 
-def _wind_table(scene: Scene, times: NDArray[np.float64]) -> WindTable:
+def _wind_table(scene: Scene, first_tick: int, count: int) -> WindTable:
     if scene.wind is None:
         return CALM
+    times = (first_tick + 0.5 + np.arange(count)) * TICK
     side = scene.bodies[0].mesh.longest_side
     waves = eddies(scene.wind, loop=scene.loop)
     phases = np.mod(waves.phase + times[:, None] * waves.rate, 2 * np.pi)  # small, to keep their digits

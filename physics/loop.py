@@ -51,8 +51,8 @@ def periodic(scene: Scene) -> Scene:
 
     The loop becomes a whole number of frames. Strokes without an end keep their rhythm as nearly as a whole number of
     particles in a cycle allows; one that ends repeats in each cycle, or more often if it repeats already; one that
-    lasts longer than the loop never ends. Waves swing a whole number of times, and so do the gusts of wind. Other motions of rig points begin anew
-    in each cycle, and must then be back where they began.
+    lasts longer than the loop never ends. Waves swing a whole number of times, and so do gusts of wind. Other motions
+    of rig points begin anew in each cycle, and must then be back where they began.
 
     Raises:
         InvalidInputError: a rig point does not come back in time; the message names it.
@@ -119,7 +119,7 @@ def settled(
         scene: a periodic scene.
         displacements: of every vertex in frame after frame, without end [side], each of shape [v, 2].
         tolerance: residual at which to stop [px].
-        most_cycles: after which to stop whatever the residual.
+        most_cycles: after which to stop whatever the residual, at least 2.
         progress: called after each frame; may raise to stop.
 
     Returns:
@@ -132,21 +132,21 @@ def settled(
     count, side = loop_frames(scene), max(scene.width, scene.height)
     overlap = max(1, min(count // 2, round(_CLOSING * scene.frame_rate)))
     report = _Estimate(scene, count, tolerance, progress)
-    before, residual, cycles = None, math.inf, 0
-    while cycles < most_cycles and residual > tolerance:
-        cycle = _cycle(displacements, count, cycles, report)
-        if before is not None:
-            apart = np.linalg.norm(cycle[-overlap:] - before[-overlap:], axis=2)
-            residual = float(apart.max(initial=0.0)) * side
-        earlier, before, cycles = before, cycle, cycles + 1
-    if earlier is None or residual > _LARGEST_RESIDUAL * side:
+    last, cycles = _cycle(displacements, count, 0, report), 1
+    while True:
+        before, last = last, _cycle(displacements, count, cycles, report)
+        residual = float(np.linalg.norm(last[-overlap:] - before[-overlap:], axis=2).max(initial=0.0)) * side
+        cycles += 1
+        if residual <= tolerance or cycles >= most_cycles:
+            break
+    if residual > _LARGEST_RESIDUAL * side:
         raise SimulationError(
             f"The motion does not repeat: after {cycles} cycles of {scene.loop:g} s it still changes by"
             f" {residual:.0f} px. Hold every body with a rig point, give the materials more damping, or weaken the"
             " strokes."
         )
-    closed = _closed(earlier, before, overlap)
-    left = float(np.linalg.norm(closed[-1] - earlier[-1], axis=1).max(initial=0.0)) * side
+    closed = _closed(before, last, overlap)
+    left = float(np.linalg.norm(closed[-1] - before[-1], axis=1).max(initial=0.0)) * side
     if progress is not None:
         progress(count, count)
     return closed, LoopReport(seconds=scene.loop, frames=count, cycles=cycles, residual=residual, closed_residual=left)
@@ -169,8 +169,8 @@ def _cycle(
 
 def _closed(before: NDArray[np.float32], last: NDArray[np.float32], overlap: int) -> NDArray[np.float32]:
     """The last cycle, whose last frames go over smoothly into those of the cycle before."""
-    share = np.arange(1, overlap + 1) / (overlap + 1)
-    share = (share * share * (3 - 2 * share)).astype(np.float32)[:, None, None]
+    s = np.arange(1, overlap + 1) / (overlap + 1)
+    share = (s * s * (3 - 2 * s)).astype(np.float32)[:, None, None]
     ending = last[-overlap:] + share * (before[-overlap:] - last[-overlap:])
     return np.concatenate([last[:-overlap], ending])
 

@@ -54,7 +54,7 @@ def factors(keys: Sequence[Key], shares: ArrayLike) -> FloatArray:
     if not keys:
         return np.ones(np.shape(shares))
     known, values = zip(*keys, strict=True)
-    return np.interp(shares, known, values)
+    return np.interp(np.asarray(shares, dtype=np.float64), known, values)
 
 
 @dataclass(frozen=True)
