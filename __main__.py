@@ -103,6 +103,12 @@ def _add_animate(parser: argparse.ArgumentParser) -> None:
     how.add_argument(
         "--wind-angle", metavar="DEG", type=float, help="where the wind blows to: 0 right (default), 90 up"
     )
+    how.add_argument(
+        "--turbulence",
+        metavar="SHARE",
+        type=float,
+        help="blow everywhere in gusts and with eddies (0 none, 1 wild) instead of in strokes that pass",
+    )
     how.add_argument("--spacing", metavar="PX", type=float, help="distance of mesh vertices (default: from the mask)")
     _add_output(parser, output=None)
 
@@ -137,7 +143,10 @@ def _add_output(parser: argparse.ArgumentParser, *, output: str | None) -> None:
         help=".mp4, .webm (the moving parts, transparent), .gif, .webp, .apng, or a folder ending in / for"
         " numbered PNG files" + (f" (default: {output})" if output else ""),
     )
-    drawing.add_argument("--frames", metavar="N", type=int, help="number of frames (default: 72)")
+    drawing.add_argument("--frames", metavar="N", type=int, help="number of frames (default: 72, or the loop's)")
+    drawing.add_argument(
+        "--loop", metavar="SECONDS", type=float, help="make a seamless loop of this length (its first frame moves, too)"
+    )
     drawing.add_argument(
         "--skip", metavar="N", type=int, default=0, help="leave out the first N frames, in which the motion settles in"
     )
@@ -231,9 +240,10 @@ def _animate(options: argparse.Namespace) -> None:
     if not options.mask and not options.points:
         raise InvalidInputError("animate needs --mask or --points to know what moves. Got: neither")
     wind = {"attach": options.attach, "wind_strength": options.wind, "wind_angle": options.wind_angle}
+    wind["turbulence"] = options.turbulence
     changes = {name: value for name, value in wind.items() if value is not None}
     if options.scene and changes:
-        raise InvalidInputError("--attach, --wind and --wind-angle work without --scene. Got: both")
+        raise InvalidInputError("--attach, --wind, --wind-angle and --turbulence work without --scene. Got: both")
     _check_outputs(options)
     scene = read_json(_text(options.scene, "scene")) if options.scene else None
     image = load_image(options.image)
@@ -254,16 +264,16 @@ def _animate(options: argparse.Namespace) -> None:
 def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     """Animate, write everything that was asked for, and report."""
     from .physics.advice import advice
-    from .pipeline import DEFAULT_FRAMES, animate
+    from .pipeline import animate
     from .rendering.images import load_image
 
     plate = load_image(options.plate) if options.plate else None
-    frames = DEFAULT_FRAMES if options.frames is None else options.frames
     with ExitStack() as bars:
         progress = None if options.quiet else _progress_bars(bars)
         animation = animate(
             image,
-            frames=frames,
+            frames=options.frames,
+            loop=options.loop,
             skip=options.skip,
             frame_rate=options.fps,
             plate=plate,
@@ -376,6 +386,12 @@ def _report(animation: Animation) -> None:
         name = body.name or f"part {number + 1}"
         print(f"{name}: {len(body.mesh.vertices)} vertices, {len(body.mesh.triangles)} triangles", file=sys.stderr)
     print(f"{planned.substeps_per_frame:g} steps of the simulation a frame", file=sys.stderr)
+    loop = animation.motion.loop
+    if loop is not None:
+        print(
+            f"loop of {loop.seconds:g} s after {loop.cycles} cycles, {loop.residual:.2g} px apart before it was closed",
+            file=sys.stderr,
+        )
     for stage, seconds in animation.seconds.items():
         print(f"{stage:<10}{seconds:8.2f} s", file=sys.stderr)
 

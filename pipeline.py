@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from .physics.automatic import Attachment, automatic_scene
 from .physics.errors import InvalidInputError, require
+from .physics.loop import loop_frames
 from .physics.material import Material
 from .physics.material import preset as material_preset
 from .physics.mesh import TriangleMesh
@@ -41,14 +42,16 @@ def animate(
     *,
     scene: Scene | Mapping[str, Any] | None = None,
     preset: str | Sequence[str] | None = None,
-    frames: int = DEFAULT_FRAMES,
+    frames: int | None = None,
     skip: int = 0,
+    loop: float | None = None,
     frame_rate: float | None = None,
     spacing: float | None = None,
     sway: float | None = None,
     attach: Attachment = "auto",
     wind_strength: float = 1.0,
     wind_angle: float = 0.0,
+    turbulence: float | None = None,
     plate: Image | None = None,
     progress: StageProgress | None = None,
 ) -> Animation:
@@ -63,14 +66,17 @@ def animate(
             without one, the parts are pinned where they are attached and a gentle wind blows.
         preset: name of the material, one for all parts or one for each; replaces the scene's materials.
             Without a scene it is "hair" unless said otherwise.
-        frames: frames of the motion; frame 0 is the illustration.
+        frames: frames of the motion; frame 0 is the illustration. When None, those of the loop, or 72 without one.
         skip: frames at the start that are simulated but not shown, so that the motion has settled in.
+        loop: length of a seamless loop [s]; its frame 0 is not the illustration. None: the scene's own, if it has one.
         frame_rate: frames a second; the scene's own, or 24, when None.
         spacing: distance of the mesh's vertices [px]; chosen from each mask when None.
         sway: how often a part sways to and fro in a second, instead of the preset's [Hz].
         attach: side at which the parts are held when there is no scene.
         wind_strength: factor on the wind when there is no scene.
         wind_angle: where that wind blows to [degrees]; 0 is right, 90 up.
+        turbulence: blow a steady wind field with gusts and eddies, which are this share of it (0 to 1), instead of
+            passing gusts, when there is no scene.
         plate: the illustration without the moving parts, if it exists; painted in when None.
         progress: called as the stages "simulate" and those of the frames advance.
 
@@ -80,8 +86,9 @@ def animate(
     seconds: dict[str, float] = {}
     image = np.asarray(image)
     require("image", f"shape {image.shape}", image.ndim == 3 and image.shape[2] == 3, "an RGB picture [h, w, 3]")
-    require("frames", frames, frames >= 1, "at least 1")
-    require("skip", skip, 0 <= skip < frames, f"at least 0 and below the number of frames ({frames})")
+    if frames is not None:
+        require("frames", frames, frames >= 1, "at least 1")
+        require("skip", skip, 0 <= skip < frames, f"at least 0 and below the number of frames ({frames})")
     if isinstance(scene, Mapping):
         from .physics.scene_checking import check_document
 
@@ -102,10 +109,15 @@ def animate(
                 frame_rate=rate,
                 wind_strength=wind_strength,
                 wind_angle=wind_angle,
+                turbulence=turbulence,
                 sway_by_size=sway is None,
             )
         else:
             whole = _given_scene(scene, meshes, preset, sway, frame_rate)
+        whole = whole if loop is None else replace(whole, loop=loop)
+        if frames is None:
+            frames = DEFAULT_FRAMES if whole.loop is None else loop_frames(whole) + skip
+            require("skip", skip, 0 <= skip < frames, f"at least 0 and below the number of frames ({frames})")
     with timed(seconds, "simulate"):
         motion = simulate(whole, frames=frames, progress=_stage("simulate", progress))
     with timed(seconds, "prepare"):

@@ -16,6 +16,7 @@ from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
 from .sketch_nodes import ExtractSketch, WarpSketch
 from .stroke_nodes import EnergyStroke
 from .track_nodes import Tracks
+from .wind_nodes import Wind
 
 __all__ = ["NODES", "PhysAnimatorExtension"]
 
@@ -27,6 +28,7 @@ NODES: list[type[io.ComfyNode]] = [
     PaintMaterial,
     Body,
     EnergyStroke,
+    Wind,
     RigPoint,
     Scene,
     AutomaticScene,

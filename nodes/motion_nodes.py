@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import logging
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from comfy_api.latest import io
 from numpy.typing import NDArray
 
+from ..physics.limits import MAX_LOOP
 from .previews import animated
 from .progress import host_progress
 from .tensors import picture_batch, pictures_for
@@ -35,7 +37,17 @@ class Simulate(io.ComfyNode):
                     default=73,
                     min=1,
                     max=100_000,
-                    tooltip="Number of frames; the first is the drawing. 73 frames at 24 a second last 3 s.",
+                    tooltip="Number of frames; the first is the drawing. 73 frames at 24 a second last 3 s. With a"
+                    " loop, its own length in frames is used instead.",
+                ),
+                io.Float.Input(
+                    "loop",
+                    default=0.0,
+                    min=0.0,
+                    max=MAX_LOOP,
+                    step=0.5,
+                    tooltip="Length of a seamless loop [s]: the last frame leads back to the first, which is not the"
+                    " drawing then. All that acts is fitted to it. 0 is off, unless the scene has a loop.",
                 ),
             ],
             outputs=[
@@ -47,13 +59,14 @@ class Simulate(io.ComfyNode):
         )
 
     @classmethod
-    def execute(cls, scene: MaskedScene, frames: int) -> io.NodeOutput:
+    def execute(cls, scene: MaskedScene, frames: int, loop: float = 0.0) -> io.NodeOutput:
         from ..physics.advice import advice
         from ..physics.simulation import simulate
 
         for sentence in advice(scene.scene):
             logging.warning("PhysAnimator: %s", sentence)
-        motion = simulate(scene.scene, frames=frames, progress=host_progress())
+        acting = replace(scene.scene, loop=loop) if loop else scene.scene
+        motion = simulate(acting, frames=None if acting.loop else frames, progress=host_progress())
         return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate)
 
 

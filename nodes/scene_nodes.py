@@ -12,8 +12,9 @@ from ..physics.errors import InvalidInputError
 from ..physics.rig import RigPoint
 from ..physics.scene import Scene as PhysicalScene
 from ..physics.strokes import EnergyStroke
+from ..physics.wind import Wind
 from .literals import refusal
-from .wires import BodiesWire, MaskedBody, MaskedScene, RigWire, SceneWire, StrokesWire
+from .wires import BodiesWire, MaskedBody, MaskedScene, RigWire, SceneWire, StrokesWire, WindWire
 
 __all__ = ["AutomaticScene", "Scene", "SceneFromJSON"]
 
@@ -44,6 +45,7 @@ class Scene(io.ComfyNode):
                 _frame_rate(),
                 StrokesWire.Input("strokes", optional=True, tooltip="Energy strokes that act on every body."),
                 RigWire.Input("rig_points", optional=True, tooltip="What is held or led."),
+                WindWire.Input("wind", optional=True, tooltip="Blows everywhere beside the strokes."),
             ],
             outputs=_scene_outputs(),
         )
@@ -57,14 +59,14 @@ class Scene(io.ComfyNode):
         frame_rate: float,
         strokes: tuple[EnergyStroke, ...] = (),
         rig_points: tuple[RigPoint, ...] = (),
+        wind: Wind | None = None,
     ) -> io.NodeOutput:
-        if not strokes and not rig_points and not gravity_x and not gravity_y:
+        if not strokes and not rig_points and not gravity_x and not gravity_y and wind is None:
             raise InvalidInputError(
-                "Nothing acts on the bodies: connect strokes or rig_points, set gravity, or use Automatic Scene."
+                "Nothing acts on the bodies: connect strokes, wind or rig_points, set gravity, or use Automatic Scene."
             )
-        return _output(
-            PhysicalScene(_physical(bodies), strokes, rig_points, (gravity_x, gravity_y), frame_rate), bodies
-        )
+        gravity = (gravity_x, gravity_y)
+        return _output(PhysicalScene(_physical(bodies), strokes, rig_points, gravity, frame_rate, wind=wind), bodies)
 
 
 class AutomaticScene(io.ComfyNode):
@@ -102,6 +104,7 @@ class AutomaticScene(io.ComfyNode):
                 _frame_rate(),
                 StrokesWire.Input("strokes", optional=True, tooltip="Used instead of the gusts when connected."),
                 RigWire.Input("rig_points", optional=True, tooltip="Used instead of the pins when connected."),
+                WindWire.Input("wind", optional=True, tooltip="Blows instead of the gusts when connected."),
             ],
             outputs=_scene_outputs(),
         )
@@ -116,17 +119,19 @@ class AutomaticScene(io.ComfyNode):
         frame_rate: float,
         strokes: tuple[EnergyStroke, ...] = (),
         rig_points: tuple[RigPoint, ...] = (),
+        wind: Wind | None = None,
     ) -> io.NodeOutput:
         scene = automatic_scene(
             _physical(bodies),
             attach=[item.attach for item in bodies],
             frame_rate=frame_rate,
-            wind_strength=wind_strength,
+            wind_strength=wind_strength if wind is None else 0.0,
             wind_angle=wind_angle,
             sway_by_size=sway_by_size,
         )
         drawn = {"strokes": strokes, "rig_points": rig_points}
-        return _output(replace(scene, **{name: given for name, given in drawn.items() if given}), bodies)
+        given = {name: value for name, value in drawn.items() if value}
+        return _output(replace(scene, wind=wind, **given), bodies)
 
 
 class SceneFromJSON(io.ComfyNode):
@@ -136,7 +141,7 @@ class SceneFromJSON(io.ComfyNode):
             node_id="PhysAnimator_SceneFromJSON",
             display_name="Scene from JSON",
             category="PhysAnimator/scene",
-            description="Takes strokes, rig points, materials, gravity and frame rate from a scene document.",
+            description="Takes strokes, wind, rig points, materials, gravity and frame rate from a scene document.",
             inputs=[
                 BodiesWire.Input(
                     "bodies",

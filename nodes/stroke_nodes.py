@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from comfy_api.latest import io
 
-from ..physics.strokes import STROKE_KINDS, StrokeKind
+from ..physics.strokes import FALLOFFS, STROKE_KINDS, Falloff, StrokeKind
 from ..physics.strokes import EnergyStroke as PhysicalStroke
 from ..rendering.points import parse_polyline
 from .literals import PATH_FORMS, refusal
@@ -84,6 +84,21 @@ class EnergyStroke(io.ComfyNode):
                     step=0.1,
                     tooltip="Time between two particles [s].",
                 ),
+                io.Combo.Input(
+                    "falloff",
+                    options=list(FALLOFFS),
+                    default=usual.falloff,
+                    tooltip="How the effect goes with the distance: linear falls evenly (repel: grows), smooth falls"
+                    " without a kink, constant acts alike up to the radius.",
+                ),
+                io.Float.Input(
+                    "repeat",
+                    default=0.0,
+                    min=0.0,
+                    max=3600.0,
+                    step=0.1,
+                    tooltip="The time from start to end begins anew every so often [s]; 0 means never. Needs an end.",
+                ),
                 StrokesWire.Input("strokes", optional=True, tooltip="Strokes that act besides this one."),
             ],
             outputs=[StrokesWire.Output(display_name="strokes", tooltip="The strokes before this one, and this one.")],
@@ -106,8 +121,11 @@ class EnergyStroke(io.ComfyNode):
         start: float,
         end: float,
         interval: float,
+        falloff: Falloff = "linear",
+        repeat: float = 0.0,
         strokes: tuple[PhysicalStroke, ...] = (),
     ) -> io.NodeOutput:
         points = tuple(parse_polyline(path))
-        stroke = PhysicalStroke(kind, points, radius, speed, strength, start, end or None, interval)
+        timing = (start, end or None, interval)
+        stroke = PhysicalStroke(kind, points, radius, speed, strength, *timing, falloff, repeat or None)
         return io.NodeOutput((*strokes, stroke))

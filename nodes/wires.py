@@ -31,6 +31,7 @@ __all__ = [
     "RigWire",
     "SceneWire",
     "StrokesWire",
+    "WindWire",
 ]
 
 Mask = NDArray[np.float32]
@@ -43,6 +44,8 @@ BodiesWire = io.Custom("PHYSANIMATOR_BODIES")
 """Carries a tuple of MaskedBody."""
 StrokesWire = io.Custom("PHYSANIMATOR_STROKES")
 """Carries a tuple of physics.strokes.EnergyStroke."""
+WindWire = io.Custom("PHYSANIMATOR_WIND")
+"""Carries a physics.wind.Wind."""
 RigWire = io.Custom("PHYSANIMATOR_RIG")
 """Carries a tuple of physics.rig.RigPoint."""
 SceneWire = io.Custom("PHYSANIMATOR_SCENE")

@@ -20,6 +20,7 @@ from .mesh import TriangleMesh
 from .rig import Pinned, Polygon, RigPoint
 from .scene import Body, Scene
 from .strokes import EnergyStroke
+from .wind import Wind
 
 __all__ = [
     "ATTACHMENTS",
@@ -27,6 +28,7 @@ __all__ = [
     "Attachment",
     "attachment_of",
     "automatic_scene",
+    "breeze",
     "gusts",
     "pins",
     "swaying_by_size",
@@ -49,6 +51,9 @@ _HELD_SHARE = {"hair": 0.22, "ribbon": 0.1, "cloth": 0.08, "leaf": 0.05, "jelly"
 _USUAL_SHARE = 0.1
 # A neck on a border is narrow when the body's widest section is at least this many times wider.
 _NECK_RATIO = 1.6
+# The wind field: usual strength [side/s^2], and an eddy as a share of all bodies' extent and at least of the picture's.
+_BREEZE = 1.0
+_EDDY, _SMALLEST_EDDY = 0.4, 0.05
 
 
 def automatic_scene(
@@ -58,6 +63,7 @@ def automatic_scene(
     frame_rate: float = 24.0,
     wind_strength: float = 1.0,
     wind_angle: float = 0.0,
+    turbulence: float | None = None,
     sway_by_size: bool = True,
 ) -> Scene:
     """Bodies pinned where they are attached, under gentle gusts.
@@ -68,6 +74,8 @@ def automatic_scene(
         frame_rate: frames a second.
         wind_strength: factor on the usual wind; 0 is calm, 1 gentle, 3 a storm.
         wind_angle: where the wind blows to [degrees]: 0 to the right, 90 up, 180 to the left.
+        turbulence: None for gusts that pass as energy strokes; a share from 0 to 1 for a wind field instead, which
+            blows everywhere, comes and goes, and has eddies of that share.
         sway_by_size: take the materials' sway frequencies for a body of ``USUAL_LENGTH`` and let smaller bodies sway
             faster and larger ones slower, as pendulums do; otherwise they hold as they are.
 
@@ -82,8 +90,12 @@ def automatic_scene(
     if sway_by_size:
         bodies = [replace(body, material=swaying_by_size(body.material, body.mesh)) for body in bodies]
     held = [pin for number, body in enumerate(bodies) for pin in pins(body, number, attach=sides[number])]
-    wind = gusts([body.mesh for body in bodies], strength=wind_strength, angle=wind_angle) if wind_strength else ()
-    return Scene(tuple(bodies), wind, tuple(held), frame_rate=frame_rate)
+    meshes = [body.mesh for body in bodies]
+    if turbulence is not None:
+        wind = breeze(meshes, strength=wind_strength, angle=wind_angle, turbulence=turbulence)
+        return Scene(tuple(bodies), (), tuple(held), frame_rate=frame_rate, wind=wind)
+    strokes = gusts(meshes, strength=wind_strength, angle=wind_angle) if wind_strength else ()
+    return Scene(tuple(bodies), strokes, tuple(held), frame_rate=frame_rate)
 
 
 def swaying_by_size(material: Material, mesh: TriangleMesh) -> Material:
@@ -174,3 +186,19 @@ def gusts(meshes: Sequence[TriangleMesh], *, strength: float = 1.0, angle: float
         points = tuple((round(float(x), 1), round(float(y), 1)) for x, y in path)
         strokes.append(EnergyStroke("wind", points, radius, speed, force * strength, start, None, interval))
     return tuple(strokes)
+
+
+def breeze(
+    meshes: Sequence[TriangleMesh], *, strength: float = 1.0, angle: float = 0.0, turbulence: float = 0.3
+) -> Wind:
+    """A wind field that comes and goes, with eddies as large as suits the bodies.
+
+    Args:
+        meshes: the bodies.
+        strength: factor on the usual wind.
+        angle: where the wind blows to [degrees]: 0 to the right, 90 up.
+        turbulence: strength of the eddies as a share of the wind's.
+    """
+    vertices = np.concatenate([mesh.vertices for mesh in meshes])
+    size = max(_EDDY * float(np.ptp(vertices, axis=0).max()), _SMALLEST_EDDY * meshes[0].longest_side)
+    return Wind(_BREEZE * strength, angle, turbulence=turbulence, turbulence_size=size)

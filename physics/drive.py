@@ -11,14 +11,15 @@ from .leading import lead
 from .particles import Particles, all_particles
 from .rig import RigPoint
 from .scene import Scene
-from .solver import Drive
+from .solver import CALM, Drive, WindTable
 from .stepping import TICK
+from .wind import eddies, uniform
 
 __all__ = ["drive"]
 
 
 def drive(scene: Scene, first_tick: int, count: int) -> Drive:
-    """Rig points and flow particles of a scene during some ticks.
+    """Rig points, flow particles and wind of a scene during some ticks.
 
     Args:
         scene: the scene.
@@ -26,8 +27,9 @@ def drive(scene: Scene, first_tick: int, count: int) -> Drive:
         count: number of ticks.
     """
     times = (first_tick + np.arange(count + 1)) * TICK
+    led = times if scene.loop is None else times % scene.loop
     side = scene.bodies[0].mesh.longest_side
-    leads, rates = _rig_tables(scene.rig_points, times, side)
+    leads, rates = _rig_tables(scene.rig_points, led, side)
     groups = [all_particles(scene.strokes, float(t) + TICK / 2) for t in times[:-1]] if scene.strokes else []
     sizes = [len(group.kind) for group in groups] or [0] * count
     return Drive(
@@ -37,6 +39,7 @@ def drive(scene: Scene, first_tick: int, count: int) -> Drive:
         particles=np.concatenate([_rows(group, side) for group in groups] or [np.zeros((0, 6), np.float32)]),
         kinds=np.concatenate([group.kind for group in groups] or [np.zeros(0, np.int32)]),
         gravity=scene.gravity,
+        wind=_wind_table(scene, first_tick, count),
     )
 
 
@@ -53,3 +56,17 @@ def _rig_tables(
 def _rows(group: Particles, side: float) -> NDArray[np.float32]:
     scaled = (group.position / side, group.direction, group.radius / side, group.strength)
     return np.column_stack(scaled).astype(np.float32)
+
+
+def _wind_table(scene: Scene, first_tick: int, count: int) -> WindTable:
+    if scene.wind is None:
+        return CALM
+    times = (first_tick + 0.5 + np.arange(count)) * TICK
+    side = scene.bodies[0].mesh.longest_side
+    waves = eddies(scene.wind, loop=scene.loop)
+    phases = np.mod(waves.phase + times[:, None] * waves.rate, 2 * np.pi)  # small, to keep their digits
+    return WindTable(
+        uniform=uniform(scene.wind, times, loop=scene.loop).astype(np.float32),
+        waves=np.column_stack([waves.wave * side, waves.amplitude]).astype(np.float32),
+        phases=phases.astype(np.float32) if phases.size else np.zeros((len(times), 1), dtype=np.float32),
+    )

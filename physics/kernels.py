@@ -46,6 +46,7 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
     triples = ti.types.ndarray(dtype=ti.types.vector(3, ti.i32), ndim=1)
     stiffnesses = ti.types.ndarray(dtype=vec3, ndim=1)
     paths = ti.types.ndarray(dtype=vec6, ndim=2)
+    tables = ti.types.ndarray(dtype=ti.f32, ndim=2)
 
     @ti.func
     def displacement_gradient(u0: vec2, u1: vec2, u2: vec2, b: vec4):
@@ -107,18 +108,27 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
 
     @ti.func
     def particle_push(q: vec2, particle: vec6, kind: ti.i32):
-        """Acceleration at q by one flow particle (Appendix "Interactive Animation"), nothing beyond its radius."""
+        """Acceleration at q by one flow particle (Appendix "Interactive Animation"), nothing beyond its radius.
+
+        The kind is 0 wind, 1 repel, 2 attract, plus 3 for a smooth or 6 for a constant falloff.
+        """
         push = vec2(0.0, 0.0)
         offset = q - vec2(particle[0], particle[1])
         distance, radius = offset.norm(), particle[4]
         if distance <= radius:
             falling = 1.0 - distance / radius
-            if kind == 0:
+            if kind >= 6:
+                falling = 1.0
+            elif kind >= 3:
+                falling = falling * falling * (1.0 + distance / radius) * (1.0 + distance / radius)
+            if kind % 3 == 0:
                 push = falling * vec2(particle[2], particle[3])
             elif kind == 1:
                 push = offset / radius
             elif distance > 0.0:
-                push = -falling / distance * offset
+                push = falling / distance * offset
+                if kind % 3 == 2:
+                    push = -push
         return push * particle[5]
 
     @ti.func
@@ -172,6 +182,9 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
         kinds: integers,
         gravity_x: ti.f32,
         gravity_y: ti.f32,
+        wind: vectors,
+        wind_waves: vectors4,
+        wind_phases: tables,
     ):
         ti.loop_config(block_dim=1)
         for part in range(planned.shape[0]):
@@ -197,6 +210,12 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
                     if vertices[i][2] > 0.0:
                         total = vec2(gravity_x, gravity_y)
                         q = vec2(vertices[i][0], vertices[i][1]) + u[i]
+                        if wind.shape[0] > 0:
+                            total = total + wind[tick]
+                            for m in range(wind_waves.shape[0]):
+                                wave = wind_waves[m]
+                                turned = ti.sin(wave[0] * q[0] + wave[1] * q[1] + wind_phases[tick, m])
+                                total = total + turned * vec2(wave[2], wave[3])
                         for p in range(first_particles[tick], first_particles[tick + 1]):
                             total = total + particle_push(q, particles[p], kinds[p])
                     push[i] = total

@@ -6,6 +6,7 @@ __all__ = [
     "LARGEST",
     "MAX_BODIES",
     "MAX_DOCUMENT_BYTES",
+    "MAX_LOOP",
     "MAX_MASK_PIXELS",
     "MAX_PARTICLES",
     "MAX_PARTICLES_OF_STROKE",
@@ -42,6 +43,9 @@ MAX_VERTICES = 500_000
 
 MAX_TRIANGLES = 1_000_000
 """Triangles of one body in a scene document."""
+
+MAX_LOOP = 600
+"""Length of a loop [s]."""
 
 MAX_MASK_PIXELS = 2**28
 """Pixels of all the mask regions in a scene document together."""

@@ -10,7 +10,26 @@ from numpy.typing import NDArray
 from .errors import InvalidInputError
 from .scene import Body
 
-__all__ = ["Motion"]
+__all__ = ["LoopReport", "Motion"]
+
+
+@dataclass(frozen=True)
+class LoopReport:
+    """How well a motion repeats.
+
+    Attributes:
+        seconds: length of the loop [s].
+        frames: frames of a cycle; frame number ``frames`` would be frame 0 again.
+        cycles: cycles that were simulated until the state repeated; the last one is the motion.
+        residual: how far the last cycle's last frames were from those of the cycle before [px].
+        closed_residual: the same for the very last frame after the residual was blended away [px].
+    """
+
+    seconds: float
+    frames: int
+    cycles: int
+    residual: float
+    closed_residual: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,13 +38,15 @@ class Motion:
 
     Attributes:
         bodies: the simulated bodies, in the order of their vertices in ``positions``.
-        positions: vertex positions [px], float32, shape [f, v, 2]; frame 0 is the drawing (rest).
+        positions: vertex positions [px], float32, shape [f, v, 2]; frame 0 is the drawing (rest), except in a loop.
         frame_rate: frames a second.
+        loop: how well the motion repeats; None where it is no loop.
     """
 
     bodies: tuple[Body, ...]
     positions: NDArray[np.float32]
     frame_rate: float
+    loop: LoopReport | None = None
 
     def __post_init__(self) -> None:
         count = sum(len(body.mesh.vertices) for body in self.bodies)

@@ -13,7 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .strokes import ROUNDING, STROKE_KINDS, EnergyStroke
+from .strokes import FALLOFFS, ROUNDING, STROKE_KINDS, EnergyStroke
+from .travel import factors
 
 __all__ = ["Particles", "acceleration", "all_particles", "most_alive", "particles"]
 
@@ -24,7 +25,8 @@ class Particles(NamedTuple):
     """The particles of several strokes at one time, in the form that a kernel reads.
 
     Attributes:
-        kind: index into ``STROKE_KINDS`` (0 wind, 1 repel, 2 attract), int32, shape [p].
+        kind: index into ``STROKE_KINDS`` (0 wind, 1 repel, 2 attract) plus 3 times that into ``FALLOFFS`` (0 linear,
+            1 smooth, 2 constant), int32, shape [p].
         position: [px], shape [p, 2].
         direction: unit direction of travel, shape [p, 2]; (0, 0) for a path without a length.
         radius: [px], shape [p].
@@ -52,16 +54,23 @@ def particles(stroke: EnergyStroke, t: float) -> tuple[FloatArray, FloatArray]:
         Positions [px], shape [p, 2], and unit directions of travel, shape [p, 2]. At a corner the direction is that
         of the segment ahead; a resting particle has that of the first segment, and (0, 0) on a path without one.
     """
+    positions, directions, _ = _placed(stroke, t)
+    return positions, directions
+
+
+def _placed(stroke: EnergyStroke, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Positions, directions, and the factor on the strength of each particle, shape [p]."""
     path = stroke.polyline
     if stroke.rests:
-        alive = stroke.start <= t and (stroke.end is None or t < stroke.end)
+        alive = int(_emits(stroke, t))
         directions = path.directions[:1] if len(path.directions) else np.zeros((1, 2))
-        return path.points[: int(alive)], directions[: int(alive)]
-    distances = _distances(stroke, t)
+        return path.points[:alive], directions[:alive], factors(stroke.strength_keys, np.zeros(alive))
+    distances = _all_distances(stroke, t)
     segments = np.searchsorted(path.arc_lengths[1:-1], distances, side="right")
     directions = path.directions[segments]
     offsets = distances - path.arc_lengths[segments]
-    return path.points[segments] + offsets[:, None] * directions, directions
+    strengths = factors(stroke.strength_keys, distances / path.length)
+    return path.points[segments] + offsets[:, None] * directions, directions, strengths
 
 
 def all_particles(strokes: Sequence[EnergyStroke], t: float) -> Particles:
@@ -71,15 +80,17 @@ def all_particles(strokes: Sequence[EnergyStroke], t: float) -> Particles:
         strokes: the strokes.
         t: time [s].
     """
-    each = [particles(stroke, t) for stroke in strokes]
-    counts = [len(positions) for positions, _ in each]
+    each = [_placed(stroke, t) for stroke in strokes]
+    counts = [len(positions) for positions, _, _ in each]
     nothing = [np.zeros((0, 2))]
+    kinds = [STROKE_KINDS.index(s.kind) + len(STROKE_KINDS) * FALLOFFS.index(s.falloff) for s in strokes]
+    along = np.concatenate([strengths for _, _, strengths in each] or [np.zeros(0)])
     return Particles(
-        kind=np.repeat(np.array([STROKE_KINDS.index(s.kind) for s in strokes], dtype=np.int32), counts),
-        position=np.concatenate([positions for positions, _ in each] or nothing),
-        direction=np.concatenate([directions for _, directions in each] or nothing),
+        kind=np.repeat(np.array(kinds, dtype=np.int32), counts),
+        position=np.concatenate([positions for positions, _, _ in each] or nothing),
+        direction=np.concatenate([directions for _, directions, _ in each] or nothing),
         radius=np.repeat(np.array([s.radius for s in strokes], dtype=np.float64), counts),
-        strength=np.repeat(np.array([s.strength for s in strokes], dtype=np.float64), counts),
+        strength=np.repeat(np.array([s.strength for s in strokes], dtype=np.float64), counts) * along,
     )
 
 
@@ -88,7 +99,8 @@ def acceleration(stroke: EnergyStroke, points: FloatArray, t: float) -> FloatArr
 
     With particle p, point q, d = |q - p|, radius r, strength s and direction of travel e, for d <= r:
     wind s (1 - d/r) e, repel s (q - p) / r, attract s (1 - d/r) (p - q) / d; nothing beyond r, and no
-    pull at p = q, where it has no direction.
+    pull at p = q, where it has no direction. Another falloff than linear takes the place of 1 - d/r, and with it
+    repel is s f (q - p) / d. The strength s is times its key's factor where the particle is.
 
     Args:
         stroke: the stroke.
@@ -100,11 +112,11 @@ def acceleration(stroke: EnergyStroke, points: FloatArray, t: float) -> FloatArr
     """
     points = np.asarray(points, dtype=np.float64).reshape(-1, 2)
     total = np.zeros_like(points)
-    for position, direction in zip(*particles(stroke, t), strict=True):
+    for position, direction, factor in zip(*_placed(stroke, t), strict=True):
         offset = points - position
         distance = np.hypot(offset[:, 0], offset[:, 1])
         near = np.flatnonzero(distance <= stroke.radius)
-        total[near] += stroke.strength * _effect(stroke, offset[near], distance[near], direction)
+        total[near] += stroke.strength * factor * _effect(stroke, offset[near], distance[near], direction)
     return total
 
 
@@ -117,27 +129,51 @@ def most_alive(stroke: EnergyStroke, *, horizon: float = math.inf) -> int:
     """
     if horizon < stroke.start:
         return 0
+    if stroke.repeat is not None:
+        return int(stroke.most_particles)
     emitted = math.floor((horizon - stroke.start) / stroke.interval + ROUNDING) + 1 if horizon < math.inf else math.inf
     return int(min(stroke.most_particles, emitted))
 
 
+def _emits(stroke: EnergyStroke, t: float) -> bool:
+    """Whether a time lies from ``start`` to before ``end``, or in a repetition of that."""
+    if t < stroke.start:
+        return False
+    since = t - stroke.start
+    if stroke.repeat is not None:
+        since -= math.floor(since / stroke.repeat + ROUNDING) * stroke.repeat
+    return stroke.end is None or since < stroke.end - stroke.start
+
+
+def _all_distances(stroke: EnergyStroke, t: float) -> FloatArray:
+    """How far each living particle has travelled, those of every repetition [px], the oldest first, shape [p]."""
+    if stroke.repeat is None or stroke.end is None:
+        return _distances(stroke, t)
+    window, since = stroke.end - stroke.start, t - stroke.start
+    last = math.floor(since / stroke.repeat + ROUNDING)
+    first = max(0, math.floor((since - window - stroke.travel.lifetime) / stroke.repeat))
+    each = [_distances(stroke, t - number * stroke.repeat) for number in range(first, last + 1)]
+    return np.concatenate(each) if each else np.zeros(0)
+
+
 def _distances(stroke: EnergyStroke, t: float) -> FloatArray:
-    """How far each living particle has travelled [px], the oldest first, shape [p]."""
-    length = stroke.polyline.length
+    """How far each living particle of the first repetition has travelled [px], the oldest first, shape [p]."""
     age = (t - stroke.start) / stroke.interval  # of the first particle, in intervals
-    lifetime = min(length / stroke.speed / stroke.interval, 1e12)  # a crawling particle may outlive every float
+    lifetime = min(stroke.travel.lifetime / stroke.interval, 1e12)  # a crawling particle may outlive every float
     first = max(0, math.floor(age - lifetime + ROUNDING) + 1)
     last = min(math.floor(age + ROUNDING), stroke.emissions - 1)
     ages = t - stroke.start - np.arange(first, last + 1) * stroke.interval
-    return np.clip(ages * stroke.speed, 0.0, length)
+    return stroke.travel.distance(ages)
 
 
 def _effect(stroke: EnergyStroke, offset: FloatArray, distance: FloatArray, direction: FloatArray) -> FloatArray:
     """Effect of one particle at strength 1 on points within its radius, shape [n, 2]."""
-    if stroke.kind == "repel":
+    nearness = distance / stroke.radius
+    if stroke.kind == "repel" and stroke.falloff == "linear":
         return offset / stroke.radius
-    falling = 1.0 - distance / stroke.radius
+    profiles = {"linear": 1.0 - nearness, "smooth": (1.0 - nearness**2) ** 2, "constant": np.ones_like(nearness)}
+    falling = profiles[stroke.falloff]
     if stroke.kind == "wind":
         return falling[:, None] * direction
-    towards = np.divide(-offset, distance[:, None], out=np.zeros_like(offset), where=distance[:, None] > 0)
-    return falling[:, None] * towards
+    away = np.divide(offset, distance[:, None], out=np.zeros_like(offset), where=distance[:, None] > 0)
+    return falling[:, None] * (away if stroke.kind == "repel" else -away)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from .errors import InvalidInputError, require
-from .limits import LARGEST, MAX_BODIES, MAX_PARTICLES, MAX_RIG_POINTS, MAX_STROKES
+from .limits import LARGEST, MAX_BODIES, MAX_LOOP, MAX_PARTICLES, MAX_RIG_POINTS, MAX_STROKES
 from .material import SCALES, Material
 from .mesh import TriangleMesh
 from .rig import RigPoint
 from .strokes import EnergyStroke
+from .wind import Wind
 
 __all__ = ["Body", "Scene"]
 
@@ -48,8 +49,13 @@ class Scene:
         bodies: at least one; all over an illustration of one size.
         strokes: energy strokes.
         rig_points: pins and leads.
-        gravity: acceleration of every vertex [side/s^2], x right, y down.
+        gravity: acceleration of every vertex [side/s^2], x right, y down. The drawing is how it hangs: held bodies
+            stay as drawn until something else acts, and swing more stiffly (hanging) or softly (standing).
         frame_rate: frames a second.
+        loop: length of a seamless loop [s]; then frame 0 is not the drawing but a state that comes again after the
+            loop, and all that acts is fitted to it (see ``loop.periodic``). None: no loop.
+        wind: blows everywhere beside the strokes; None for calm.
+        sag: gravity instead acts on the drawing as on an undeformed shape, which sags from the first frame on.
     """
 
     bodies: tuple[Body, ...]
@@ -57,6 +63,9 @@ class Scene:
     rig_points: tuple[RigPoint, ...] = ()
     gravity: tuple[float, float] = (0.0, 0.0)
     frame_rate: float = 24.0
+    loop: float | None = None
+    wind: Wind | None = None
+    sag: bool = False
 
     def __post_init__(self) -> None:
         for name, most in (("bodies", MAX_BODIES), ("strokes", MAX_STROKES), ("rig_points", MAX_RIG_POINTS)):
@@ -73,6 +82,8 @@ class Scene:
         require("gravity", gravity, bounded, f"two numbers from -{LARGEST} to {LARGEST} side/s^2")
         object.__setattr__(self, "gravity", gravity)
         require("frame_rate", self.frame_rate, 1 <= self.frame_rate <= 240, "1 to 240 frames a second")
+        if self.loop is not None:
+            require("loop", self.loop, 2 / self.frame_rate <= self.loop <= MAX_LOOP, f"2 frames to {MAX_LOOP} s long")
         count = len(self.bodies)
         for number, rig_point in enumerate(self.rig_points):
             known = rig_point.body is None or rig_point.body < count
@@ -100,6 +111,7 @@ class Scene:
             bodies=tuple(replace(body, mesh=body.mesh.rescaled(width, height)) for body in self.bodies),
             strokes=tuple(stroke.rescaled(scale) for stroke in self.strokes),
             rig_points=tuple(rig_point.rescaled(scale) for rig_point in self.rig_points),
+            wind=self.wind and self.wind.rescaled(scale),
         )
 
     def _require_few_particles(self) -> None:

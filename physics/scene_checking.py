@@ -26,12 +26,12 @@ _ENOUGH = 100  # wrong values among which to choose the first
 
 _TYPES = {
     "array": "a list",
+    "boolean": "true or false",
     "integer": "a whole number",
     "null": "null",
     "number": "a number",
     "object": "an object in braces",
     "string": "a text in quotes",
-    "boolean": "true or false",
 }
 _BOUNDS = {"minimum": "at least", "exclusiveMinimum": "above", "maximum": "at most", "exclusiveMaximum": "below"}
 

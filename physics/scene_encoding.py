@@ -13,6 +13,7 @@ from .rig_turns import Pulse, Rotation, Squash, Swing
 from .run_lengths import runs_of
 from .scene import Body, Scene
 from .strokes import EnergyStroke
+from .wind import Wind
 
 __all__ = ["MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "encode", "scene_to_dict"]
 
@@ -41,11 +42,13 @@ def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
         scene: the scene.
         meshes: whether to include the bodies' meshes; without, reading it again needs them.
     """
+    options = {"loop": encode(scene.loop), "wind": encode(scene.wind), "sag": True if scene.sag else None}
     return {
         "version": SCENE_VERSION,
         "width": int(scene.width),
         "height": int(scene.height),
         "frame_rate": float(scene.frame_rate),
+        **{name: entry for name, entry in options.items() if entry is not None},
         "gravity": encode(scene.gravity),
         "bodies": [_encode_body(body, mesh=meshes) for body in scene.bodies],
         "strokes": encode(scene.strokes),
@@ -71,7 +74,7 @@ def encode(value: Any) -> Any:
     if isinstance(value, MaskRegion):
         height, width = value.mask.shape
         return {**tag, "width": width, "height": height, "runs": runs_of(value.mask)}
-    if type(value) not in _TYPE_NAMES and not isinstance(value, Material | EnergyStroke | RigPoint):
+    if type(value) not in _TYPE_NAMES and not isinstance(value, Material | EnergyStroke | RigPoint | Wind):
         raise TypeError(f"a scene holds no {type(value).__name__}")
     entries = {field.name: encode(getattr(value, field.name)) for field in fields(value)}
     return {**tag, **{name: entry for name, entry in entries.items() if entry is not None}}

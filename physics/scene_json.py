@@ -27,6 +27,7 @@ from .scene_encoding import MOTION_TYPES, REGION_TYPES, SCENE_VERSION, scene_to_
 from .scene_migration import migrated
 from .scene_schema import scene_schema
 from .strokes import EnergyStroke
+from .wind import Wind
 
 __all__ = ["SCENE_VERSION", "dumps", "loads", "scene_from_dict", "scene_schema", "scene_to_dict"]
 
@@ -86,9 +87,12 @@ def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = Non
         scale = (target[0] / size[0], target[1] / size[1], max(target) / max(size))
         strokes = _rescaled("strokes", strokes, scale)
         rig_points = _rescaled("rig_points", rig_points, scale)
-    options = _floats({name: value for name, value in document.items() if name in ("gravity", "frame_rate")})
+    options = _floats({name: value for name, value in document.items() if name in ("gravity", "frame_rate", "loop")})
+    wind = _read_wind(document.get("wind"), max(target) / max(size))
     with _located(""):
-        return Scene(tuple(bodies), tuple(strokes), tuple(rig_points), **options)
+        return Scene(
+            tuple(bodies), tuple(strokes), tuple(rig_points), wind=wind, sag=document.get("sag", False), **options
+        )
 
 
 def _read_bodies(
@@ -126,6 +130,14 @@ def _read_material(entry: dict[str, Any], path: str) -> Material:
 def _read_stroke(entry: dict[str, Any], path: str) -> EnergyStroke:
     with _located(path):
         return EnergyStroke(**_floats(entry))
+
+
+def _read_wind(entry: dict[str, Any] | None, scale: float) -> Wind | None:
+    if entry is None:
+        return None
+    values = _floats(entry) | ({"seed": int(entry["seed"])} if "seed" in entry else {})
+    with _located("wind"):
+        return Wind(**values).rescaled((scale, scale, scale))
 
 
 def _read_rig_point(entry: dict[str, Any], path: str) -> RigPoint:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from .limits import (
     LARGEST,
     MAX_BODIES,
+    MAX_LOOP,
     MAX_MASK_PIXELS,
     MAX_POINTS,
     MAX_RIG_POINTS,
@@ -34,7 +35,9 @@ from .schema_blocks import (
     pair_of_numbers,
     whole_number,
 )
-from .strokes import STROKE_KINDS, EnergyStroke
+from .strokes import FALLOFFS, STROKE_KINDS, EnergyStroke
+from .wind import Wind
+from .wind_schema import wind_properties
 
 __all__ = ["scene_schema"]
 
@@ -66,6 +69,7 @@ def scene_schema() -> Schema:
             "material": object_of(Material, "Material", _material()),
             "mesh": object_of(None, "Mesh", _mesh(), required=["vertices", "triangles"]),
             "stroke": object_of(EnergyStroke, "Energy stroke", _stroke()),
+            "wind": object_of(Wind, "Wind", wind_properties()),
             **rig_definitions(),
             **_entries(),
         },
@@ -85,12 +89,28 @@ def _document() -> dict[str, Schema]:
         "frame_rate": number(
             "Frame rate [frames/s]", "How many frames a second has. The motion stays the same.", minimum=1, maximum=240
         ),
+        "loop": {
+            **number(
+                "Loop [s]",
+                "Length of a seamless loop: all that acts is fitted to it, and the first frame is not the drawing but"
+                " one that comes again after the last. null: no loop.",
+                exclusiveMinimum=0,
+                maximum=MAX_LOOP,
+            ),
+            "type": ["number", "null"],
+        },
+        "wind": {"$ref": "#/$defs/wind"},
         "gravity": pair_of_numbers(
             "Gravity [side/s^2]",
-            "A steady pull on everything, x and y. [0, 0.5] pulls down gently. Bodies are drawn at rest, so they will"
-            " sag from the first frame on.",
+            "A steady pull on everything, x and y. [0, 0.5] pulls down gently. Held bodies hang as they are drawn.",
             **ANY_SIZE,
         ),
+        "sag": {
+            "type": "boolean",
+            "title": "Sag",
+            "description": "Whether bodies are drawn without their weight, so that gravity makes them sag from the"
+            " first frame on.",
+        },
         "bodies": list_of(
             "Bodies",
             "What can move, in the order of the masks. Bodies left out are of default material.",
@@ -209,6 +229,33 @@ def _stroke() -> dict[str, Schema]:
             "type": ["number", "null"],
         },
         "interval": number("Interval [s]", "Time from one particle to the next.", minimum=0.01, maximum=LARGEST),
+        "falloff": {
+            "enum": list(FALLOFFS),
+            "title": "Falloff",
+            "description": "How the effect falls off up to the radius: linear (for repel it grows), smooth without a"
+            " kink, constant not at all.",
+        },
+        "repeat": {
+            **number(
+                "Repeat [s]",
+                "The time from start to end begins anew every so often. null: never.",
+                minimum=0.01,
+                maximum=LARGEST,
+            ),
+            "type": ["number", "null"],
+        },
+        "strength_keys": list_of(
+            "Strength along the path",
+            "Pairs of a share of the path's length from 0 to 1 and a factor on the strength there.",
+            "point",
+            100,
+        ),
+        "speed_keys": list_of(
+            "Speed along the path",
+            "Pairs of a share of the path's length from 0 to 1 and a factor above 0 on the speed there.",
+            "point",
+            100,
+        ),
     }
 
 

@@ -8,15 +8,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
+from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .drive import drive
-from .errors import SimulationError
+from .elasticity import RestShape
+from .errors import SimulationError, require
 from .kernels import REACH
+from .loop import MOST_CYCLES, first_frame, loop_frames, periodic, settled
 from .motion import Motion
 from .plan import MAX_WORK, SimulationPlan, check_work, plan, plan_system
+from .prestress import unsagged
 from .progress import Progress
 from .rig import Pinned
 from .scene import Scene
@@ -30,7 +35,9 @@ _LAUNCH_WORK = 1.5e6  # triangle updates: some 15 ms, for which a launch stops t
 _ON_TICK = 1e-6  # [ticks]
 
 
-def simulate(scene: Scene, *, frames: int, progress: Progress | None = None, max_work: float = MAX_WORK) -> Motion:
+def simulate(
+    scene: Scene, *, frames: int | None = None, progress: Progress | None = None, max_work: float = MAX_WORK
+) -> Motion:
     """Where every vertex is in every frame (paper, Appendix A; semi-implicit Euler).
 
     The motion does not depend on the frame rate nor on the picture's resolution. However strong the forces are, it
@@ -39,21 +46,27 @@ def simulate(scene: Scene, *, frames: int, progress: Progress | None = None, max
 
     Args:
         scene: what to simulate.
-        frames: number of frames, the drawing included.
+        frames: number of frames, the drawing included. May be None where the scene loops: then those of one cycle;
+            of more frames, each is that one cycle before.
         progress: called after each frame with (frames done, frames); may raise to stop.
         max_work: most triangle updates that are accepted; ``plan`` tells what a scene takes.
 
     Raises:
         InvalidInputError: ``frames`` is below 1.
-        SimulationError: the work would be above ``max_work``, or a position is no finite number.
+        SimulationError: the work would be above ``max_work``, a position is no finite number, or a scene that shall
+            loop does not.
     """
+    if scene.loop is not None:
+        return _looped(periodic(scene), frames=frames, progress=progress, max_work=max_work)
+    require("frames", frames, frames is not None, "a number where the scene has no loop")
+    assert frames is not None
     system = assemble(scene)
     planned = plan_system(scene, system, frames=frames)
     check_work(scene, planned, max_work=max_work)
     side, order = scene.bodies[0].mesh.longest_side, system.order
-    rest = np.concatenate([body.mesh.vertices for body in scene.bodies])[order]
+    rest, system, start = _at_rest(scene, system)
     positions = np.empty((frames, len(rest), 2), dtype=np.float32)
-    for frame, displacement in enumerate(_displacements(scene, system, planned)):
+    for frame, displacement in zip(range(frames), _displacements(scene, system, planned, start), strict=False):
         positions[frame, order] = rest + displacement.astype(np.float64) * side
         if not np.isfinite(positions[frame]).all():
             raise SimulationError(
@@ -64,13 +77,54 @@ def simulate(scene: Scene, *, frames: int, progress: Progress | None = None, max
     return Motion(scene.bodies, positions, scene.frame_rate)
 
 
-def _displacements(scene: Scene, system: System, planned: SimulationPlan) -> Iterator[NDArray[np.float32]]:
-    """Displacement of every vertex of the system in each frame [side], shape [v, 2]."""
-    solid, state, done = _solid(scene, system), State.at_rest(len(system.masses)), 0
+def _looped(scene: Scene, *, frames: int | None, progress: Progress | None, max_work: float) -> Motion:
+    """One cycle of a periodic scene, again and again for as many frames as are wanted."""
+    length = loop_frames(scene)
+    require("frames", frames, frames is None or frames >= 1, "at least 1")
+    system = assemble(scene)
+    planned = plan_system(scene, system, frames=length + 1)
+    check_work(scene, planned, max_work=max_work)
+    most = int(min(MOST_CYCLES, max(2.0, max_work / max(planned.work, 1.0))))
+    side, order = scene.bodies[0].mesh.longest_side, system.order
+    rest, system, start = _at_rest(scene, system)
+    endless = _displacements(scene, system, planned, start, first=first_frame(scene))
+    cycle, report = settled(scene, endless, most_cycles=most, progress=progress)
+    positions = np.empty((length, len(rest), 2), dtype=np.float32)
+    positions[:, order] = rest + cycle.astype(np.float64) * side
+    shown = np.arange(length if frames is None else frames) % length
+    return Motion(scene.bodies, positions[shown], scene.frame_rate, report)
+
+
+def _at_rest(scene: Scene, system: System) -> tuple[NDArray[np.float64], System, NDArray[np.float32]]:
+    """Rest positions [px], the system with these, and the displacement of the drawing from them [side].
+
+    The drawing is at rest, unless gravity acts on it: then the rest shape is what gravity deforms into the drawing.
+    """
+    side = scene.bodies[0].mesh.longest_side
+    drawn = np.concatenate([body.mesh.vertices for body in scene.bodies])[system.order]
+    if scene.sag or not any(scene.gravity):
+        return drawn, system, np.zeros(drawn.shape, dtype=np.float32)
+    start = unsagged(scene, system)
+    offset = start.astype(np.float64)
+    rest = RestShape(system.rest.positions - offset, system.rest.triangles)
+    return drawn - offset * side, replace(system, rest=rest), start
+
+
+def _displacements(
+    scene: Scene, system: System, planned: SimulationPlan, start: NDArray[np.float32], *, first: int = 0
+) -> Iterator[NDArray[np.float32]]:
+    """Displacement of every vertex of the system in frame after frame, without end [side], shape [v, 2].
+
+    Args:
+        start: displacement to begin with, without velocity [side], shape [v, 2].
+        first: number of the frame with which to begin.
+    """
+    solid, state = _solid(scene, system), State.at_rest(len(system.masses))._replace(displacement=start.copy())
+    done, _ = _ticks(first, scene.frame_rate)
     ticks = max(1.0, (planned.frames - 1) / (planned.frame_rate * TICK))
     block = max(1, int(_LAUNCH_WORK * ticks / (planned.work + ticks * len(system.masses))))
     yield state.displacement
-    for frame in range(1, planned.frames):
+    for frame in count(first + 1):
         whole, fraction = _ticks(frame, scene.frame_rate)
         _run(scene, solid, state, done, whole, block=block)
         done = whole

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from . import taichi_runtime
 from .kernels import build_kernels
 
-__all__ = ["Drive", "Solid", "State", "advance", "internal_forces"]
+__all__ = ["CALM", "Drive", "Solid", "State", "WindTable", "advance", "internal_forces"]
 
 Float32Array = NDArray[np.float32]
 Int32Array = NDArray[np.int32]
@@ -70,6 +70,24 @@ class State(NamedTuple):
         return State(u, v, force, push, np.zeros(count, dtype=np.float32))
 
 
+class WindTable(NamedTuple):
+    """A wind field in each of n ticks: uniform plus the sum of amplitude sin(wave . x + phase).
+
+    Attributes:
+        uniform: [side/s^2], float32, shape [n, 2]; of no length for calm.
+        waves: wave vector [rad/side] and amplitude [side/s^2] of each of m waves, float32, shape [m, 4].
+        phases: [rad], float32, shape [n, max(m, 1)].
+    """
+
+    uniform: Float32Array
+    waves: Float32Array
+    phases: Float32Array
+
+
+CALM = WindTable(*(np.zeros(shape, dtype=np.float32) for shape in ((0, 2), (0, 4), (1, 1))))
+"""No wind."""
+
+
 class Drive(NamedTuple):
     """What acts on the bodies in each of n ticks.
 
@@ -80,8 +98,9 @@ class Drive(NamedTuple):
         first_particles: particles of tick i are those from entry i to before entry i + 1, int32, shape [n + 1].
         particles: position and direction of travel of each particle in the middle of its tick [side],
             radius [side], strength [side/s^2], float32, shape [p, 6].
-        kinds: index into ``strokes.STROKE_KINDS``, int32, shape [p].
+        kinds: kind and falloff as in ``particles.Particles``, int32, shape [p].
         gravity: acceleration of every vertex [side/s^2].
+        wind: beside it.
     """
 
     rig_leads: Float32Array
@@ -90,6 +109,7 @@ class Drive(NamedTuple):
     particles: Float32Array
     kinds: Int32Array
     gravity: tuple[float, float]
+    wind: WindTable = CALM
 
 
 def advance(solid: Solid, state: State, drive: Drive) -> None:
@@ -112,8 +132,8 @@ def internal_forces(solid: Solid, displacement: Float32Array) -> Float32Array:
 
 def _advance(solid: Solid, state: State, drive: Drive) -> None:
     advance_kernel, _ = taichi_runtime.compiled(build_kernels)
-    *arrays, gravity = drive
-    advance_kernel(*solid, *state, *arrays, *gravity)
+    *arrays, gravity, wind = drive
+    advance_kernel(*solid, *state, *arrays, *gravity, *wind)
 
 
 def _internal_forces(solid: Solid, displacement: Float32Array, force: Float32Array) -> None:

@@ -17,11 +17,15 @@ from numpy.typing import NDArray
 from .errors import require
 from .limits import LARGEST, MAX_PARTICLES_OF_STROKE
 from .points import Point, Scale, checked_points, scaled_points
+from .travel import Key, Travel, checked_keys
 
-__all__ = ["ROUNDING", "STROKE_KINDS", "EnergyStroke", "Polyline", "StrokeKind"]
+__all__ = ["FALLOFFS", "ROUNDING", "STROKE_KINDS", "EnergyStroke", "Falloff", "Polyline", "StrokeKind"]
 
 StrokeKind = Literal["wind", "repel", "attract"]
 STROKE_KINDS: tuple[StrokeKind, ...] = get_args(StrokeKind)
+
+Falloff = Literal["linear", "smooth", "constant"]
+FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
 
 ROUNDING = 1e-9
 """Slack in counting intervals [intervals]: 0.3 s / 0.1 s must give three, whatever float64 makes of it."""
@@ -55,7 +59,7 @@ class EnergyStroke:
 
     A particle leaves the first point at ``start`` and another every ``interval`` seconds until ``end``; each
     moves along the path at ``speed`` and vanishes at its last point. A path of one point, or a speed of 0, is a
-    single resting particle that lives from ``start`` to ``end``.
+    single resting particle that lives from ``start`` to ``end``. With ``repeat`` all of that comes again and again.
 
     Attributes:
         kind: wind pushes along the particle's direction, repel pushes away from it, attract pulls towards it.
@@ -66,6 +70,11 @@ class EnergyStroke:
         start: when the first particle leaves [s].
         end: when the stroke stops emitting [s]; None means never.
         interval: time between particles [s].
+        falloff: how the effect goes with the distance d: linear as 1 - d/radius (repel: as d/radius), smooth as
+            (1 - (d/radius)^2)^2 without a kink, constant up to the radius.
+        repeat: the time from ``start`` to ``end`` begins anew every so many seconds [s]; None means once.
+        strength_keys: factors on the strength along the path, as pairs (share of its length from 0 to 1, factor).
+        speed_keys: factors above 0 on the speed along the path, in the same form.
     """
 
     kind: StrokeKind = "wind"
@@ -76,6 +85,10 @@ class EnergyStroke:
     start: float = 0.0
     end: float | None = None
     interval: float = 0.5
+    falloff: Falloff = "linear"
+    repeat: float | None = None
+    strength_keys: tuple[Key, ...] = ()
+    speed_keys: tuple[Key, ...] = ()
 
     def __post_init__(self) -> None:
         require("kind", self.kind, self.kind in STROKE_KINDS, f"one of {', '.join(STROKE_KINDS)}")
@@ -89,6 +102,15 @@ class EnergyStroke:
         if self.end is not None:
             after_start = self.start < self.end <= LARGEST
             require("end", self.end, after_start, f"after start ({self.start} s) and at most {LARGEST} s")
+        require("falloff", self.falloff, self.falloff in FALLOFFS, f"one of {', '.join(FALLOFFS)}")
+        if self.repeat is not None:
+            window = math.inf if self.end is None else self.end - self.start
+            long_enough = max(window * (1 - ROUNDING), 0.01) <= self.repeat <= LARGEST
+            expected = f"at least 0.01 s and the time from start to end ({window:g} s), and at most {LARGEST} s"
+            expected = "left out where the stroke has no end" if self.end is None else expected
+            require("repeat", self.repeat, long_enough, expected)
+        object.__setattr__(self, "strength_keys", checked_keys("strength_keys", self.strength_keys))
+        object.__setattr__(self, "speed_keys", checked_keys("speed_keys", self.speed_keys, positive=True))
         if self.kind == "wind":
             direction = self.polyline.length > 0
             require("path", path[:2], direction, "at least 2 different points, to give the wind a direction")
@@ -113,9 +135,14 @@ class EnergyStroke:
         """Whether the stroke is a single resting particle."""
         return self.speed == 0 or self.polyline.length == 0
 
+    @cached_property
+    def travel(self) -> Travel:
+        """How a particle moves along the path by its age."""
+        return Travel(self.polyline.length, self.speed, self.speed_keys)
+
     @property
     def emissions(self) -> float:
-        """How many particles leave in all; infinite without an end."""
+        """How many particles leave from ``start`` to ``end``; infinite without an end."""
         if self.end is None:
             return math.inf
         return math.ceil((self.end - self.start) / self.interval - ROUNDING)
@@ -125,8 +152,12 @@ class EnergyStroke:
         """The largest number of particles that are alive at once; infinite for a crawl without an end."""
         if self.rests:
             return 1
-        lifetime = self.polyline.length / self.speed / self.interval
-        return min(self.emissions, math.ceil(lifetime - ROUNDING) if lifetime < math.inf else math.inf)
+        lifetime = self.travel.lifetime
+        if self.repeat is None or lifetime == math.inf:
+            alive = lifetime / self.interval
+            return min(self.emissions, math.ceil(alive - ROUNDING) if alive < math.inf else math.inf)
+        rounds, rest = divmod(lifetime, self.repeat)
+        return self.emissions * rounds + min(self.emissions, math.ceil(rest / self.interval) + 1)
 
     def rescaled(self, scale: Scale) -> EnergyStroke:
         """The same stroke over the picture at another size."""

@@ -102,11 +102,12 @@ class Animation:
         return self._measured("sketch", drawn(), progress)
 
     def flows(self, *, progress: StageProgress | None = None) -> Iterator[Image]:
-        """The optical flow since the first frame as colours, on one scale for the whole clip."""
+        """The optical flow from the drawing as colours, on one scale for the whole clip."""
         from ..physics.flow import FlowSequence
         from .flow_colour import flow_to_color
 
-        longest = max(1.0, float(np.linalg.norm(self.motion.positions - self.motion.positions[0], axis=2).max()))
+        rest = np.concatenate([body.mesh.vertices for body in self.motion.bodies]).astype(np.float32)
+        longest = max(1.0, float(np.linalg.norm(self.motion.positions - rest, axis=2).max()))
         fields = FlowSequence(self.motion)
         found = map(fields.flow, self.shown)
         drawn = (flow_to_color(each.displacement, each.inside, max_px=longest) for each in found)

@@ -22,6 +22,7 @@ from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Poly
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.scene_json import dumps, loads, scene_from_dict, scene_schema, scene_to_dict
 from physanimator.physics.strokes import STROKE_KINDS, EnergyStroke
+from physanimator.physics.wind import Wind
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -188,7 +189,15 @@ def test_every_value_is_explained() -> None:
 def test_bounds_of_the_schema_are_those_of_the_dataclasses() -> None:
     """A value at a bound is accepted by the dataclass, and the next one beyond it refused."""
     classes = {"material": Material, "stroke": EnergyStroke, "circle": Circle, "wave": Wave}
-    beside = {"stroke": {"interval": 1e6, "start": 0.0}, "wave": {}, "circle": {"radius": 1.0}, "material": {}}
+    classes["wind"] = Wind
+    beside = {
+        "wind": {},
+        "repeat": {"end": 0.005},
+        "stroke": {"interval": 1e6, "start": 0.0},
+        "wave": {},
+        "circle": {"radius": 1.0},
+        "material": {},
+    }
     checked = 0
     for name, kind in classes.items():
         for key, schema in scene_schema()["$defs"][name]["properties"].items():
@@ -198,9 +207,9 @@ def test_bounds_of_the_schema_are_those_of_the_dataclasses() -> None:
                 bound = float(schema[rule])
                 next_to_it = math.nextafter(bound, step * math.inf)
                 good, bad = (next_to_it, bound) if rule.startswith("exclusive") else (bound, next_to_it)
-                kind(**{**beside[name], key: good})
+                kind(**{**beside[name], **beside.get(key, {}), key: good})
                 with pytest.raises(InvalidInputError, match=f"^{key} must be"):
-                    kind(**{**beside[name], key: bad})
+                    kind(**{**beside[name], **beside.get(key, {}), key: bad})
                 checked += 1
     assert checked >= 20
 

@@ -1,0 +1,107 @@
+"""Travel: how far along its path a flow particle is at an age, also where its speed is keyed along the path."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import InvalidInputError, require
+
+__all__ = ["Key", "Travel", "checked_keys", "factors"]
+
+FloatArray = NDArray[np.float64]
+
+Key = tuple[float, float]
+"""Share of the path's length from 0 to 1, and a factor there."""
+
+_MOST_KEYS = 100
+_LEAST, _MOST = 0.001, 1000.0  # factors
+
+
+def checked_keys(name: str, keys: Sequence[Key], *, positive: bool = False) -> tuple[Key, ...]:
+    """Keys as floats.
+
+    Args:
+        name: what the user calls them.
+        keys: pairs (share, factor), the shares increasing.
+        positive: whether factors must lie above 0.
+
+    Raises:
+        InvalidInputError: a share is not from 0 to 1 or not above the one before, or a factor is out of bounds.
+    """
+    require(name, f"{len(keys)} keys", len(keys) <= _MOST_KEYS, f"at most {_MOST_KEYS} keys")
+    try:
+        checked = tuple((float(share), float(factor)) for share, factor in keys)
+    except (TypeError, ValueError):
+        raise InvalidInputError(f"{name} must be pairs of a share of the path and a factor. Got: {keys!r}") from None
+    shares = [share for share, _ in checked]
+    rising = all(0 <= share <= 1 for share in shares) and all(a < b for a, b in pairwise(shares))
+    require(name, shares, rising, "at increasing shares of the path from 0 to 1")
+    least = _LEAST if positive else -_MOST
+    bounded = all(least <= factor <= _MOST for _, factor in checked)
+    require(name, [factor for _, factor in checked], bounded, f"factors from {least:g} to {_MOST:g}")
+    return checked
+
+
+def factors(keys: Sequence[Key], shares: ArrayLike) -> FloatArray:
+    """Factor at each share: straight between keys, that of the nearest key before the first and after the last."""
+    if not keys:
+        return np.ones(np.shape(shares))
+    known, values = zip(*keys, strict=True)
+    return np.interp(np.asarray(shares, dtype=np.float64), known, values)
+
+
+@dataclass(frozen=True)
+class Travel:
+    """A particle's way along a path.
+
+    Between two keys the speed is linear in the place, so the place is exponential in time.
+
+    Attributes:
+        length: of the path [px].
+        speed: where the factor is 1 [px/s].
+        keys: factors on the speed by share of the length; none for 1 everywhere.
+    """
+
+    length: float
+    speed: float
+    keys: tuple[Key, ...] = ()
+
+    @cached_property
+    def lifetime(self) -> float:
+        """Time from the first point of the path to the last [s]; infinite where nothing moves."""
+        if self.speed == 0:
+            return math.inf
+        return float(self._table[2][-1]) * self.length / self.speed
+
+    def distance(self, ages: ArrayLike) -> FloatArray:
+        """How far a particle of each age is along the path [px]; ages [s], shape [n]."""
+        ages = np.asarray(ages, dtype=np.float64)
+        if not self.keys:
+            return np.clip(ages * self.speed, 0.0, self.length)
+        shares, values, times = self._table
+        passed = np.clip(ages * (self.speed / self.length), 0.0, times[-1])
+        here = np.clip(np.searchsorted(times, passed, side="right") - 1, 0, len(times) - 2)
+        slopes = np.diff(values)[here] / np.diff(shares)[here]
+        elapsed = passed - times[here]
+        flat = slopes == 0
+        grown = np.expm1(np.where(flat, 0.0, slopes) * elapsed) / np.where(flat, 1.0, slopes)
+        moved = values[here] * np.where(flat, elapsed, grown)
+        return np.clip(shares[here] + moved, 0.0, 1.0) * self.length
+
+    @cached_property
+    def _table(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Shares, the factor there, and the time until there at a length and a speed of 1, each of shape [k]."""
+        shares = np.unique([0.0, *(share for share, _ in self.keys), 1.0])
+        values = factors(self.keys, shares)
+        a, b = values[:-1], values[1:]
+        flat = a == b
+        logarithms = np.log(b / a) / np.where(flat, 1.0, b - a)
+        steps = np.diff(shares) * np.where(flat, 1 / a, logarithms)
+        return shares, values, np.concatenate([[0.0], np.cumsum(steps)])
