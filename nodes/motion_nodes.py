@@ -46,6 +46,7 @@ class Simulate(io.ComfyNode):
                     min=0.0,
                     max=MAX_LOOP,
                     step=0.5,
+                    optional=True,
                     tooltip="Length of a seamless loop [s]: the last frame leads back to the first, which is not the"
                     " drawing then. All that acts is fitted to it. 0 is off, unless the scene has a loop.",
                 ),

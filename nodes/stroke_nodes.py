@@ -88,6 +88,7 @@ class EnergyStroke(io.ComfyNode):
                     "falloff",
                     options=list(FALLOFFS),
                     default=usual.falloff,
+                    optional=True,
                     tooltip="How the effect goes with the distance: linear falls evenly (repel: grows), smooth falls"
                     " without a kink, constant acts alike up to the radius.",
                 ),
@@ -97,6 +98,7 @@ class EnergyStroke(io.ComfyNode):
                     min=0.0,
                     max=3600.0,
                     step=0.1,
+                    optional=True,
                     tooltip="The time from start to end begins anew every so often [s]; 0 means never. Needs an end.",
                 ),
                 StrokesWire.Input("strokes", optional=True, tooltip="Strokes that act besides this one."),

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import replace
+from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 from physanimator.physics.errors import Cancelled, InvalidInputError, SimulationError
 from physanimator.physics.loop import loop_frames, periodic
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
+from physanimator.physics.meshing import mesh_from_mask
 from physanimator.physics.particles import particles
 from physanimator.physics.rig import Circle, KeyedPath, Polygon, RigPoint, Wave
 from physanimator.physics.scene import Body, Scene
@@ -19,6 +23,7 @@ from physanimator.physics.simulation import simulate
 from physanimator.physics.strokes import EnergyStroke
 
 SIZE = 1000
+EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example"
 
 
 def strip(across: int = 2) -> TriangleMesh:
@@ -195,3 +200,24 @@ def test_the_document_keeps_the_loop() -> None:
     assert document["loop"] == 2.0
     assert scene_from_dict(document).loop == 2.0
     assert "loop" not in scene_to_dict(scene(loop=None))
+
+
+def test_the_bundled_example_loops() -> None:
+    """Its ribbon and cape, coarsely meshed, under all of its strokes."""
+    document = json.loads((EXAMPLE / "scene.json").read_text(encoding="utf-8"))
+    kept = (1, 2)
+    meshes = []
+    for number in kept:
+        mask = cv2.imread(str(EXAMPLE / f"mask_{document['bodies'][number]['name']}.png"), cv2.IMREAD_GRAYSCALE)
+        meshes.append(mesh_from_mask(mask, spacing=24.0))
+    document["bodies"] = [document["bodies"][number] for number in kept]
+    document["rig_points"] = [
+        point | {"body": kept.index(point["body"])} for point in document["rig_points"] if point["body"] in kept
+    ]
+    motion = simulate(scene_from_dict(document | {"loop": 3.0}, meshes=meshes))
+    assert len(motion) == 72
+    assert motion.loop is not None
+    assert motion.loop.residual < 0.1
+    assert motion.loop.closed_residual < 0.01
+    assert np.ptp(motion.positions, axis=0).max() > 40
+    assert_seamless(motion.positions)
