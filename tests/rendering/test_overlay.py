@@ -9,6 +9,7 @@ from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.motion import Motion
 from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
+from physanimator.physics.rig_turns import Rotation
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.strokes import EnergyStroke
 from physanimator.rendering.flow_colour import flow_to_color
@@ -105,6 +106,16 @@ def test_rig_points_show_their_kind_their_region_and_their_motion() -> None:
     assert has_colour(later, 150, 80, RIG_COLOURS["KeyedPath"])
     assert changed(later)[70:72, 141:159].any()
     assert changed(start)[85, 19:22].any()
+
+
+def test_a_turned_region_is_drawn_turned() -> None:
+    bar = Polygon(((100, 58), (140, 58), (140, 62), (100, 62)))
+    rig_point = RigPoint((100, 60), bar, (Rotation((0, 1), (0, 90)), Wave(20, 4)))
+    start, later = draw_rig(GREY, [rig_point], 0.0), draw_rig(GREY, [rig_point], 1.0)
+    assert changed(start)[60, 130]
+    assert not changed(start)[30, 120]
+    assert changed(later)[30, 120]  # upright, above where the wave has led the point
+    assert not changed(later)[60, 150]
 
 
 def test_scale_carries_everything_to_another_size() -> None:
