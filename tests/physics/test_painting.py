@@ -36,7 +36,7 @@ TOP = RigPoint((100, 20), Polygon(((0, 0), (200, 0), (200, 21), (0, 21))))
 
 def blown(material: Material, mesh: TriangleMesh, *, frames: int = 25) -> np.ndarray:
     """Positions under a sideways pull."""
-    scene = Scene((Body(mesh, material),), rig_points=(TOP,), gravity=(0.6, 0.0))
+    scene = Scene((Body(mesh, material),), rig_points=(TOP,), gravity=(0.6, 0.0), sag=True)
     return simulate(scene, frames=frames).positions
 
 

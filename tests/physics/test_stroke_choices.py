@@ -65,6 +65,7 @@ def test_the_kernel_knows_every_choice() -> None:
         vertices=np.column_stack([points / 128, np.ones(count), np.zeros(count)]).astype(np.float32),
         reach=np.full(count, np.inf, np.float32),
         leaders=np.full(count, -1, np.int32),
+        grips=np.zeros(count, np.float32),
         triangles=np.zeros((0, 3), np.int32),
         inverse_edges=np.zeros((0, 4), np.float32),
         stiffness=np.zeros((0, 3), np.float32),

@@ -114,6 +114,7 @@ def test_the_kernel_blows_as_the_reference(tick: int, turbulence: float) -> None
         vertices=np.column_stack([POINTS / SIZE, np.ones(count), np.zeros(count)]).astype(np.float32),
         reach=np.full(count, np.inf, np.float32),
         leaders=np.full(count, -1, np.int32),
+        grips=np.zeros(count, np.float32),
         triangles=np.zeros((0, 3), np.int32),
         inverse_edges=nothing,
         stiffness=nothing[:, :3],
