@@ -28,7 +28,6 @@ Fit = Literal["crop", "stretch"]
 FITS: tuple[Fit, ...] = get_args(Fit)
 
 MOST_TRACKS = 4096
-_MOST_PAIRS = 2_000_000  # of points and triangles that are compared at once: bounds the memory
 _RANGES = {
     "points": (1, MOST_TRACKS, ""),
     "static_points": (0, MOST_TRACKS, ""),
@@ -167,15 +166,16 @@ def _hidden(motion: Motion, followed: BodyPoints, positions: FloatArray, moved: 
 
 def _covered(points: FloatArray, triangles: FloatArray) -> NDArray[np.bool_]:
     """Whether each point, shape [n, 2], lies in one of the triangles, whichever way they wind, shape [t, 3, 2]."""
-    low, high = triangles.min(axis=1), triangles.max(axis=1)
+    from scipy.spatial import cKDTree
+
+    centres = triangles.mean(axis=1)
+    reach = np.hypot(*(triangles - centres[:, None]).transpose(2, 0, 1)).max()
+    near = cKDTree(centres).query_ball_point(points, reach * (1 + 1e-9))
+    which = np.repeat(np.arange(len(points)), [len(each) for each in near])
+    corners = triangles[np.concatenate([*near, []]).astype(np.int64)]
+    along, across = np.roll(corners, -1, axis=1) - corners, points[which, None] - corners
+    side = along[..., 0] * across[..., 1] - along[..., 1] * across[..., 0]
+    inside = (side >= 0).all(axis=1) | (side <= 0).all(axis=1)
     covered = np.zeros(len(points), dtype=bool)
-    at_once = max(1, _MOST_PAIRS // len(triangles))
-    for first in range(0, len(points), at_once):
-        some = points[first : first + at_once, None]
-        which, triangle = np.nonzero(((some >= low) & (some <= high)).all(axis=2))
-        corners = triangles[triangle]
-        along, across = np.roll(corners, -1, axis=1) - corners, some[which] - corners
-        side = along[..., 0] * across[..., 1] - along[..., 1] * across[..., 0]
-        inside = (side >= 0).all(axis=1) | (side <= 0).all(axis=1)
-        covered[first + which[inside]] = True
+    covered[which[inside]] = True
     return covered
