@@ -210,7 +210,7 @@ def _animate(options: argparse.Namespace) -> None:
 
 def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     """Animate, write everything that was asked for, and report."""
-    from .physics.rigging import unused_rig_points
+    from .physics.advice import advice
     from .pipeline import animate
     from .rendering.images import load_image
 
@@ -227,7 +227,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             progress=progress,
             **inputs,
         )
-        for sentence in unused_rig_points(animation.scene):
+        for sentence in advice(animation.scene):
             print(f"physanimator: warning: {sentence}", file=sys.stderr)
         animation.save(
             options.output,

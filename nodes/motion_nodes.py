@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -60,9 +61,12 @@ class Simulate(io.ComfyNode):
 
     @classmethod
     def execute(cls, scene: MaskedScene, frames: int, loop: float = 0.0) -> io.NodeOutput:
+        from ..physics.advice import advice
         from ..physics.simulation import simulate
 
         acting = replace(scene.scene, loop=loop) if loop else scene.scene
+        for sentence in advice(acting):
+            logging.warning("PhysAnimator: %s", sentence)
         motion = simulate(acting, frames=None if acting.loop else frames, progress=host_progress())
         return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate)
 

@@ -1,0 +1,35 @@
+"""Warnings about scenes that probably do something else than meant."""
+
+from __future__ import annotations
+
+import numpy as np
+from physanimator.physics.advice import advice
+from physanimator.physics.mesh import TriangleMesh
+from physanimator.physics.rig import Circle, RigPoint
+from physanimator.physics.scene import Body, Scene
+
+
+def two_triangles() -> TriangleMesh:
+    """Separate parts whose tops are (10, 5) and (60, 45)."""
+    vertices = np.array([[10.0, 5], [20, 30], [5, 30], [60, 45], [70, 80], [50, 80]])
+    return TriangleMesh(vertices, np.array([[0, 1, 2], [3, 4, 5]], dtype=np.int32), 100, 100)
+
+
+def test_a_part_that_nothing_holds_is_named_with_its_top() -> None:
+    scene = Scene((Body(two_triangles(), name="hair"),), rig_points=(RigPoint((10, 5), Circle(3)),))
+    (sentence,) = advice(scene)
+    assert sentence.startswith("bodies[0] (hair) has one separate part that no rig point holds")
+    assert "(60, 45)" in sentence
+    assert "(10, 5)" not in sentence
+
+
+def test_held_parts_and_bodies_that_are_free_on_purpose_need_no_word() -> None:
+    mesh = two_triangles()
+    held = (RigPoint((10, 5), Circle(3)), RigPoint((60, 45), Circle(3)))
+    assert advice(Scene((Body(mesh),), rig_points=held)) == []
+    assert advice(Scene((Body(mesh),))) == []
+
+
+def test_a_rig_point_beside_everything_is_reported() -> None:
+    (sentence,) = advice(Scene((Body(two_triangles()),), rig_points=(RigPoint((90, 10), Circle(3)),)))
+    assert sentence.startswith("rig_points[0] touches no body")
