@@ -64,9 +64,9 @@ class Simulate(io.ComfyNode):
         from ..physics.advice import advice
         from ..physics.simulation import simulate
 
-        for sentence in advice(scene.scene):
-            logging.warning("PhysAnimator: %s", sentence)
         acting = replace(scene.scene, loop=loop) if loop else scene.scene
+        for sentence in advice(acting):
+            logging.warning("PhysAnimator: %s", sentence)
         motion = simulate(acting, frames=None if acting.loop else frames, progress=host_progress())
         return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate)
 
