@@ -69,7 +69,7 @@ def scene_schema() -> Schema:
             "material": object_of(Material, "Material", _material()),
             "mesh": object_of(None, "Mesh", _mesh(), required=["vertices", "triangles"]),
             "stroke": object_of(EnergyStroke, "Energy stroke", _stroke()),
-            "wind": object_of(Wind, "Wind", wind_properties()),
+            "wind": {**object_of(Wind, "Wind", wind_properties()), "type": ["object", "null"]},
             **rig_definitions(),
             **_entries(),
         },

@@ -165,6 +165,7 @@ def test_the_document_keeps_the_wind() -> None:
     twice = scene_from_dict(scene_to_dict(scene(blown), meshes=False), meshes=[strip(scale=2.0)])
     assert twice.wind == replace(blown, turbulence_size=240.0)
     assert "wind" not in scene_to_dict(scene(None))
+    assert scene_from_dict(scene_to_dict(scene(None)) | {"wind": None}).wind is None
     document["wind"]["gust"] = 1.5
     with pytest.raises(SceneError, match=r"wind.gust: must be at most 1"):
         scene_from_dict(document)
