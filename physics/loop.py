@@ -84,7 +84,7 @@ def _periodic_motion(motion: RigMotion, seconds: float, path: str) -> RigMotion:
         return replace(motion, period=fitted_period(motion.period, seconds))
     if isinstance(motion, Combined):
         parts = enumerate(motion.motions)
-        return Combined(tuple(_periodic_motion(part, seconds, f"{path}.motions[{k}]") for k, part in parts))  # type: ignore[arg-type]
+        return Combined(tuple(_periodic_motion(part, seconds, f"{path}.motions[{k}]") for k, part in parts))  # type: ignore[misc]
     last = motion.times[-1]
     if last > seconds * (1 + _PERIODS):
         raise InvalidInputError(

@@ -15,9 +15,11 @@ READABLE_VERSIONS = tuple(range(1, SCENE_VERSION + 1))
 def migrated(document: dict[str, Any]) -> dict[str, Any]:
     """A document of any readable version as one of the present version; the argument is left as it is.
 
-    Version 2 only adds keys to version 1, all with defaults under which a scene moves as it did.
+    Version 2 adds keys to version 1, with defaults under which a scene moves as it did; only gravity, under which the
+    drawing used to sag, now leaves it hanging as drawn unless "sag" is set.
 
     Args:
         document: a checked document.
     """
-    return {**document, "version": SCENE_VERSION}
+    sags = document["version"] == 1 and any(document.get("gravity", ()))
+    return {**document, "version": SCENE_VERSION, **({"sag": True} if sags else {})}

@@ -274,7 +274,8 @@ def test_a_falloff_of_a_pin_holds_back() -> None:
     body = Body(strip(), Material(youngs_modulus=5.0))
     tips = []
     for falloff in (0.0, 80.0):
-        scene = Scene((body,), rig_points=(RigPoint(PLACE, TOP, Pinned(), falloff=falloff),), gravity=(1.0, 0.0), sag=True)
+        held = (RigPoint(PLACE, TOP, Pinned(), falloff=falloff),)
+        scene = Scene((body,), rig_points=held, gravity=(1.0, 0.0), sag=True)
         tips.append(np.ptp(simulate(scene, frames=20).positions[:, -1, 0]))
     assert 0 < tips[1] < 0.7 * tips[0]
 

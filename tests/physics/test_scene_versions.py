@@ -113,3 +113,10 @@ def test_a_negative_falloff_is_named() -> None:
 def test_what_is_newer_is_refused() -> None:
     with pytest.raises(SceneError, match=r"newer PhysAnimator \(format 3, known here up to 2\)"):
         loads(OLD.replace('"version": 1', '"version": 3'), meshes=meshes(4))
+
+
+def test_gravity_still_lets_documents_of_version_1_sag() -> None:
+    document = {"version": 1, "width": 1280, "height": 720, "gravity": [0, 0.5]}
+    assert scene_from_dict(document, meshes=meshes(1)).sag
+    assert not scene_from_dict({**document, "version": 2}, meshes=meshes(1)).sag
+    assert not scene_from_dict({**document, "gravity": [0, 0]}, meshes=meshes(1)).sag
