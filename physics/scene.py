@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+from .collision import Collider, Contact
 from .errors import InvalidInputError, require
-from .limits import LARGEST, MAX_BODIES, MAX_PARTICLES, MAX_RIG_POINTS, MAX_STROKES
+from .limits import LARGEST, MAX_BODIES, MAX_COLLIDERS, MAX_PARTICLES, MAX_RIG_POINTS, MAX_STROKES
 from .material import Material
 from .mesh import TriangleMesh
 from .rig import RigPoint
@@ -49,6 +50,8 @@ class Scene:
         rig_points: pins and leads.
         gravity: acceleration of every vertex [side/s^2], x right, y down.
         frame_rate: frames a second.
+        contact: how bodies keep out of each other and of colliders; None: they pass through.
+        colliders: still shapes that bodies keep out of where there is contact.
     """
 
     bodies: tuple[Body, ...]
@@ -56,9 +59,16 @@ class Scene:
     rig_points: tuple[RigPoint, ...] = ()
     gravity: tuple[float, float] = (0.0, 0.0)
     frame_rate: float = 24.0
+    contact: Contact | None = None
+    colliders: tuple[Collider, ...] = ()
 
     def __post_init__(self) -> None:
-        for name, most in (("bodies", MAX_BODIES), ("strokes", MAX_STROKES), ("rig_points", MAX_RIG_POINTS)):
+        for name, most in (
+            ("bodies", MAX_BODIES),
+            ("strokes", MAX_STROKES),
+            ("rig_points", MAX_RIG_POINTS),
+            ("colliders", MAX_COLLIDERS),
+        ):
             entries = tuple(getattr(self, name))
             require(name, f"{len(entries)} entries", len(entries) <= most, f"at most {most} entries")
             object.__setattr__(self, name, entries)
@@ -99,6 +109,8 @@ class Scene:
             bodies=tuple(replace(body, mesh=body.mesh.rescaled(width, height)) for body in self.bodies),
             strokes=tuple(stroke.rescaled(scale) for stroke in self.strokes),
             rig_points=tuple(rig_point.rescaled(scale) for rig_point in self.rig_points),
+            contact=self.contact and self.contact.rescaled(scale),
+            colliders=tuple(collider.rescaled(scale) for collider in self.colliders),
         )
 
     def _require_few_particles(self) -> None:

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from .contact_stepping import TouchingBodies
 from .drive import drive
 from .errors import SimulationError
 from .kernels import REACH
@@ -66,7 +67,11 @@ def simulate(scene: Scene, *, frames: int, progress: Progress | None = None, max
 
 def _displacements(scene: Scene, system: System, planned: SimulationPlan) -> Iterator[NDArray[np.float32]]:
     """Displacement of every vertex of the system in each frame [side], shape [v, 2]."""
-    solid, state, done = _solid(scene, system), State.at_rest(len(system.masses)), 0
+    solid = _solid(scene, system)
+    if scene.contact is not None and system.free.any():
+        yield from _touching(scene, TouchingBodies(scene, system, solid, scene.contact), planned)
+        return
+    state, done = State.at_rest(len(system.masses)), 0
     ticks = max(1.0, (planned.frames - 1) / (planned.frame_rate * TICK))
     block = max(1, int(_LAUNCH_WORK * ticks / (planned.work + ticks * len(system.masses))))
     yield state.displacement
@@ -81,6 +86,23 @@ def _displacements(scene: Scene, system: System, planned: SimulationPlan) -> Ite
         _run(scene, solid, state, whole, whole + 1, block=block)
         done = whole + 1
         yield _between(before, state, fraction)
+
+
+def _touching(scene: Scene, bodies: TouchingBodies, planned: SimulationPlan) -> Iterator[NDArray[np.float32]]:
+    """``_displacements`` of bodies that keep out of each other."""
+    state, done = bodies.state, 0
+    yield state.displacement[: bodies.count]
+    for frame in range(1, planned.frames):
+        whole, fraction = _ticks(frame, scene.frame_rate)
+        bodies.advance(done, whole)
+        done = whole
+        if fraction == 0:
+            yield state.displacement[: bodies.count]
+            continue
+        before = state._replace(displacement=state.displacement.copy(), velocity=state.velocity.copy())
+        bodies.advance(whole, whole + 1)
+        done = whole + 1
+        yield _between(before, state, fraction)[: bodies.count]
 
 
 def _ticks(frame: int, frame_rate: float) -> tuple[int, float]:
