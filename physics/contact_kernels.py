@@ -17,7 +17,7 @@ LIST_LENGTH = 4
 
 _PASSES = 4
 _SOLID = 0.5  # part of the thickness that is restored at once; the rest of it yields, and so adds no bounce
-_SOFTNESS = 0.2  # part of what then is missing that comes back in an interval
+_SOFTNESS = 0.0  # part of what then is missing that comes back in an interval
 
 
 def build_contact_kernel(ti: Any) -> Any:

@@ -23,7 +23,7 @@ from .system import System
 __all__ = ["TouchingBodies"]
 
 _MOST_INTERVALS = 64
-_SUBSTEPS = 8  # of the stiffest part in an interval, at most, while anything touches
+_SUBSTEPS = 1  # of the stiffest part in an interval, at most, while anything touches
 _TRAVEL = 0.5  # of a boundary edge that vertices move in an interval, at most, while anything is near
 
 
