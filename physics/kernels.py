@@ -9,11 +9,12 @@ there are several. Within a part all is serial, which for some thousand triangle
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
 
+from types import SimpleNamespace
 from typing import Any
 
 from .stepping import SAFETY, TICK
 
-__all__ = ["MOST_REFINEMENT", "REACH", "SPEED_FLOOR", "build_kernels"]
+__all__ = ["LATE_SAFETY", "MOST_REFINEMENT", "REACH", "SPEED_FLOOR", "build_functions", "build_kernels"]
 
 MOST_REFINEMENT = 4
 """Large deformation stiffens triangles; a tick then takes up to this many times its planned substeps."""
@@ -24,7 +25,8 @@ SPEED_FLOOR = 5.0
 REACH = 0.25
 """Part of its smallest altitude that a vertex faster than ``SPEED_FLOOR`` moves in a substep at most."""
 
-_LATE_SAFETY = (1 + SAFETY) / 2  # between the planned step and the limit, so that small strains change nothing
+LATE_SAFETY = (1 + SAFETY) / 2
+"""Between the planned step and the limit, so that small strains change nothing."""
 
 _SMALL = 0x7FFFFFF
 """Masks the ends of loops over triangles, which changes nothing but tells the compiler that 4 t fits into 32 bits.
@@ -33,18 +35,14 @@ It then loads neighbouring numbers together: 120 rather than 90 million triangle
 """
 
 
-def build_kernels(ti: Any) -> tuple[Any, Any]:
-    """The kernels, compiled for Taichi's present program when first launched."""
+def build_functions(ti: Any) -> SimpleNamespace:
+    """The functions that kernels are made of, by name."""
     vec2, vec4 = ti.types.vector(2, ti.f32), ti.types.vector(4, ti.f32)
     vec3, mat2 = ti.types.vector(3, ti.f32), ti.types.matrix(2, 2, ti.f32)
-    scalars, integers = ti.types.ndarray(dtype=ti.f32, ndim=1), ti.types.ndarray(dtype=ti.i32, ndim=1)
     vectors, vectors4 = ti.types.ndarray(dtype=vec2, ndim=1), ti.types.ndarray(dtype=vec4, ndim=1)
     vec6 = ti.types.vector(6, ti.f32)
-    vectors6 = ti.types.ndarray(dtype=vec6, ndim=1)
-    pairs = ti.types.ndarray(dtype=ti.types.vector(2, ti.i32), ndim=1)
     triples = ti.types.ndarray(dtype=ti.types.vector(3, ti.i32), ndim=1)
     stiffnesses = ti.types.ndarray(dtype=vec3, ndim=1)
-    paths = ti.types.ndarray(dtype=vec2, ndim=2)
 
     @ti.func
     def displacement_gradient(u0: vec2, u1: vec2, u2: vec2, b: vec4):
@@ -125,6 +123,29 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
         """The cubic from a to b that starts with va and ends with vb."""
         return a + s * (va + s * (3.0 * (b - a) - 2.0 * va - vb + s * (2.0 * (a - b) + va + vb)))
 
+    return SimpleNamespace(
+        displacement_gradient=displacement_gradient,
+        add_forces=add_forces,
+        present_frequency=present_frequency,
+        particle_push=particle_push,
+        hermite=hermite,
+    )
+
+
+def build_kernels(ti: Any) -> tuple[Any, Any]:
+    """The kernels, compiled for Taichi's present program when first launched."""
+    vec2, vec3, vec4 = (ti.types.vector(n, ti.f32) for n in (2, 3, 4))
+    scalars, integers = ti.types.ndarray(dtype=ti.f32, ndim=1), ti.types.ndarray(dtype=ti.i32, ndim=1)
+    vectors, vectors4 = ti.types.ndarray(dtype=vec2, ndim=1), ti.types.ndarray(dtype=vec4, ndim=1)
+    vectors6 = ti.types.ndarray(dtype=ti.types.vector(6, ti.f32), ndim=1)
+    pairs = ti.types.ndarray(dtype=ti.types.vector(2, ti.i32), ndim=1)
+    triples = ti.types.ndarray(dtype=ti.types.vector(3, ti.i32), ndim=1)
+    stiffnesses = ti.types.ndarray(dtype=vec3, ndim=1)
+    paths = ti.types.ndarray(dtype=vec2, ndim=2)
+    functions = build_functions(ti)
+    displacement_gradient, add_forces = functions.displacement_gradient, functions.add_forces
+    present_frequency, particle_push, hermite = functions.present_frequency, functions.particle_push, functions.hermite
+
     @ti.kernel
     def advance(
         starts: pairs,
@@ -159,7 +180,7 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
                     i, j, k = triangles[t][0], triangles[t][1], triangles[t][2]
                     g = displacement_gradient(u[i], u[j], u[k], inverse_edges[t])
                     squared = ti.max(squared, present_frequency(g, stiffness[t]))
-                needed = ti.sqrt(squared) * (TICK / (2.0 * _LATE_SAFETY))
+                needed = ti.sqrt(squared) * (TICK / (2.0 * LATE_SAFETY))
                 count = planned[part]
                 if needed > ti.cast(count, ti.f32):
                     count = ti.cast(ti.ceil(ti.min(needed, ti.cast(count * MOST_REFINEMENT, ti.f32))), ti.i32)

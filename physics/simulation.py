@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,42 +68,25 @@ def simulate(scene: Scene, *, frames: int, progress: Progress | None = None, max
 
 def _displacements(scene: Scene, system: System, planned: SimulationPlan) -> Iterator[NDArray[np.float32]]:
     """Displacement of every vertex of the system in each frame [side], shape [v, 2]."""
-    solid = _solid(scene, system)
-    if scene.contact is not None and system.free.any():
-        yield from _touching(scene, TouchingBodies(scene, system, solid, scene.contact), planned)
-        return
-    state, done = State.at_rest(len(system.masses)), 0
+    solid, state, done, count = _solid(scene, system), State.at_rest(len(system.masses)), 0, len(system.masses)
     ticks = max(1.0, (planned.frames - 1) / (planned.frame_rate * TICK))
-    block = max(1, int(_LAUNCH_WORK * ticks / (planned.work + ticks * len(system.masses))))
-    yield state.displacement
+    block = max(1, int(_LAUNCH_WORK * ticks / (planned.work + ticks * count)))
+    run = partial(_run, scene, solid, state, block=block)
+    if scene.contact is not None:
+        touching = TouchingBodies(scene, system, solid, scene.contact)
+        state, run = touching.state, partial(touching.advance, block=block)
+    yield state.displacement[:count]
     for frame in range(1, planned.frames):
         whole, fraction = _ticks(frame, scene.frame_rate)
-        _run(scene, solid, state, done, whole, block=block)
+        run(done, whole)
         done = whole
         if fraction == 0:
-            yield state.displacement
+            yield state.displacement[:count]
             continue
         before = state._replace(displacement=state.displacement.copy(), velocity=state.velocity.copy())
-        _run(scene, solid, state, whole, whole + 1, block=block)
+        run(whole, whole + 1)
         done = whole + 1
-        yield _between(before, state, fraction)
-
-
-def _touching(scene: Scene, bodies: TouchingBodies, planned: SimulationPlan) -> Iterator[NDArray[np.float32]]:
-    """``_displacements`` of bodies that keep out of each other."""
-    state, done = bodies.state, 0
-    yield state.displacement[: bodies.count]
-    for frame in range(1, planned.frames):
-        whole, fraction = _ticks(frame, scene.frame_rate)
-        bodies.advance(done, whole)
-        done = whole
-        if fraction == 0:
-            yield state.displacement[: bodies.count]
-            continue
-        before = state._replace(displacement=state.displacement.copy(), velocity=state.velocity.copy())
-        bodies.advance(whole, whole + 1)
-        done = whole + 1
-        yield _between(before, state, fraction)[: bodies.count]
+        yield _between(before, state, fraction)[:count]
 
 
 def _ticks(frame: int, frame_rate: float) -> tuple[int, float]:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from . import taichi_runtime
 from .kernels import build_kernels
 
-__all__ = ["Drive", "Solid", "State", "advance", "advance_here", "internal_forces"]
+__all__ = ["Drive", "Solid", "State", "advance", "internal_forces"]
 
 Float32Array = NDArray[np.float32]
 Int32Array = NDArray[np.int32]
@@ -97,7 +97,7 @@ def advance(solid: Solid, state: State, drive: Drive) -> None:
         state: changed in place.
         drive: what acts on them.
     """
-    taichi_runtime.run(advance_here, solid, state, drive)
+    taichi_runtime.run(_advance, solid, state, drive)
 
 
 def internal_forces(solid: Solid, displacement: Float32Array) -> Float32Array:
@@ -107,8 +107,7 @@ def internal_forces(solid: Solid, displacement: Float32Array) -> Float32Array:
     return force
 
 
-def advance_here(solid: Solid, state: State, drive: Drive) -> None:
-    """``advance`` for a caller that is on the Taichi thread already."""
+def _advance(solid: Solid, state: State, drive: Drive) -> None:
     advance_kernel, _ = taichi_runtime.compiled(build_kernels)
     *arrays, gravity = drive
     advance_kernel(*solid, *state, *arrays, *gravity)
