@@ -318,48 +318,48 @@ def build_contact_kernel(ti: Any) -> Any:
                                 total = total + particle_push(q, particles[p], kinds[p])
                         push[i] = total
 
+                # The last round moves nothing: the frame that is shown may follow, so nothing shall be left inside.
                 count, left = 0, 0
-                for interval in range(intervals):
-                    if intervals > 1 and left == 0:
+                for interval in range(intervals + 1):
+                    moving, passes = interval < intervals, 1
+                    if not moving:
+                        left, passes = 0, _LAST_PASSES
+                    if left == 0 and (intervals > 1 or not moving):
                         # The list holds until the fastest vertices could have come past what it foresees.
                         left = ti.max(1, ti.min(_LIST_STEPS, intervals - interval))
-                        ahead = left * TICK / intervals
+                        ahead = TICK
+                        if moving:
+                            ahead = left * TICK / intervals
                         found = detect(vertices, u, v, points, point_parts, edges, edge_parts, bodies, spacing, first_overlaps, overlap_parts, overlaps, normals, heads, order, contacts, contact_data, thickness, within, ahead)
-                        count = ti.cast(found[0], ti.i32)
-                    for part in range(parts):
-                        steps = counts[part]
-                        dt = TICK / (steps * intervals)
-                        for step in range(steps):
-                            add_forces(
-                                starts[part][1], starts[part + 1][1], triangles, inverse_edges, stiffness, u, force
-                            )
-                            for i in range(starts[part][0], starts[part + 1][0]):
-                                leader = leaders[i]
-                                if leader < 0:
-                                    speed = decay[i] * (v[i] + dt * (vertices[i][2] * force[i] + push[i]))
-                                    limit = ti.max(reach[i] / dt, SPEED_FLOOR)
-                                    squared_speed = speed.norm_sqr()
-                                    if squared_speed > limit * limit:
-                                        speed = speed * (limit / ti.sqrt(squared_speed))
-                                    v[i] = speed
-                                    u[i] = u[i] + dt * speed
-                                else:
-                                    a, b = rig_displacements[tick, leader], rig_displacements[tick + 1, leader]
-                                    va, vb = rig_velocities[tick, leader], rig_velocities[tick + 1, leader]
-                                    done = (interval * steps + step + 1.0) / (steps * intervals)
-                                    v[i] = vb
-                                    u[i] = hermite(a, b, TICK * va, TICK * vb, done)
-                                force[i] = vec2(0.0, 0.0)
-                    if intervals > 1:
+                        count, report[0], report[1] = ti.cast(found[0], ti.i32), found[1], found[2]
+                    if moving:
+                        for part in range(parts):
+                            steps = counts[part]
+                            dt = TICK / (steps * intervals)
+                            for step in range(steps):
+                                add_forces(
+                                    starts[part][1], starts[part + 1][1], triangles, inverse_edges, stiffness, u, force
+                                )
+                                for i in range(starts[part][0], starts[part + 1][0]):
+                                    leader = leaders[i]
+                                    if leader < 0:
+                                        speed = decay[i] * (v[i] + dt * (vertices[i][2] * force[i] + push[i]))
+                                        limit = ti.max(reach[i] / dt, SPEED_FLOOR)
+                                        squared_speed = speed.norm_sqr()
+                                        if squared_speed > limit * limit:
+                                            speed = speed * (limit / ti.sqrt(squared_speed))
+                                        v[i] = speed
+                                        u[i] = u[i] + dt * speed
+                                    else:
+                                        a, b = rig_displacements[tick, leader], rig_displacements[tick + 1, leader]
+                                        va, vb = rig_velocities[tick, leader], rig_velocities[tick + 1, leader]
+                                        done = (interval * steps + step + 1.0) / (steps * intervals)
+                                        v[i] = vb
+                                        u[i] = hermite(a, b, TICK * va, TICK * vb, done)
+                                    force[i] = vec2(0.0, 0.0)
+                    if intervals > 1 or not moving:
                         left = left - 1
-                        put_apart(
-                            vertices, u, v, contacts, contact_data, count, friction, thickness, TICK / intervals, 1
-                        )
-                # The frame that is shown may follow: nothing shall be left inside.
-                found = detect(vertices, u, v, points, point_parts, edges, edge_parts, bodies, spacing, first_overlaps, overlap_parts, overlaps, normals, heads, order, contacts, contact_data, thickness, within, TICK)
-                count = ti.cast(found[0], ti.i32)
-                put_apart(vertices, u, v, contacts, contact_data, count, friction, thickness, TICK / most, _LAST_PASSES)
-                report[0] = found[1]
-                report[1] = found[2]
+                        dt = TICK / ti.max(intervals, most)
+                        put_apart(vertices, u, v, contacts, contact_data, count, friction, thickness, dt, passes)
 
     return advance_touching
