@@ -19,9 +19,7 @@ LIST_LENGTH = 4
 """Contacts of one vertex, each with another part."""
 
 _LAST_PASSES = 4  # at the end of a tick; within it one a step is enough
-_LIST_STEPS = 8  # substeps for which a list of near pairs is good
-_SOLID = 0.5  # part of the thickness that is restored at once; the rest of it yields, and so adds no bounce
-_SOFTNESS = 0.0  # part of what then is missing that comes back in an interval
+_LIST_STEPS = 4  # substeps for which a list of near pairs is good
 
 
 def build_contact_kernel(ti: Any) -> Any:
@@ -220,8 +218,7 @@ def build_contact_kernel(ti: Any) -> Any:
                         - (1.0 - t) * place(vertices, u, a)
                         - t * place(vertices, u, b)
                     )
-                    push = ti.max(wanted - _SOLID * thickness - gap, 0.0)
-                    push = push + _SOFTNESS * ti.max(wanted - gap - push, 0.0)
+                    push = ti.max(wanted - gap, 0.0)
                     if push > 0.0:
                         shift = push / weight * normal
                         u[i] = u[i] + wi * shift

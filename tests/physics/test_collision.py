@@ -184,8 +184,8 @@ def test_a_skirt_stays_out_of_the_legs() -> None:
 
 def slid(friction: float) -> float:
     """How far a box goes down a slope [px]."""
-    body = Body(box(100, 160, 180, 210), Material(youngs_modulus=400.0, damping=0.0))
-    slope = Collider(Polygon(((0, 215), (512, 215), (512, 512), (0, 512))))
+    body = Body(box(100, 160, 180, 210), Material(youngs_modulus=400.0, damping=1.0))
+    slope = Collider(Polygon(((0, 212), (512, 212), (512, 512), (0, 512))))
     scene = Scene((body,), gravity=(0.6, 1.2), contact=Contact(friction=friction), colliders=(slope,))
     motion = simulate(scene, frames=24)
     return float((motion.positions[-1] - motion.positions[0])[:, 0].mean())
