@@ -26,6 +26,7 @@ _ENOUGH = 100  # wrong values among which to choose the first
 
 _TYPES = {
     "array": "a list",
+    "boolean": "true or false",
     "integer": "a whole number",
     "null": "null",
     "number": "a number",

@@ -7,18 +7,20 @@ from typing import Any
 
 import numpy as np
 
+from .collision import Collider, Contact
 from .material import Material
 from .rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
 from .run_lengths import runs_of
 from .scene import Body, Scene
 from .strokes import EnergyStroke
 
-__all__ = ["MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "encode", "scene_to_dict"]
+__all__ = ["COLLIDER_TYPES", "MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "encode", "scene_to_dict"]
 
 SCENE_VERSION = 1
 """Version of the document's format; a reader refuses what is newer."""
 
 REGION_TYPES: dict[str, type] = {"circle": Circle, "polygon": Polygon, "mask": MaskRegion}
+COLLIDER_TYPES: dict[str, type] = {"polygon": Polygon, "mask": MaskRegion}
 MOTION_TYPES: dict[str, type] = {"pinned": Pinned, "path": KeyedPath, "wave": Wave}
 
 _TYPE_NAMES = {kind: name for name, kind in (REGION_TYPES | MOTION_TYPES).items()}
@@ -40,12 +42,16 @@ def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
         "bodies": [_encode_body(body, mesh=meshes) for body in scene.bodies],
         "strokes": encode(scene.strokes),
         "rig_points": encode(scene.rig_points),
+        **({"contact": encode(scene.contact)} if scene.contact is not None else {}),
+        **({"colliders": encode(scene.colliders)} if scene.colliders else {}),
     }
 
 
 def encode(value: Any) -> Any:
     """The JSON form of a value or of a part of a scene; fields that are None are left out."""
     if value is None or isinstance(value, str):
+        return value
+    if isinstance(value, bool):
         return value
     if isinstance(value, int | np.integer):
         return int(value)
@@ -59,7 +65,9 @@ def encode(value: Any) -> Any:
     if isinstance(value, MaskRegion):
         height, width = value.mask.shape
         return {**tag, "width": width, "height": height, "runs": runs_of(value.mask)}
-    if not isinstance(value, Material | EnergyStroke | RigPoint | Circle | Polygon | Pinned | KeyedPath | Wave):
+    if not isinstance(
+        value, Material | EnergyStroke | RigPoint | Circle | Polygon | Pinned | KeyedPath | Wave | Contact | Collider
+    ):
         raise TypeError(f"a scene holds no {type(value).__name__}")
     entries = {field.name: encode(getattr(value, field.name)) for field in fields(value)}
     return {**tag, **{name: entry for name, entry in entries.items() if entry is not None}}

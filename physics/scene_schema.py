@@ -5,9 +5,11 @@ Units stand in square brackets in each title. Defaults are those of the dataclas
 
 from __future__ import annotations
 
+from .contact_schema import contact_definitions
 from .limits import (
     LARGEST,
     MAX_BODIES,
+    MAX_COLLIDERS,
     MAX_MASK_PIXELS,
     MAX_POINTS,
     MAX_RIG_POINTS,
@@ -26,6 +28,7 @@ from .schema_blocks import (
     ANY_SIZE,
     FROM_0,
     Schema,
+    defined,
     list_of,
     number,
     object_of,
@@ -65,6 +68,7 @@ def scene_schema() -> Schema:
             "mesh": object_of(None, "Mesh", _mesh(), required=["vertices", "triangles"]),
             "stroke": object_of(EnergyStroke, "Energy stroke", _stroke()),
             **rig_definitions(),
+            **contact_definitions(),
             **_entries(),
         },
     }
@@ -97,6 +101,17 @@ def _document() -> dict[str, Schema]:
             "Where bodies are held or led. Where several reach the same part, the last one in this list leads it.",
             "rig_point",
             MAX_RIG_POINTS,
+        ),
+        "contact": {
+            **defined("contact"),
+            "type": ["object", "null"],
+            "description": "How bodies keep out of each other and of colliders. null: they pass through.",
+        },
+        "colliders": list_of(
+            "Colliders",
+            "Still shapes that bodies keep out of where there is contact, such as a shoulder under hair.",
+            "collider",
+            MAX_COLLIDERS,
         ),
     }
 
