@@ -21,6 +21,9 @@ LIST_LENGTH = 4
 _LAST_PASSES = 4  # at the end of a tick; within it one a step is enough
 _LIST_STEPS = 4  # substeps for which a list of near pairs is good
 
+_YIELDING = 0.5  # part of the thickness that gives way at first, so that pushes do not set light vertices ringing
+_RETURN = 0.01  # part of it that comes back in a step
+
 
 def build_contact_kernel(ti: Any) -> Any:
     """The kernel, compiled for Taichi's present program when first launched."""
@@ -218,7 +221,8 @@ def build_contact_kernel(ti: Any) -> Any:
                         - (1.0 - t) * place(vertices, u, a)
                         - t * place(vertices, u, b)
                     )
-                    push = ti.max(wanted - gap, 0.0)
+                    push = ti.max(wanted - _YIELDING * thickness - gap, 0.0)
+                    push = push + _RETURN * ti.max(wanted - gap - push, 0.0)
                     if push > 0.0:
                         shift = push / weight * normal
                         u[i] = u[i] + wi * shift
