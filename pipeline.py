@@ -15,7 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .physics.automatic import Attachment, automatic_scene
+from .physics.collision import Collider, Contact
 from .physics.errors import InvalidInputError, require
+from .physics.masks import coverage_of
 from .physics.material import Material
 from .physics.material import preset as material_preset
 from .physics.mesh import TriangleMesh
@@ -49,6 +51,8 @@ def animate(
     attach: Attachment = "auto",
     wind_strength: float = 1.0,
     wind_angle: float = 0.0,
+    contact: Contact | None = None,
+    colliders: Sequence[Mask] = (),
     plate: Image | None = None,
     progress: StageProgress | None = None,
 ) -> Animation:
@@ -71,6 +75,8 @@ def animate(
         attach: side at which the parts are held when there is no scene.
         wind_strength: factor on the wind when there is no scene.
         wind_angle: where that wind blows to [degrees]; 0 is right, 90 up.
+        contact: how the parts keep out of each other, instead of what the scene says.
+        colliders: masks of what the parts keep out of besides the scene's colliders; they need contact.
         plate: the illustration without the moving parts, if it exists; painted in when None.
         progress: called as the stages "simulate" and those of the frames advance.
 
@@ -106,6 +112,12 @@ def animate(
             )
         else:
             whole = _given_scene(scene, meshes, preset, sway, frame_rate)
+        if contact is not None:
+            whole = replace(whole, contact=contact)
+        if colliders:
+            require("contact", whole.contact, whole.contact is not None, "given where there are colliders")
+            added = tuple(Collider.from_mask(coverage_of(each) > 0.5) for each in colliders)
+            whole = replace(whole, colliders=(*whole.colliders, *added))
     with timed(seconds, "simulate"):
         motion = simulate(whole, frames=frames, progress=_stage("simulate", progress))
     with timed(seconds, "prepare"):

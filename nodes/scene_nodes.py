@@ -13,7 +13,7 @@ from ..physics.rig import RigPoint
 from ..physics.scene import Scene as PhysicalScene
 from ..physics.strokes import EnergyStroke
 from .literals import refusal
-from .wires import BodiesWire, MaskedBody, MaskedScene, RigWire, SceneWire, StrokesWire
+from .wires import BodiesWire, ContactWire, MaskedBody, MaskedScene, RigWire, SceneWire, StrokesWire, Touch
 
 __all__ = ["AutomaticScene", "Scene", "SceneFromJSON"]
 
@@ -44,6 +44,7 @@ class Scene(io.ComfyNode):
                 _frame_rate(),
                 StrokesWire.Input("strokes", optional=True, tooltip="Energy strokes that act on every body."),
                 RigWire.Input("rig_points", optional=True, tooltip="What is held or led."),
+                _contact(),
             ],
             outputs=_scene_outputs(),
         )
@@ -57,14 +58,14 @@ class Scene(io.ComfyNode):
         frame_rate: float,
         strokes: tuple[EnergyStroke, ...] = (),
         rig_points: tuple[RigPoint, ...] = (),
+        contact: Touch | None = None,
     ) -> io.NodeOutput:
         if not strokes and not rig_points and not gravity_x and not gravity_y:
             raise InvalidInputError(
                 "Nothing acts on the bodies: connect strokes or rig_points, set gravity, or use Automatic Scene."
             )
-        return _output(
-            PhysicalScene(_physical(bodies), strokes, rig_points, (gravity_x, gravity_y), frame_rate), bodies
-        )
+        scene = PhysicalScene(_physical(bodies), strokes, rig_points, (gravity_x, gravity_y), frame_rate)
+        return _output(_touching(scene, contact), bodies)
 
 
 class AutomaticScene(io.ComfyNode):
@@ -102,6 +103,7 @@ class AutomaticScene(io.ComfyNode):
                 _frame_rate(),
                 StrokesWire.Input("strokes", optional=True, tooltip="Used instead of the gusts when connected."),
                 RigWire.Input("rig_points", optional=True, tooltip="Used instead of the pins when connected."),
+                _contact(),
             ],
             outputs=_scene_outputs(),
         )
@@ -116,6 +118,7 @@ class AutomaticScene(io.ComfyNode):
         frame_rate: float,
         strokes: tuple[EnergyStroke, ...] = (),
         rig_points: tuple[RigPoint, ...] = (),
+        contact: Touch | None = None,
     ) -> io.NodeOutput:
         scene = automatic_scene(
             _physical(bodies),
@@ -126,7 +129,8 @@ class AutomaticScene(io.ComfyNode):
             sway_by_size=sway_by_size,
         )
         drawn = {"strokes": strokes, "rig_points": rig_points}
-        return _output(replace(scene, **{name: given for name, given in drawn.items() if given}), bodies)
+        scene = replace(scene, **{name: given for name, given in drawn.items() if given})
+        return _output(_touching(scene, contact), bodies)
 
 
 class SceneFromJSON(io.ComfyNode):
@@ -173,6 +177,16 @@ class SceneFromJSON(io.ComfyNode):
             for item, found, entry in zip(bodies, read.bodies, entries, strict=False)
         ]
         return _output(replace(read, bodies=(*named, *_physical(bodies)[len(named) :])), bodies)
+
+
+def _touching(scene: PhysicalScene, touch: Touch | None) -> PhysicalScene:
+    return scene if touch is None else replace(scene, contact=touch.contact, colliders=touch.colliders)
+
+
+def _contact() -> Any:
+    return ContactWire.Input(
+        "contact", optional=True, tooltip="How bodies touch. Without it they pass through each other."
+    )
 
 
 def _physical(bodies: tuple[MaskedBody, ...]) -> tuple[Any, ...]:

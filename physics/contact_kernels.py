@@ -217,9 +217,7 @@ def build_contact_kernel(ti: Any) -> Any:
                 weight = wi + (1.0 - t) * (1.0 - t) * wa + t * t * wb
                 if weight > 0.0:
                     gap = normal.dot(
-                        place(vertices, u, i)
-                        - (1.0 - t) * place(vertices, u, a)
-                        - t * place(vertices, u, b)
+                        place(vertices, u, i) - (1.0 - t) * place(vertices, u, a) - t * place(vertices, u, b)
                     )
                     push = ti.max(wanted - _YIELDING * thickness - gap, 0.0)
                     push = push + _RETURN * ti.max(wanted - gap - push, 0.0)
@@ -331,7 +329,28 @@ def build_contact_kernel(ti: Any) -> Any:
                         ahead = TICK
                         if moving:
                             ahead = left * TICK / intervals
-                        found = detect(vertices, u, v, points, point_parts, edges, edge_parts, bodies, spacing, first_overlaps, overlap_parts, overlaps, normals, heads, order, contacts, contact_data, thickness, within, ahead)
+                        found = detect(
+                            vertices,
+                            u,
+                            v,
+                            points,
+                            point_parts,
+                            edges,
+                            edge_parts,
+                            bodies,
+                            spacing,
+                            first_overlaps,
+                            overlap_parts,
+                            overlaps,
+                            normals,
+                            heads,
+                            order,
+                            contacts,
+                            contact_data,
+                            thickness,
+                            within,
+                            ahead,
+                        )
                         count, report[0], report[1] = ti.cast(found[0], ti.i32), found[1], found[2]
                     if moving:
                         for part in range(parts):

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from .collision import Collider, Contact
-from .schema_blocks import Schema, choice_of, number, object_of
 from .scene_encoding import COLLIDER_TYPES
+from .schema_blocks import Schema, choice_of, number, object_of
 
 __all__ = ["contact_definitions"]
 

@@ -1,4 +1,4 @@
-"""The surfaces that touch: boundaries of all bodies and colliders in the kernel's form, and how they overlap at rest."""
+"""The surfaces that touch: boundaries of bodies and colliders in the kernel's form, and how they overlap at rest."""
 
 from __future__ import annotations
 
@@ -69,13 +69,13 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
     for number, collider in enumerate(scene.colliders):
         for loop in _outlines(collider, scene.width, scene.height, spacing):
             along = np.arange(len(loop))
-            edges.append(np.column_stack([along, (along + 1) % len(loop)]) + count)
-            edge_parts.append(np.full(len(loop), parts + number))
+            edges.append((np.column_stack([along, (along + 1) % len(loop)]) + count).astype(np.int32))
+            edge_parts.append(np.full(len(loop), parts + number, dtype=np.int32))
             positions.append(loop / side)
             count += len(loop)
     still = np.concatenate(positions) if positions else np.zeros((0, 2))
     rest = np.concatenate([system.rest.positions, still])
-    every, part_of_edge = np.concatenate(edges).astype(np.int32), np.concatenate(edge_parts).astype(np.int32)
+    every, part_of_edge = np.concatenate(edges), np.concatenate(edge_parts)
     points, first = np.unique(every[:, 0], return_index=True)
     point_parts = part_of_edge[first]
     bodies = np.full(parts + len(scene.colliders), -1, dtype=np.int32)
@@ -87,7 +87,7 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
     room = LIST_LENGTH * len(points)
     buckets = 1 << max(4, int(np.ceil(np.log2(2 * len(every)))))
     surface = ContactSurface(
-        points=points.astype(np.int32),
+        points=points,
         point_parts=point_parts,
         edges=every,
         edge_parts=part_of_edge,
@@ -154,7 +154,7 @@ def _sampled(loop: FloatArray, spacing: float) -> FloatArray:
 
 def _overlaps(
     rest: FloatArray,
-    points: NDArray[np.intp],
+    points: Int32Array,
     point_parts: Int32Array,
     edges: Int32Array,
     edge_parts: Int32Array,
