@@ -89,10 +89,9 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
     require("frames", frames, frames >= 1, "at least 1")
     duration = (frames - 1) / scene.frame_rate
     alive = sum(most_alive(stroke, horizon=duration) for stroke in scene.strokes)
-    in_step = (
-        system.substeps if scene.contact is None else CONTACT_WORK * system.substeps.max()
-    )  # in step while anything is near
-    elastic = in_step * np.diff(system.starts[:, 1]).astype(np.float64)
+    # Bodies that touch go through time in step.
+    substeps = system.substeps if scene.contact is None else CONTACT_WORK * system.substeps.max()
+    elastic = substeps * np.diff(system.starts[:, 1]).astype(np.float64)
     work = math.ceil(duration / TICK) * (float(elastic.sum()) + PARTICLE_WORK * alive * int(system.free.sum()))
     return SimulationPlan(
         frames=frames,
