@@ -89,7 +89,7 @@ def build_contact_kernel(ti: Any) -> Any:
         for n in range(points.shape[0]):
             fastest = ti.max(fastest, v[points[n]].norm_sqr())
             normals[points[n]] = vec2(0.0, 0.0)
-        fastest = ti.sqrt(fastest)
+        fastest = ti.min(ti.sqrt(fastest), 2.0 * SPEED_FLOOR)  # what is led faster would have it look everywhere
         near = thickness + 2.0 * fastest * horizon
         for e in range(edges.shape[0]):
             a, b = edges[e][0], edges[e][1]

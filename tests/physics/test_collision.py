@@ -264,3 +264,15 @@ def test_an_empty_collider_is_no_obstacle() -> None:
     scene = Scene((Body(disc(*CENTRES[0])),), gravity=(0.0, 0.5), contact=Contact())
     empty = replace(scene, colliders=(Collider(MaskRegion(np.zeros((8, 8), dtype=bool))),))
     np.testing.assert_array_equal(simulate(empty, frames=6).positions, simulate(scene, frames=6).positions)
+
+
+@pytest.mark.parametrize("strength", [1e6, -1e6])
+def test_absurd_forces_stay_finite(strength: float) -> None:
+    motion = simulate(replace(blobs(Contact(1.0, 20.0, True), strength=strength), colliders=legs()), frames=5)
+    assert np.isfinite(motion.positions).all()
+
+
+def test_a_body_led_into_a_collider_stays_finite() -> None:
+    lead = RigPoint((260.0, 250.0), Circle(30.0), KeyedPath((0, 0.2, 0.4), ((260, 250), (160, 250), (5000, 250))))
+    motion = simulate(replace(skirt(Contact()), rig_points=(lead,)), frames=12)
+    assert np.isfinite(motion.positions).all()
