@@ -78,6 +78,7 @@ def build_contact_kernel(ti: Any) -> Any:
         order: integers,
         contacts: triples,
         contact_data: vectors4,
+        touching: integers,
         thickness: ti.f32,
         within: ti.i32,
         horizon: ti.f32,
@@ -189,6 +190,9 @@ def build_contact_kernel(ti: Any) -> Any:
                         deep = 0.6 * spacing[own]
                     if signed > -deep and wanted > -deep:
                         closest = ti.min(closest, signed - wanted)
+                        if signed - wanted < 2.0 * fastest * TICK:
+                            touching[own] = 1
+                            touching[parts[j]] = 1
                         if signed - wanted < 2.0 * fastest * horizon and count < contacts.shape[0]:
                             contacts[count] = ti.Vector([i, a, b])
                             contact_data[count] = vec4(normal[0], normal[1], t, wanted)
@@ -277,6 +281,7 @@ def build_contact_kernel(ti: Any) -> Any:
         order: integers,
         contacts: triples,
         contact_data: vectors4,
+        touching: integers,
         counts: integers,
         report: scalars,
         friction: ti.f32,
@@ -287,7 +292,7 @@ def build_contact_kernel(ti: Any) -> Any:
         for _ in range(1):
             parts = planned.shape[0]
             for tick in range(first_particles.shape[0] - 1):
-                # While anything is near, all parts take the same steps; before, each takes its own.
+                # Parts that are near to anything take the same steps; the others each take their own.
                 most = 1
                 for part in range(parts):
                     squared = 0.0
@@ -302,11 +307,14 @@ def build_contact_kernel(ti: Any) -> Any:
                     counts[part] = count
                     most = ti.max(most, count)
                 intervals = 1
-                if report[0] <= 2.0 * report[1] * TICK:
-                    intervals = most
                 for part in range(parts):
-                    counts[part] = (counts[part] + intervals - 1) // intervals
-                    dt = TICK / (counts[part] * intervals)
+                    if touching[part] == 1:
+                        intervals = ti.max(intervals, counts[part])
+                for part in range(parts):
+                    dt = TICK / counts[part]
+                    if touching[part] == 1:
+                        dt = TICK / intervals
+                        counts[part] = 0  # one step in every interval, others all of theirs in the first
                     for i in range(starts[part][0], starts[part + 1][0]):
                         decay[i] = ti.exp(-vertices[i][3] * dt)
                         total = vec2(0.0, 0.0)
@@ -323,6 +331,8 @@ def build_contact_kernel(ti: Any) -> Any:
                     moving, passes = interval < intervals, 1
                     if not moving:
                         left, passes = 0, _LAST_PASSES
+                        for part in range(touching.shape[0]):
+                            touching[part] = 0
                     if left == 0 and (intervals > 1 or not moving):
                         # The list holds until the fastest vertices could have come past what it foresees.
                         left = ti.max(1, ti.min(_LIST_STEPS, intervals - interval))
@@ -347,6 +357,7 @@ def build_contact_kernel(ti: Any) -> Any:
                             order,
                             contacts,
                             contact_data,
+                            touching,
                             thickness,
                             within,
                             ahead,
@@ -354,8 +365,12 @@ def build_contact_kernel(ti: Any) -> Any:
                         count, report[0], report[1] = ti.cast(found[0], ti.i32), found[1], found[2]
                     if moving:
                         for part in range(parts):
-                            steps = counts[part]
-                            dt = TICK / (steps * intervals)
+                            steps, taken, whole = counts[part], 0, counts[part]
+                            if steps == 0:
+                                steps, taken, whole = 1, interval, intervals
+                            elif interval > 0:
+                                steps = 0
+                            dt = TICK / whole
                             for step in range(steps):
                                 add_forces(
                                     starts[part][1], starts[part + 1][1], triangles, inverse_edges, stiffness, u, force
@@ -373,7 +388,7 @@ def build_contact_kernel(ti: Any) -> Any:
                                     else:
                                         a, b = rig_displacements[tick, leader], rig_displacements[tick + 1, leader]
                                         va, vb = rig_velocities[tick, leader], rig_velocities[tick + 1, leader]
-                                        done = (interval * steps + step + 1.0) / (steps * intervals)
+                                        done = (taken + step + 1.0) / whole
                                         v[i] = vb
                                         u[i] = hermite(a, b, TICK * va, TICK * vb, done)
                                     force[i] = vec2(0.0, 0.0)

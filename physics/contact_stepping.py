@@ -1,8 +1,8 @@
 """Bodies that touch, and their way through time.
 
-While nothing is near anything, every part takes its own steps as without contact, and a look at the end of each tick
-is enough. As soon as something is near, all parts go through the tick in step with the stiffest one and are put apart
-in every step: bodies pushed out of each other more rarely would gain energy from the overlap of a whole interval.
+A part that is near to nothing takes its own steps through a tick as without contact. All others go through it in step
+with the stiffest of them and are put apart in every step: bodies pushed out of each other more rarely would gain energy
+from the overlap of a whole interval.
 """
 
 from __future__ import annotations

@@ -37,7 +37,7 @@ class ContactSurface(NamedTuple):
         first_overlaps: where each point's entries of the following two begin, int32, shape [n + 1].
         overlap_parts: parts that a point is in or near at rest, int32, shape [o].
         overlaps: distance that it keeps from each, negative inside [side], float32, shape [o].
-        normals, heads, order, contacts, contact_data, counts, report: room for the kernel.
+        normals, heads, order, contacts, contact_data, touching, counts, report: room for the kernel.
     """
 
     points: Int32Array
@@ -54,6 +54,7 @@ class ContactSurface(NamedTuple):
     order: Int32Array
     contacts: Int32Array
     contact_data: Float32Array
+    touching: Int32Array
     counts: Int32Array
     report: Float32Array
 
@@ -101,6 +102,7 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         order=np.zeros(len(every), np.int32),
         contacts=np.zeros((room, 3), np.int32),
         contact_data=np.zeros((room, 4), np.float32),
+        touching=np.ones(len(bodies), np.int32),
         counts=np.zeros(parts, np.int32),
         report=np.zeros(2, np.float32),
     )
