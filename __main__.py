@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from . import __version__
 
 if TYPE_CHECKING:
+    from .physics.collision import Contact
     from .rendering.animation import Animation, StageProgress
 
 __all__ = ["main"]
@@ -108,6 +109,15 @@ def _add_animate(parser: argparse.ArgumentParser) -> None:
         metavar="SHARE",
         type=float,
         help="blow everywhere in gusts and with eddies (0 none, 1 wild) instead of in strokes that pass",
+    )
+    how.add_argument("--contact", action="store_true", help="parts touch instead of passing through each other")
+    how.add_argument(
+        "--collider",
+        metavar="MASK",
+        action="extend",
+        nargs="+",
+        default=[],
+        help="picture of the same size, white where something stands still that parts keep out of; implies --contact",
     )
     how.add_argument("--spacing", metavar="PX", type=float, help="distance of mesh vertices (default: from the mask)")
     _add_output(parser, output=None)
@@ -257,8 +267,18 @@ def _animate(options: argparse.Namespace) -> None:
         preset=options.preset,
         sway=options.sway,
         spacing=options.spacing,
+        contact=_contact(options, scene),
+        colliders=[load_mask(path, width=width, height=height) for path in options.collider],
         **changes,
     )
+
+
+def _contact(options: argparse.Namespace, scene: Any) -> Contact | None:
+    """The usual contact, unless the scene has its own."""
+    from .physics.collision import Contact
+
+    wanted = options.contact or options.collider
+    return Contact() if wanted and not (isinstance(scene, dict) and scene.get("contact")) else None
 
 
 def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:

@@ -15,8 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .physics.automatic import Attachment, automatic_scene
+from .physics.collision import Collider, Contact
 from .physics.errors import InvalidInputError, require
 from .physics.loop import loop_frames
+from .physics.masks import coverage_of
 from .physics.material import Material
 from .physics.material import preset as material_preset
 from .physics.mesh import TriangleMesh
@@ -52,6 +54,8 @@ def animate(
     wind_strength: float = 1.0,
     wind_angle: float = 0.0,
     turbulence: float | None = None,
+    contact: Contact | None = None,
+    colliders: Sequence[Mask] = (),
     plate: Image | None = None,
     progress: StageProgress | None = None,
 ) -> Animation:
@@ -77,6 +81,8 @@ def animate(
         wind_angle: where that wind blows to [degrees]; 0 is right, 90 up.
         turbulence: blow a steady wind field with gusts and eddies, which are this share of it (0 to 1), instead of
             passing gusts, when there is no scene.
+        contact: how the parts keep out of each other, instead of what the scene says.
+        colliders: masks of what the parts keep out of besides the scene's colliders; they need contact.
         plate: the illustration without the moving parts, if it exists; painted in when None.
         progress: called as the stages "simulate" and those of the frames advance.
 
@@ -118,6 +124,12 @@ def animate(
         if frames is None:
             frames = DEFAULT_FRAMES if whole.loop is None else loop_frames(whole) + skip
             require("skip", skip, 0 <= skip < frames, f"at least 0 and below the number of frames ({frames})")
+        if contact is not None:
+            whole = replace(whole, contact=contact)
+        if colliders:
+            require("contact", whole.contact, whole.contact is not None, "given where there are colliders")
+            added = tuple(Collider.from_mask(coverage_of(each) > 0.5) for each in colliders)
+            whole = replace(whole, colliders=(*whole.colliders, *added))
     with timed(seconds, "simulate"):
         motion = simulate(whole, frames=frames, progress=_stage("simulate", progress))
     with timed(seconds, "prepare"):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from comfy_api.latest import ComfyExtension, io
 
 from .body_nodes import Body, Material
+from .contact_nodes import Contact
 from .example_nodes import ExampleIllustration
 from .flow_nodes import OpticalFlow, PreviewFlow
 from .mask_nodes import MaskToMesh, SegmentByPoints
@@ -30,6 +31,7 @@ NODES: list[type[io.ComfyNode]] = [
     EnergyStroke,
     Wind,
     RigPoint,
+    Contact,
     Scene,
     AutomaticScene,
     SceneFromJSON,

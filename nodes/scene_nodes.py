@@ -14,7 +14,17 @@ from ..physics.scene import Scene as PhysicalScene
 from ..physics.strokes import EnergyStroke
 from ..physics.wind import Wind
 from .literals import refusal
-from .wires import BodiesWire, MaskedBody, MaskedScene, RigWire, SceneWire, StrokesWire, WindWire
+from .wires import (
+    BodiesWire,
+    ContactWire,
+    MaskedBody,
+    MaskedScene,
+    RigWire,
+    SceneWire,
+    StrokesWire,
+    Touch,
+    WindWire,
+)
 
 __all__ = ["AutomaticScene", "Scene", "SceneFromJSON"]
 
@@ -46,6 +56,7 @@ class Scene(io.ComfyNode):
                 StrokesWire.Input("strokes", optional=True, tooltip="Energy strokes that act on every body."),
                 RigWire.Input("rig_points", optional=True, tooltip="What is held or led."),
                 WindWire.Input("wind", optional=True, tooltip="Blows everywhere beside the strokes."),
+                _contact(),
             ],
             outputs=_scene_outputs(),
         )
@@ -60,13 +71,15 @@ class Scene(io.ComfyNode):
         strokes: tuple[EnergyStroke, ...] = (),
         rig_points: tuple[RigPoint, ...] = (),
         wind: Wind | None = None,
+        contact: Touch | None = None,
     ) -> io.NodeOutput:
         if not strokes and not rig_points and not gravity_x and not gravity_y and wind is None:
             raise InvalidInputError(
                 "Nothing acts on the bodies: connect strokes, wind or rig_points, set gravity, or use Automatic Scene."
             )
         gravity = (gravity_x, gravity_y)
-        return _output(PhysicalScene(_physical(bodies), strokes, rig_points, gravity, frame_rate, wind=wind), bodies)
+        scene = PhysicalScene(_physical(bodies), strokes, rig_points, gravity, frame_rate, wind=wind)
+        return _output(_touching(scene, contact), bodies)
 
 
 class AutomaticScene(io.ComfyNode):
@@ -105,6 +118,7 @@ class AutomaticScene(io.ComfyNode):
                 StrokesWire.Input("strokes", optional=True, tooltip="Used instead of the gusts when connected."),
                 RigWire.Input("rig_points", optional=True, tooltip="Used instead of the pins when connected."),
                 WindWire.Input("wind", optional=True, tooltip="Blows instead of the gusts when connected."),
+                _contact(),
             ],
             outputs=_scene_outputs(),
         )
@@ -120,6 +134,7 @@ class AutomaticScene(io.ComfyNode):
         strokes: tuple[EnergyStroke, ...] = (),
         rig_points: tuple[RigPoint, ...] = (),
         wind: Wind | None = None,
+        contact: Touch | None = None,
     ) -> io.NodeOutput:
         scene = automatic_scene(
             _physical(bodies),
@@ -131,7 +146,7 @@ class AutomaticScene(io.ComfyNode):
         )
         drawn = {"strokes": strokes, "rig_points": rig_points}
         given = {name: value for name, value in drawn.items() if value}
-        return _output(replace(scene, wind=wind, **given), bodies)
+        return _output(_touching(replace(scene, wind=wind, **given), contact), bodies)
 
 
 class SceneFromJSON(io.ComfyNode):
@@ -178,6 +193,16 @@ class SceneFromJSON(io.ComfyNode):
             for item, found, entry in zip(bodies, read.bodies, entries, strict=False)
         ]
         return _output(replace(read, bodies=(*named, *_physical(bodies)[len(named) :])), bodies)
+
+
+def _touching(scene: PhysicalScene, touch: Touch | None) -> PhysicalScene:
+    return scene if touch is None else replace(scene, contact=touch.contact, colliders=touch.colliders)
+
+
+def _contact() -> Any:
+    return ContactWire.Input(
+        "contact", optional=True, tooltip="How bodies touch. Without it they pass through each other."
+    )
 
 
 def _physical(bodies: tuple[MaskedBody, ...]) -> tuple[Any, ...]:

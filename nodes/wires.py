@@ -14,12 +14,14 @@ from comfy_api.latest import io
 from numpy.typing import NDArray
 
 from ..physics.automatic import Attachment
+from ..physics.collision import Collider, Contact
 from ..physics.mesh import TriangleMesh
 from ..physics.motion import Motion
 from ..physics.scene import Body, Scene
 
 __all__ = [
     "BodiesWire",
+    "ContactWire",
     "FlowWire",
     "MaskedBody",
     "MaskedMesh",
@@ -31,6 +33,7 @@ __all__ = [
     "RigWire",
     "SceneWire",
     "StrokesWire",
+    "Touch",
     "WindWire",
 ]
 
@@ -48,6 +51,8 @@ WindWire = io.Custom("PHYSANIMATOR_WIND")
 """Carries a physics.wind.Wind."""
 RigWire = io.Custom("PHYSANIMATOR_RIG")
 """Carries a tuple of physics.rig.RigPoint."""
+ContactWire = io.Custom("PHYSANIMATOR_CONTACT")
+"""Carries a Touch."""
 SceneWire = io.Custom("PHYSANIMATOR_SCENE")
 """Carries a MaskedScene."""
 MotionWire = io.Custom("PHYSANIMATOR_MOTION")
@@ -82,6 +87,14 @@ class MaskedBody:
     body: Body
     mask: Mask
     attach: Attachment = "auto"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Touch:
+    """How bodies touch, and the still shapes that they keep out of."""
+
+    contact: Contact
+    colliders: tuple[Collider, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, repr=False)

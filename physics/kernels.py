@@ -9,12 +9,13 @@ there are several. Within a part all is serial, which for some thousand triangle
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
 
+from types import SimpleNamespace
 from typing import Any
 
 from .falloff import FIRMNESS
 from .stepping import SAFETY, TICK
 
-__all__ = ["MOST_REFINEMENT", "REACH", "SPEED_FLOOR", "build_kernels"]
+__all__ = ["LATE_SAFETY", "MOST_REFINEMENT", "REACH", "SPEED_FLOOR", "build_functions", "build_kernels"]
 
 MOST_REFINEMENT = 4
 """Large deformation stiffens triangles; a tick then takes up to this many times its planned substeps."""
@@ -25,7 +26,8 @@ SPEED_FLOOR = 5.0
 REACH = 0.25
 """Part of its smallest altitude that a vertex faster than ``SPEED_FLOOR`` moves in a substep at most."""
 
-_LATE_SAFETY = (1 + SAFETY) / 2  # between the planned step and the limit, so that small strains change nothing
+LATE_SAFETY = (1 + SAFETY) / 2
+"""Between the planned step and the limit, so that small strains change nothing."""
 
 _SMALL = 0x7FFFFFF
 """Masks the ends of loops over triangles, which changes nothing but tells the compiler that 4 t fits into 32 bits.
@@ -34,15 +36,13 @@ It then loads neighbouring numbers together: 120 rather than 90 million triangle
 """
 
 
-def build_kernels(ti: Any) -> tuple[Any, Any]:
-    """The kernels, compiled for Taichi's present program when first launched."""
+def build_functions(ti: Any) -> SimpleNamespace:
+    """The functions that kernels are made of, by name."""
     vec2, vec4 = ti.types.vector(2, ti.f32), ti.types.vector(4, ti.f32)
     vec3, mat2 = ti.types.vector(3, ti.f32), ti.types.matrix(2, 2, ti.f32)
-    scalars, integers = ti.types.ndarray(dtype=ti.f32, ndim=1), ti.types.ndarray(dtype=ti.i32, ndim=1)
     vectors, vectors4 = ti.types.ndarray(dtype=vec2, ndim=1), ti.types.ndarray(dtype=vec4, ndim=1)
     vec6 = ti.types.vector(6, ti.f32)
-    vectors6 = ti.types.ndarray(dtype=vec6, ndim=1)
-    pairs = ti.types.ndarray(dtype=ti.types.vector(2, ti.i32), ndim=1)
+    scalars, integers = ti.types.ndarray(dtype=ti.f32, ndim=1), ti.types.ndarray(dtype=ti.i32, ndim=1)
     triples = ti.types.ndarray(dtype=ti.types.vector(3, ti.i32), ndim=1)
     stiffnesses = ti.types.ndarray(dtype=vec3, ndim=1)
     paths = ti.types.ndarray(dtype=vec6, ndim=2)
@@ -159,6 +159,88 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
         rate = dt * FIRMNESS * grip
         return (speed + (rate * rate * (after - u) + 2.0 * rate * (after - before)) / dt) / (1.0 + rate * (2.0 + rate))
 
+    @ti.func
+    def wind_push(q: vec2, tick: ti.i32, wind: vectors, wind_waves: vectors4, wind_phases: tables):
+        """Acceleration at q by the wind field in a tick."""
+        total = vec2(0.0, 0.0)
+        if wind.shape[0] > 0:
+            total = wind[tick]
+            for m in range(wind_waves.shape[0]):
+                wave = wind_waves[m]
+                turned = ti.sin(wave[0] * q[0] + wave[1] * q[1] + wind_phases[tick, m])
+                total = total + turned * vec2(wave[2], wave[3])
+        return total
+
+    @ti.func
+    def move(
+        i: ti.i32,
+        tick: ti.i32,
+        begin: ti.f32,
+        end: ti.f32,
+        dt: ti.f32,
+        vertices: vectors4,
+        reach: scalars,
+        leaders: integers,
+        grips: scalars,
+        u: vectors,
+        v: vectors,
+        force: vectors,
+        push: vectors,
+        decay: scalars,
+        rig_leads: paths,
+        rig_rates: paths,
+    ):
+        """One substep of a vertex, which lasts from one part of a tick to another; uses its force up."""
+        leader, grip, x = leaders[i], grips[i], place(vertices[i])
+        if leader < 0 or grip > 0.0:
+            speed = decay[i] * (v[i] + dt * (vertices[i][2] * force[i] + push[i]))
+            if grip > 0.0:
+                before = goal(x, tick, leader, begin, rig_leads, rig_rates)
+                after = goal(x, tick, leader, end, rig_leads, rig_rates)
+                speed = pulled(speed, u[i], before, after, grip, dt)
+            limit = ti.max(reach[i] / dt, SPEED_FLOOR)
+            squared_speed = speed.norm_sqr()
+            if squared_speed > limit * limit:
+                speed = speed * (limit / ti.sqrt(squared_speed))
+            v[i] = speed
+            u[i] = u[i] + dt * speed
+        else:
+            v[i] = led(x, rig_rates[tick + 1, leader])
+            u[i] = goal(x, tick, leader, end, rig_leads, rig_rates)
+        force[i] = vec2(0.0, 0.0)
+
+    return SimpleNamespace(
+        displacement_gradient=displacement_gradient,
+        add_forces=add_forces,
+        present_frequency=present_frequency,
+        particle_push=particle_push,
+        place=place,
+        wind_push=wind_push,
+        move=move,
+    )
+
+
+def build_kernels(ti: Any) -> tuple[Any, Any]:
+    """The kernels, compiled for Taichi's present program when first launched."""
+    vec2, vec3, vec4 = (ti.types.vector(n, ti.f32) for n in (2, 3, 4))
+    scalars, integers = ti.types.ndarray(dtype=ti.f32, ndim=1), ti.types.ndarray(dtype=ti.i32, ndim=1)
+    vectors, vectors4 = ti.types.ndarray(dtype=vec2, ndim=1), ti.types.ndarray(dtype=vec4, ndim=1)
+    vec6 = ti.types.vector(6, ti.f32)
+    vectors6 = ti.types.ndarray(dtype=vec6, ndim=1)
+    pairs = ti.types.ndarray(dtype=ti.types.vector(2, ti.i32), ndim=1)
+    triples = ti.types.ndarray(dtype=ti.types.vector(3, ti.i32), ndim=1)
+    stiffnesses = ti.types.ndarray(dtype=vec3, ndim=1)
+    paths = ti.types.ndarray(dtype=vec6, ndim=2)
+    tables = ti.types.ndarray(dtype=ti.f32, ndim=2)
+    functions = build_functions(ti)
+    displacement_gradient, add_forces = functions.displacement_gradient, functions.add_forces
+    present_frequency, particle_push, wind_push = (
+        functions.present_frequency,
+        functions.particle_push,
+        functions.wind_push,
+    )
+    place, move = functions.place, functions.move
+
     @ti.kernel
     def advance(
         starts: pairs,
@@ -197,7 +279,7 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
                     i, j, k = triangles[t][0], triangles[t][1], triangles[t][2]
                     g = displacement_gradient(u[i], u[j], u[k], inverse_edges[t])
                     squared = ti.max(squared, present_frequency(g, stiffness[t]))
-                needed = ti.sqrt(squared) * (TICK / (2.0 * _LATE_SAFETY))
+                needed = ti.sqrt(squared) * (TICK / (2.0 * LATE_SAFETY))
                 count = planned[part]
                 if needed > ti.cast(count, ti.f32):
                     count = ti.cast(ti.ceil(ti.min(needed, ti.cast(count * MOST_REFINEMENT, ti.f32))), ti.i32)
@@ -208,14 +290,8 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
                     decay[i] = ti.exp(-vertices[i][3] * dt)
                     total = vec2(0.0, 0.0)
                     if vertices[i][2] > 0.0:
-                        total = vec2(gravity_x, gravity_y)
-                        q = vec2(vertices[i][0], vertices[i][1]) + u[i]
-                        if wind.shape[0] > 0:
-                            total = total + wind[tick]
-                            for m in range(wind_waves.shape[0]):
-                                wave = wind_waves[m]
-                                turned = ti.sin(wave[0] * q[0] + wave[1] * q[1] + wind_phases[tick, m])
-                                total = total + turned * vec2(wave[2], wave[3])
+                        q = place(vertices[i]) + u[i]
+                        total = vec2(gravity_x, gravity_y) + wind_push(q, tick, wind, wind_waves, wind_phases)
                         for p in range(first_particles[tick], first_particles[tick + 1]):
                             total = total + particle_push(q, particles[p], kinds[p])
                     push[i] = total
@@ -223,24 +299,25 @@ def build_kernels(ti: Any) -> tuple[Any, Any]:
                 for step in range(count):
                     add_forces(first_triangle, end_triangle, triangles, inverse_edges, stiffness, u, force)
                     for i in range(first_vertex, end_vertex):
-                        leader, grip = leaders[i], grips[i]
-                        if leader < 0 or grip > 0.0:
-                            speed = decay[i] * (v[i] + dt * (vertices[i][2] * force[i] + push[i]))
-                            if grip > 0.0:
-                                x, s = place(vertices[i]), (step + 1.0) / count
-                                before = goal(x, tick, leader, step / ti.cast(count, ti.f32), rig_leads, rig_rates)
-                                after = goal(x, tick, leader, s, rig_leads, rig_rates)
-                                speed = pulled(speed, u[i], before, after, grip, dt)
-                            limit = ti.max(reach[i] / dt, SPEED_FLOOR)
-                            squared_speed = speed.norm_sqr()
-                            if squared_speed > limit * limit:
-                                speed = speed * (limit / ti.sqrt(squared_speed))
-                            v[i] = speed
-                            u[i] = u[i] + dt * speed
-                        else:
-                            v[i] = led(place(vertices[i]), rig_rates[tick + 1, leader])
-                            u[i] = goal(place(vertices[i]), tick, leader, (step + 1.0) / count, rig_leads, rig_rates)
-                        force[i] = vec2(0.0, 0.0)
+                        begin, end = step / ti.cast(count, ti.f32), (step + 1.0) / count
+                        move(
+                            i,
+                            tick,
+                            begin,
+                            end,
+                            dt,
+                            vertices,
+                            reach,
+                            leaders,
+                            grips,
+                            u,
+                            v,
+                            force,
+                            push,
+                            decay,
+                            rig_leads,
+                            rig_rates,
+                        )
 
     @ti.kernel
     def forces(triangles: triples, inverse_edges: vectors4, stiffness: stiffnesses, u: vectors, force: vectors):

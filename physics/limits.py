@@ -5,6 +5,7 @@ from __future__ import annotations
 __all__ = [
     "LARGEST",
     "MAX_BODIES",
+    "MAX_COLLIDERS",
     "MAX_DOCUMENT_BYTES",
     "MAX_LOOP",
     "MAX_MASK_PIXELS",
@@ -26,6 +27,7 @@ STIFFEST = 1e12
 """Largest Young's modulus [density side^2 / s^2]."""
 
 MAX_BODIES = 100
+MAX_COLLIDERS = 100
 MAX_STROKES = 1_000
 MAX_RIG_POINTS = 1_000
 

@@ -29,6 +29,10 @@ PARTICLE_WORK = 0.2
 """Work of one flow particle on one vertex in triangle updates."""
 
 
+CONTACT_WORK = 1.3
+"""Factor on the work of bodies that touch."""
+
+
 @dataclass(frozen=True)
 class SimulationPlan:
     """What a simulation will take.
@@ -85,7 +89,9 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
     require("frames", frames, frames >= 1, "at least 1")
     duration = (frames - 1) / scene.frame_rate
     alive = sum(most_alive(stroke, horizon=duration) for stroke in scene.strokes)
-    elastic = system.substeps * np.diff(system.starts[:, 1]).astype(np.float64)
+    # Bodies that touch go through time in step.
+    substeps = system.substeps if scene.contact is None else CONTACT_WORK * system.substeps.max()
+    elastic = substeps * np.diff(system.starts[:, 1]).astype(np.float64)
     work = math.ceil(duration / TICK) * (float(elastic.sum()) + PARTICLE_WORK * alive * int(system.free.sum()))
     return SimulationPlan(
         frames=frames,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+from .collision import Collider, Contact
 from .errors import InvalidInputError, require
-from .limits import LARGEST, MAX_BODIES, MAX_LOOP, MAX_PARTICLES, MAX_RIG_POINTS, MAX_STROKES
+from .limits import LARGEST, MAX_BODIES, MAX_COLLIDERS, MAX_LOOP, MAX_PARTICLES, MAX_RIG_POINTS, MAX_STROKES
 from .material import SCALES, Material
 from .mesh import TriangleMesh
 from .rig import RigPoint
@@ -56,6 +57,8 @@ class Scene:
             loop, and all that acts is fitted to it (see ``loop.periodic``). None: no loop.
         wind: blows everywhere beside the strokes; None for calm.
         sag: gravity instead acts on the drawing as on an undeformed shape, which sags from the first frame on.
+        contact: how bodies keep out of each other and of colliders; None: they pass through.
+        colliders: still shapes that bodies keep out of where there is contact.
     """
 
     bodies: tuple[Body, ...]
@@ -66,9 +69,16 @@ class Scene:
     loop: float | None = None
     wind: Wind | None = None
     sag: bool = False
+    contact: Contact | None = None
+    colliders: tuple[Collider, ...] = ()
 
     def __post_init__(self) -> None:
-        for name, most in (("bodies", MAX_BODIES), ("strokes", MAX_STROKES), ("rig_points", MAX_RIG_POINTS)):
+        for name, most in (
+            ("bodies", MAX_BODIES),
+            ("strokes", MAX_STROKES),
+            ("rig_points", MAX_RIG_POINTS),
+            ("colliders", MAX_COLLIDERS),
+        ):
             entries = tuple(getattr(self, name))
             require(name, f"{len(entries)} entries", len(entries) <= most, f"at most {most} entries")
             object.__setattr__(self, name, entries)
@@ -112,6 +122,8 @@ class Scene:
             strokes=tuple(stroke.rescaled(scale) for stroke in self.strokes),
             rig_points=tuple(rig_point.rescaled(scale) for rig_point in self.rig_points),
             wind=self.wind and self.wind.rescaled(scale),
+            contact=self.contact and self.contact.rescaled(scale),
+            colliders=tuple(collider.rescaled(scale) for collider in self.colliders),
         )
 
     def _require_few_particles(self) -> None:

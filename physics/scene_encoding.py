@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .collision import Collider, Contact
 from .material import Material
 from .rig import Circle, Combined, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
 from .rig_turns import Pulse, Rotation, Squash, Swing
@@ -15,12 +16,13 @@ from .scene import Body, Scene
 from .strokes import EnergyStroke
 from .wind import Wind
 
-__all__ = ["MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "encode", "scene_to_dict"]
+__all__ = ["COLLIDER_TYPES", "MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "encode", "scene_to_dict"]
 
 SCENE_VERSION = 2
 """Version of the document's format; a reader refuses what is newer."""
 
 REGION_TYPES: dict[str, type] = {"circle": Circle, "polygon": Polygon, "mask": MaskRegion}
+COLLIDER_TYPES: dict[str, type] = {"polygon": Polygon, "mask": MaskRegion}
 MOTION_TYPES: dict[str, type] = {
     "pinned": Pinned,
     "path": KeyedPath,
@@ -53,6 +55,8 @@ def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
         "bodies": [_encode_body(body, mesh=meshes) for body in scene.bodies],
         "strokes": encode(scene.strokes),
         "rig_points": encode(scene.rig_points),
+        **({"contact": encode(scene.contact)} if scene.contact is not None else {}),
+        **({"colliders": encode(scene.colliders)} if scene.colliders else {}),
     }
 
 
@@ -74,7 +78,8 @@ def encode(value: Any) -> Any:
     if isinstance(value, MaskRegion):
         height, width = value.mask.shape
         return {**tag, "width": width, "height": height, "runs": runs_of(value.mask)}
-    if type(value) not in _TYPE_NAMES and not isinstance(value, Material | EnergyStroke | RigPoint | Wind):
+    plain = Material | EnergyStroke | RigPoint | Wind | Contact | Collider
+    if type(value) not in _TYPE_NAMES and not isinstance(value, plain):
         raise TypeError(f"a scene holds no {type(value).__name__}")
     entries = {field.name: encode(getattr(value, field.name)) for field in fields(value)}
     return {**tag, **{name: entry for name, entry in entries.items() if entry is not None}}

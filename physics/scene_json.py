@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from .collision import Collider, Contact
 from .errors import InvalidInputError, SceneError
 from .json_text import read_json, write_json
 from .limits import MAX_MASK_PIXELS
@@ -23,7 +24,7 @@ from .rig import Combined, MaskRegion, RigPoint
 from .run_lengths import mask_of
 from .scene import Body, Scene
 from .scene_checking import check_document, join_path
-from .scene_encoding import MOTION_TYPES, REGION_TYPES, SCENE_VERSION, scene_to_dict
+from .scene_encoding import COLLIDER_TYPES, MOTION_TYPES, REGION_TYPES, SCENE_VERSION, scene_to_dict
 from .scene_migration import migrated
 from .scene_schema import scene_schema
 from .strokes import EnergyStroke
@@ -32,7 +33,7 @@ from .wind import Wind
 __all__ = ["SCENE_VERSION", "dumps", "loads", "scene_from_dict", "scene_schema", "scene_to_dict"]
 
 T = TypeVar("T")
-S = TypeVar("S", EnergyStroke, RigPoint)
+S = TypeVar("S", EnergyStroke, RigPoint, Contact, Collider)
 
 _NAMED = re.compile(r"([a-z_]+(?:\[\d+\])?(?:\.[a-z_]+)?) (must .*)", re.DOTALL)  # as `require` words it
 
@@ -81,17 +82,27 @@ def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = Non
     target = (supply[0].width, supply[0].height) if supply else size
     bodies = _read_bodies(document.get("bodies", []), supply, size, target)
     strokes = _each("strokes", document, _read_stroke)
-    _require_small_masks(document.get("rig_points", []))
+    _require_small_masks(document)
     rig_points = _each("rig_points", document, _read_rig_point)
+    contact, colliders = _read_contact(document.get("contact")), _each("colliders", document, _read_collider)
     if target != size:
         scale = (target[0] / size[0], target[1] / size[1], max(target) / max(size))
         strokes = _rescaled("strokes", strokes, scale)
         rig_points = _rescaled("rig_points", rig_points, scale)
+        colliders = _rescaled("colliders", colliders, scale)
+        contact = contact and _rescaled("contact", [contact], scale)[0]
     options = _floats({name: value for name, value in document.items() if name in ("gravity", "frame_rate", "loop")})
     wind = _read_wind(document.get("wind"), max(target) / max(size))
     with _located(""):
         return Scene(
-            tuple(bodies), tuple(strokes), tuple(rig_points), wind=wind, sag=document.get("sag", False), **options
+            tuple(bodies),
+            tuple(strokes),
+            tuple(rig_points),
+            wind=wind,
+            sag=document.get("sag", False),
+            contact=contact,
+            colliders=tuple(colliders),
+            **options,
         )
 
 
@@ -164,15 +175,31 @@ def _read_typed(entry: dict[str, Any], types: dict[str, type], path: str) -> Any
         return kind(**values)
 
 
-def _require_small_masks(entries: list[dict[str, Any]]) -> None:
+def _read_contact(entry: dict[str, Any] | None) -> Contact | None:
+    with _located("contact"):
+        return None if entry is None else Contact(**_floats(entry))
+
+
+def _read_collider(entry: dict[str, Any], path: str) -> Collider:
+    region = _read_typed(entry["region"], COLLIDER_TYPES, f"{path}.region")
+    with _located(path):
+        return Collider(region)
+
+
+def _require_small_masks(document: dict[str, Any]) -> None:
     """Refuse before unpacking: a few characters can ask for any number of pixels."""
     total = 0
-    for index, entry in enumerate(entries):
+    named = [(name, index, entry) for name in ("rig_points", "colliders") for index, entry in _numbered(document, name)]
+    for name, index, entry in named:
         region = entry.get("region", {})
         total += int(region["width"] * region["height"]) if region.get("type") == "mask" else 0
         if total > MAX_MASK_PIXELS:
-            path = join_path("rig_points", index, "region")
+            path = join_path(name, index, "region")
             raise SceneError(path, f"all masks together must have at most {MAX_MASK_PIXELS} pixels. Got: {total}")
+
+
+def _numbered(document: dict[str, Any], name: str) -> Iterator[tuple[int, dict[str, Any]]]:
+    return enumerate(document.get(name, []))
 
 
 def _each(name: str, document: dict[str, Any], read: Callable[[dict[str, Any], str], T]) -> list[T]:

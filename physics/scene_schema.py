@@ -5,9 +5,11 @@ Units stand in square brackets in each title. Defaults are those of the dataclas
 
 from __future__ import annotations
 
+from .contact_schema import contact_definitions
 from .limits import (
     LARGEST,
     MAX_BODIES,
+    MAX_COLLIDERS,
     MAX_LOOP,
     MAX_MASK_PIXELS,
     MAX_POINTS,
@@ -29,6 +31,7 @@ from .schema_blocks import (
     ANY_SIZE,
     FROM_0,
     Schema,
+    defined,
     list_of,
     number,
     object_of,
@@ -71,6 +74,7 @@ def scene_schema() -> Schema:
             "stroke": object_of(EnergyStroke, "Energy stroke", _stroke()),
             "wind": {**object_of(Wind, "Wind", wind_properties()), "type": ["object", "null"]},
             **rig_definitions(),
+            **contact_definitions(),
             **_entries(),
         },
     }
@@ -123,6 +127,17 @@ def _document() -> dict[str, Schema]:
             "Where bodies are held or led. Where several reach the same part, the last one in this list leads it.",
             "rig_point",
             MAX_RIG_POINTS,
+        ),
+        "contact": {
+            **defined("contact"),
+            "type": ["object", "null"],
+            "description": "How bodies keep out of each other and of colliders. null: they pass through.",
+        },
+        "colliders": list_of(
+            "Colliders",
+            "Still shapes that bodies keep out of where there is contact, such as a shoulder under hair.",
+            "collider",
+            MAX_COLLIDERS,
         ),
     }
 

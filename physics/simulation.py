@@ -9,11 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .contact_stepping import TouchingBodies
 from .drive import drive
 from .elasticity import RestShape
 from .errors import SimulationError, require
@@ -119,22 +121,28 @@ def _displacements(
         start: displacement to begin with, without velocity [side], shape [v, 2].
         first: number of the frame with which to begin.
     """
-    solid, state = _solid(scene, system), State.at_rest(len(system.masses))._replace(displacement=start.copy())
+    solid, size = _solid(scene, system), len(system.masses)
     done, _ = _ticks(first, scene.frame_rate)
     ticks = max(1.0, (planned.frames - 1) / (planned.frame_rate * TICK))
-    block = max(1, int(_LAUNCH_WORK * ticks / (planned.work + ticks * len(system.masses))))
-    yield state.displacement
+    block = max(1, int(_LAUNCH_WORK * ticks / (planned.work + ticks * size)))
+    if scene.contact is None:
+        state = State.at_rest(size)._replace(displacement=start.copy())
+        run = partial(_run, scene, solid, state, block=block)
+    else:
+        touching = TouchingBodies(scene, system, solid, scene.contact, start)
+        state, run = touching.state, partial(touching.advance, block=block)
+    yield state.displacement[:size]
     for frame in count(first + 1):
         whole, fraction = _ticks(frame, scene.frame_rate)
-        _run(scene, solid, state, done, whole, block=block)
+        run(done, whole)
         done = whole
         if fraction == 0:
-            yield state.displacement
+            yield state.displacement[:size]
             continue
         before = state._replace(displacement=state.displacement.copy(), velocity=state.velocity.copy())
-        _run(scene, solid, state, whole, whole + 1, block=block)
+        run(whole, whole + 1)
         done = whole + 1
-        yield _between(before, state, fraction)
+        yield _between(before, state, fraction)[:size]
 
 
 def _ticks(frame: int, frame_rate: float) -> tuple[int, float]:

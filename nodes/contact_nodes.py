@@ -1,0 +1,73 @@
+"""Contact: bodies that keep out of each other and of what stands still."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from comfy_api.latest import io
+
+from ..physics.collision import Collider
+from ..physics.collision import Contact as PhysicalContact
+from .tensors import mask_of
+from .wires import ContactWire, Touch
+
+if TYPE_CHECKING:
+    import torch
+
+__all__ = ["Contact"]
+
+
+class Contact(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        return io.Schema(
+            node_id="PhysAnimator_Contact",
+            display_name="Contact",
+            category="PhysAnimator/scene",
+            description="Lets bodies touch instead of passing through each other, and slide over still shapes.",
+            inputs=[
+                io.Float.Input(
+                    "friction",
+                    default=PhysicalContact.friction,
+                    min=0.0,
+                    max=1.0,
+                    step=0.05,
+                    tooltip="Friction [1]: 0 slides freely, 1 hardly slides.",
+                ),
+                io.Float.Input(
+                    "thickness",
+                    default=PhysicalContact.thickness,
+                    min=0.1,
+                    max=100.0,
+                    step=0.1,
+                    tooltip="Distance that bodies keep from each other [px]; what is nearer as drawn stays as near.",
+                ),
+                io.Boolean.Input(
+                    "self_contact",
+                    default=PhysicalContact.self_contact,
+                    tooltip="Whether a body also keeps out of itself, such as a curl that folds.",
+                ),
+                io.Mask.Input(
+                    "collider",
+                    optional=True,
+                    tooltip="White where something stands still that bodies keep out of, such as a shoulder under hair."
+                    " What lies over it as drawn may stay there until it comes off.",
+                ),
+                ContactWire.Input("contact", optional=True, tooltip="Contact whose colliders act besides this one."),
+            ],
+            outputs=[ContactWire.Output(display_name="contact", tooltip="For Scene or Automatic Scene.")],
+        )
+
+    @classmethod
+    def execute(
+        cls,
+        friction: float,
+        thickness: float,
+        self_contact: bool,
+        collider: torch.Tensor | None = None,
+        contact: Touch | None = None,
+    ) -> io.NodeOutput:
+        colliders = () if contact is None else contact.colliders
+        if collider is not None:
+            colliders = (*colliders, Collider.from_mask(mask_of(collider, name="collider") > 0.5))
+        return io.NodeOutput(Touch(PhysicalContact(friction, thickness, self_contact), colliders))

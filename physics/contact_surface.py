@@ -1,0 +1,186 @@
+"""The surfaces that touch: boundaries of bodies and colliders in the kernel's form, and how they overlap at rest."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .collision import Collider, Contact
+from .contact_kernels import LIST_LENGTH
+from .contours import area_of, contours_at_half, resampled
+from .rig import MaskRegion
+from .scene import Scene
+from .system import System
+
+__all__ = ["ContactSurface", "contact_surface", "signed_distances"]
+
+FloatArray = NDArray[np.float64]
+Float32Array = NDArray[np.float32]
+Int32Array = NDArray[np.int32]
+
+_LEAST_SPACING = 2.0  # [px] between the points of a collider's outline
+_SMALLEST_COLLIDER = 4.0  # [px^2]
+
+
+class ContactSurface(NamedTuple):
+    """What the contact kernel reads and writes besides the bodies; vertices of colliders follow those of the bodies.
+
+    Attributes:
+        points: vertices on a boundary, ascending, int32, shape [n].
+        point_parts: connected part of each, colliders counted after all parts, int32, shape [n].
+        edges: boundary edges in the winding of their triangles, int32, shape [e, 2].
+        edge_parts: connected part of each, int32, shape [e].
+        bodies: body of each part, -1 for colliders, int32, shape [p].
+        spacing: mean length of each part's boundary edges at rest [side], float32, shape [p].
+        first_overlaps: where each point's entries of the following two begin, int32, shape [n + 1].
+        overlap_parts: parts that a point is in or near at rest, int32, shape [o].
+        overlaps: distance that it keeps from each, negative inside [side], float32, shape [o].
+        normals, heads, order, contacts, contact_data, touching, counts, report: room for the kernel.
+    """
+
+    points: Int32Array
+    point_parts: Int32Array
+    edges: Int32Array
+    edge_parts: Int32Array
+    bodies: Int32Array
+    spacing: Float32Array
+    first_overlaps: Int32Array
+    overlap_parts: Int32Array
+    overlaps: Float32Array
+    normals: Float32Array
+    heads: Int32Array
+    order: Int32Array
+    contacts: Int32Array
+    contact_data: Float32Array
+    touching: Int32Array
+    counts: Int32Array
+    report: Float32Array
+
+
+def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[ContactSurface, FloatArray]:
+    """The surfaces of a scene, and the vertices of its colliders [side], shape [c, 2]."""
+    side = scene.bodies[0].mesh.longest_side
+    body_edges = _boundary_edges(system.rest.triangles)
+    lengths = np.linalg.norm(np.diff(system.rest.positions[body_edges], axis=1)[:, 0], axis=1)
+    spacing = max(float(np.median(lengths)) * side, _LEAST_SPACING)
+    count, parts = len(system.parts), int(system.parts[-1]) + 1
+    positions, edges, edge_parts = [], [body_edges], [system.parts[body_edges[:, 0]]]
+    for number, collider in enumerate(scene.colliders):
+        for loop in _outlines(collider, scene.width, scene.height, spacing):
+            along = np.arange(len(loop))
+            edges.append((np.column_stack([along, (along + 1) % len(loop)]) + count).astype(np.int32))
+            edge_parts.append(np.full(len(loop), parts + number, dtype=np.int32))
+            positions.append(loop / side)
+            count += len(loop)
+    still = np.concatenate(positions) if positions else np.zeros((0, 2))
+    rest = np.concatenate([system.rest.positions, still])
+    every, part_of_edge = np.concatenate(edges), np.concatenate(edge_parts)
+    points, first = np.unique(every[:, 0], return_index=True)
+    point_parts = part_of_edge[first]
+    bodies = np.full(parts + len(scene.colliders), -1, dtype=np.int32)
+    bodies[system.parts] = system.bodies
+    own = np.linalg.norm(np.diff(rest[every], axis=1)[:, 0], axis=1)
+    numbers = np.bincount(part_of_edge, minlength=len(bodies))
+    mean = np.bincount(part_of_edge, weights=own, minlength=len(bodies)) / np.maximum(numbers, 1)
+    overlaps = _overlaps(rest, points, point_parts, every, part_of_edge, len(bodies), contact.thickness / side)
+    room = LIST_LENGTH * len(points)
+    buckets = 1 << max(4, int(np.ceil(np.log2(2 * len(every)))))
+    surface = ContactSurface(
+        points=points,
+        point_parts=point_parts,
+        edges=every,
+        edge_parts=part_of_edge,
+        bodies=bodies,
+        spacing=mean.astype(np.float32),
+        first_overlaps=overlaps[0],
+        overlap_parts=overlaps[1],
+        overlaps=overlaps[2],
+        normals=np.zeros((len(rest), 2), np.float32),
+        heads=np.zeros(buckets + 1, np.int32),
+        order=np.zeros(len(every), np.int32),
+        contacts=np.zeros((room, 3), np.int32),
+        contact_data=np.zeros((room, 4), np.float32),
+        touching=np.ones(len(bodies), np.int32),
+        counts=np.zeros(parts, np.int32),
+        report=np.zeros(2, np.float32),
+    )
+    return surface, still
+
+
+def signed_distances(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
+    """Distance of points from closed outlines, negative inside by the even-odd rule, shape [n]."""
+    distance, inside = np.full(len(points), np.inf), np.zeros(len(points), dtype=bool)
+    for a, b in zip(starts, ends, strict=True):
+        edge, offset = b - a, points - a
+        t = np.clip(offset @ edge / max(edge @ edge, 1e-30), 0.0, 1.0)
+        distance = np.minimum(distance, np.linalg.norm(offset - t[:, None] * edge, axis=1))
+        if a[1] != b[1]:
+            spans = (a[1] > points[:, 1]) != (b[1] > points[:, 1])
+            inside ^= spans & (points[:, 0] < a[0] + edge[0] * offset[:, 1] / edge[1])
+    return np.where(inside, -distance, distance)
+
+
+def _boundary_edges(triangles: Int32Array) -> Int32Array:
+    half = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    _, inverse, counts = np.unique(np.sort(half, axis=1), axis=0, return_inverse=True, return_counts=True)
+    return half[counts[inverse.reshape(-1)] == 1]
+
+
+def _outlines(collider: Collider, width: int, height: int, spacing: float) -> list[FloatArray]:
+    """Closed outlines wound as mesh boundaries are, their points a spacing apart [px], each of shape [n, 2]."""
+    if isinstance(collider.region, MaskRegion):
+        mask = collider.region.mask
+        scale = np.array([width, height]) / mask.shape[::-1]
+        found = contours_at_half(np.pad(mask.astype(np.float32), 1))
+        loops = [(loop - 1.0) * scale for loop in found if abs(area_of(loop)) >= _SMALLEST_COLLIDER]
+    else:
+        loop = np.array(collider.region.points)
+        loops = [loop if area_of(loop) < 0 else loop[::-1]]
+    return [_sampled(loop, spacing) for loop in loops]
+
+
+def _sampled(loop: FloatArray, spacing: float) -> FloatArray:
+    """A polygon with its corners kept and long edges divided, or a dense one thinned out."""
+    lengths = np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1)
+    if np.median(lengths) < spacing / 2:
+        return resampled(loop, lambda points: np.full(len(points), spacing))
+    pieces = [
+        a + (b - a) * (np.arange(n) / n)[:, None]
+        for a, b, n in zip(loop, np.roll(loop, -1, axis=0), np.ceil(lengths / spacing).astype(int), strict=True)
+        if n
+    ]
+    return np.concatenate(pieces)
+
+
+def _overlaps(
+    rest: FloatArray,
+    points: Int32Array,
+    point_parts: Int32Array,
+    edges: Int32Array,
+    edge_parts: Int32Array,
+    parts: int,
+    thickness: float,
+) -> tuple[Int32Array, Int32Array, Float32Array]:
+    """Which points are inside or nearly touch which other part at rest, and the distance that they keep from it."""
+    found: list[tuple[int, int, float]] = []
+    for part in range(parts):
+        own = edges[edge_parts == part]
+        if not len(own):
+            continue
+        corners = rest[own[:, 0]]
+        low, high = corners.min(axis=0) - thickness, corners.max(axis=0) + thickness
+        around = ((rest[points] > low) & (rest[points] < high)).all(axis=1) & (point_parts != part)
+        near = np.flatnonzero(around)
+        distance = signed_distances(rest[points[near]], corners, rest[own[:, 1]])
+        found += [(int(n), part, float(d)) for n, d in zip(near, distance, strict=True) if d < thickness]
+    found.sort()
+    counts = np.bincount([n for n, _, _ in found] or [0], minlength=len(points)) if found else np.zeros(len(points))
+    first = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
+    kept = found or [(0, -1, 0.0)]
+    return (
+        first,
+        np.array([part for _, part, _ in kept], dtype=np.int32),
+        np.array([distance for _, _, distance in kept], dtype=np.float32),
+    )
