@@ -134,9 +134,9 @@ def _add_figure(parser: argparse.ArgumentParser) -> None:
     parser.description = "Draw one of the figures that show what the controls do, from simulations made on the spot."
     parser.add_argument(
         "name",
-        choices=("stiffness", "strokes"),
+        choices=("stiffness", "strokes", "collision"),
         help="stiffness: a ball under a sweep of Young's modulus; strokes: the example under strokes of different"
-        " direction and strength",
+        " direction and strength; collision: soft balls that meet, with contact and without",
     )
     parser.add_argument("--output", "-o", metavar="OUT", required=True, help="picture to write (PNG, JPEG, WebP)")
     parser.add_argument("--quiet", "-q", action="store_true", help="no progress bar")
@@ -221,6 +221,7 @@ def _example() -> tuple[Any, list[Any], Any]:
 
 
 def _figure(options: argparse.Namespace) -> None:
+    from .rendering.collision_figure import collision_figure
     from .rendering.figures import stiffness_figure, strokes_figure
     from .rendering.images import check_image_output, load_image, save_image
 
@@ -230,6 +231,8 @@ def _figure(options: argparse.Namespace) -> None:
         progress = None if stages is None else lambda done, total: stages("simulate", done, total)
         if options.name == "stiffness":
             figure = stiffness_figure(progress=progress)
+        elif options.name == "collision":
+            figure = collision_figure(progress=progress)
         else:
             from .physics.meshing import mesh_from_mask
             from .physics.scene_json import scene_from_dict

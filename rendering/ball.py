@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["draw_ball", "draw_sand", "draw_stage"]
+__all__ = ["ACCENTS", "draw_ball", "draw_sand", "draw_stage"]
 
 _FINER = 3  # drawn so many times larger, for smooth edges
 _OUTLINE = (52, 30, 58)
-_PANELS = ((236, 74, 86), (255, 246, 232), (252, 190, 58), (255, 246, 232), (62, 140, 206), (255, 246, 232))
+ACCENTS = ((236, 74, 86), (252, 190, 58), (62, 140, 206))
+"""The colours of a ball's three panels, from the red one on; white ones lie between them."""
+_WHITE = (255, 246, 232)
 _LIGHT = np.array([-0.5, -0.62, 0.6])
 
 
@@ -33,7 +37,11 @@ def draw_stage(width: int, height: int, *, floor: float) -> NDArray[np.uint8]:
 
 
 def draw_ball(
-    stage: NDArray[np.uint8], centre: tuple[float, float], radius: float
+    stage: NDArray[np.uint8],
+    centre: tuple[float, float],
+    radius: float,
+    *,
+    accents: Sequence[tuple[int, int, int]] = ACCENTS,
 ) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """A stage with a ball on it.
 
@@ -41,6 +49,7 @@ def draw_ball(
         stage: RGB, shape [h, w, 3].
         centre: of the ball [px].
         radius: of the ball with its outline [px].
+        accents: colours of its three panels.
 
     Returns:
         The picture, RGB, shape [h, w, 3], and the ball's coverage 0..1, shape [h, w].
@@ -49,7 +58,7 @@ def draw_ball(
     y, x = (np.indices((height * _FINER, width * _FINER)) + 0.5) / _FINER
     x, y = (x - centre[0]) / radius, (y - centre[1]) / radius
     distance = np.hypot(x, y)
-    colours = _surface(x, y)
+    colours = _surface(x, y, accents)
     colours[distance > 0.955] = _OUTLINE
     colour = cv2.resize(colours, (width, height), interpolation=cv2.INTER_AREA)
     coverage = cv2.resize((distance <= 1).astype(np.float32), (width, height), interpolation=cv2.INTER_AREA)
@@ -75,7 +84,9 @@ def draw_sand(picture: NDArray[np.uint8], *, top: float) -> NDArray[np.uint8]:
     return np.rint(picture + cover * (sand - picture)).astype(np.uint8)
 
 
-def _surface(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float32]:
+def _surface(
+    x: NDArray[np.float64], y: NDArray[np.float64], accents: Sequence[tuple[int, int, int]]
+) -> NDArray[np.float32]:
     """Colours of a sphere of radius 1 about the origin in two tones and a highlight, shape [..., 3]."""
     z = np.sqrt(np.maximum(0.0, 1 - x**2 - y**2))
     normal = np.stack([x, y, z], axis=-1)
@@ -85,12 +96,13 @@ def _surface(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float
     east = np.cross([0.0, 1.0, 0.0], pole)
     east /= np.linalg.norm(east)
     along, up, out = normal @ east, normal @ np.cross(pole, east), normal @ pole
-    angle = np.mod(np.arctan2(up, along) / (2 * np.pi), 1.0) * len(_PANELS)
-    colours = np.array(_PANELS, dtype=np.float32)[angle.astype(int) % len(_PANELS)]
+    angle = np.mod(np.arctan2(up, along) / (2 * np.pi), 1.0) * 2 * len(accents)
+    panels = np.array([colour for accent in accents for colour in (accent, _WHITE)], dtype=np.float32)
+    colours = panels[angle.astype(int) % len(panels)]
     seam = np.minimum(angle % 1, 1 - angle % 1) * np.sqrt(np.maximum(0.0, 1 - out**2)) < 0.028
     colours[seam] = _OUTLINE
     cap = np.abs(out) > 0.965
-    colours[cap] = (255, 246, 232)
+    colours[cap] = _WHITE
     colours[(np.abs(out) > 0.952) & ~cap] = _OUTLINE
     light = normal @ (_LIGHT / np.linalg.norm(_LIGHT))
     colours[light < 0.16] *= np.array((0.74, 0.68, 0.82), dtype=np.float32)

@@ -117,12 +117,12 @@ def test_data_for_other_programs(folder: Path) -> None:
     assert "data:image/jpeg;base64," in text
 
 
-@pytest.mark.parametrize("name", ["stiffness", "strokes"])
+@pytest.mark.parametrize("name", ["stiffness", "strokes", "collision"])
 def test_figures_are_written(folder: Path, capsys: Output, name: str) -> None:
     assert status("figure", name, "--output", f"{name}.png") == 0
     height, width = load_image(f"{name}.png").shape[:2]
     assert capsys.readouterr().out == f"{name}.png: {width} x {height} px\n"
-    assert min(height, width) > 1000
+    assert height * width > 1_500_000
 
 
 def test_quiet_says_nothing(folder: Path, capsys: Output) -> None:
