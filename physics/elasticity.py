@@ -27,6 +27,7 @@ __all__ = [
     "energy",
     "energy_densities",
     "forces",
+    "gradient_products",
     "lame_parameters",
     "lumped_masses",
     "rest_shape",
@@ -148,6 +149,13 @@ def lumped_masses(rest: RestShape, density: ArrayLike) -> FloatArray:
     return masses
 
 
+def gradient_products(rest: RestShape) -> FloatArray:
+    """Products g_a g_b^T of the corners' shape gradients of each triangle [1/side^2], shape [t, 3, 3, 2, 2]."""
+    g = rest.shape_gradients
+    products: FloatArray = g[:, :, None, :, None] * g[:, None, :, None, :]
+    return products
+
+
 def stiffness_matrix(rest: RestShape, mu: FloatArray, lam: FloatArray) -> csr_array:
     """K = d2E/dx2 at rest, shape [2v, 2v]; the coordinates of vertex i are rows 2i (x) and 2i + 1 (y).
 
@@ -155,12 +163,13 @@ def stiffness_matrix(rest: RestShape, mu: FloatArray, lam: FloatArray) -> csr_ar
     """
     from scipy.sparse import coo_array
 
-    g, identity = rest.shape_gradients, np.eye(2)
-    normal = np.einsum("tam,tbm->tab", g, g)
-    blocks = np.einsum("t,tab,ij->taibj", mu, normal, identity)
-    blocks += np.einsum("t,taj,tbi->taibj", mu, g, g)
-    blocks += np.einsum("t,tai,tbj->taibj", lam, g, g)
-    blocks *= rest.areas[:, None, None, None, None]
+    products = gradient_products(rest)
+    shear, pressure = ((values * rest.areas)[:, None, None, None, None] for values in (mu, lam))
+    blocks = shear * products.swapaxes(3, 4) + pressure * products
+    normal = shear[..., 0, 0] * (products[..., 0, 0] + products[..., 1, 1])
+    blocks[..., 0, 0] += normal
+    blocks[..., 1, 1] += normal
+    blocks = blocks.swapaxes(2, 3)
     freedoms = (2 * rest.triangles[:, :, None] + np.arange(2)).reshape(-1, 6)
     rows, columns = np.repeat(freedoms, 6, axis=1), np.tile(freedoms, (1, 6))
     size = 2 * len(rest.positions)

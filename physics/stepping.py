@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .elasticity import RestShape
+from .elasticity import RestShape, gradient_products
 
 __all__ = [
     "MASS_BUDGET",
@@ -64,9 +64,12 @@ def vertex_frequencies(rest: RestShape, mu: FloatArray, lam: FloatArray, masses:
     The stiffness is the sum of the norms of the blocks K_ab of its row (block Gershgorin): the highest of any vertex
     bounds omega^2 of the whole.
     """
-    g = rest.shape_gradients
-    blocks = np.einsum("t,tam,tbm,ij->tabij", mu, g, g, np.eye(2))
-    blocks += np.einsum("t,taj,tbi->tabij", mu, g, g) + np.einsum("t,tai,tbj->tabij", lam, g, g)
+    products = gradient_products(rest)
+    shear, pressure = mu[:, None, None, None, None], lam[:, None, None, None, None]
+    blocks = shear * products.swapaxes(3, 4) + pressure * products
+    normal = mu[:, None, None] * (products[..., 0, 0] + products[..., 1, 1])
+    blocks[..., 0, 0] += normal
+    blocks[..., 1, 1] += normal
     squares = (blocks**2).sum(axis=(3, 4))
     determinants = blocks[..., 0, 0] * blocks[..., 1, 1] - blocks[..., 0, 1] * blocks[..., 1, 0]
     norms = np.sqrt((squares + np.sqrt(np.maximum(squares**2 - 4 * determinants**2, 0.0))) / 2)
