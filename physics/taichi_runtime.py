@@ -11,6 +11,7 @@ and a long kernel stops every other thread, so callers keep their launches to so
 
 from __future__ import annotations
 
+import atexit
 import os
 import queue
 import sys
@@ -30,6 +31,7 @@ T = TypeVar("T")
 
 _POLL_SECONDS = 0.2
 _PATIENCE = 1000  # hundredths of a second
+_LAST_SECONDS = 2.0  # that the end of the process waits for a kernel which still runs
 _QUIET = {"ENABLE_TAICHI_HEADER_PRINT": "0", "TI_SKIP_VERSION_CHECK": "ON"}
 
 
@@ -96,12 +98,26 @@ class _TaichiThread:
         with self._starting:
             if self._thread is None:
                 self._process = os.getpid()
+                atexit.register(self._finish)
                 self._thread = threading.Thread(target=self._work, name="physanimator-taichi", daemon=True)
                 self._thread.start()
         if self._process != os.getpid():
             raise PhysAnimatorError(
                 "Taichi cannot run in a forked process whose parent has used it; start the process with 'spawn'"
             )
+
+    def _finish(self) -> None:
+        """At the end of the process, close our program: only then does Taichi keep the compiled kernels on disk."""
+        if self._process == os.getpid():
+            job = _Job(self._close)
+            self._jobs.put(job)
+            job.done.wait(_LAST_SECONDS)
+
+    def _close(self) -> None:
+        if self._program is not None and self._taichi.lang.impl.get_runtime().prog is self._program:
+            self._kernels.clear()
+            self._program = None
+            self._taichi.reset()
 
     def _work(self) -> None:
         while True:
