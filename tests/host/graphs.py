@@ -93,6 +93,40 @@ the head and swing the cape at the shoulder.
 **5** *Interpolate* keeps every 15th frame and draws the others anew.
 """
 
+PINS_NOTE = """\
+## Wind in the hair, held by pins
+
+Two *Rig Points* hold the hair: one at the head, and one at the neck that lets go softly (*falloff*).
+
+The *Wind* blows everywhere, in gusts and with eddies; the *Energy Stroke* is a stronger puff that runs along the hair.
+
+Move the pins, and watch them in *Preview Motion*.
+"""
+
+CONTACT_NOTE = """\
+## Two bodies that touch
+
+The sunflower stands still like a wall that gives way, and a strong wind drives the hair against it. *Contact* keeps
+them out of each other; disconnect it to see the difference.
+
+More *friction*: the hair clings. A *collider* mask makes anything in the picture solid.
+"""
+
+LOOP_NOTE = """\
+## A seamless loop, moved at the root
+
+*Simulate* has *loop* set to 3 seconds: everything that acts is fitted to it, and the video begins where it ends.
+
+The *Rig Point* swings and turns the bow itself; the ribbons follow, overlap and settle.
+"""
+
+HEAD = {
+    "position": "[[470, 130]]",
+    "region": "polygon",
+    "region.points": "[[340, 20], [600, 20], [600, 330], [340, 330]]",
+    "body": 0,
+}
+
 CAPE_POINTS = """\
 [[680, 540, 1], [640, 480, 1], [700, 590, 1],
  [650, 612, 1], [790, 568, 1], [720, 610, 1],
@@ -115,7 +149,9 @@ def quickstart() -> tuple[Group, ...]:
     """From the bundled illustration to a saved video, with the automatic scene."""
     return (
         _illustration(380, core("note", "MarkdownNote", 400, "Start here", {"": QUICKSTART_NOTE})),
-        _four_bodies(),
+        _bodies(
+            ("cape", "cloth", "top"), ("hair", "hair", "left"), ("ribbon", "ribbon", "left"), ("plant", "leaf", "auto")
+        ),
         Group(
             "3 · Physics simulation",
             ORANGE,
@@ -146,18 +182,77 @@ def every_step() -> tuple[Group, ...]:
     )
 
 
+def wind_and_pins() -> tuple[Group, ...]:
+    """Hair held by two pins in a wind field and under a drawn puff."""
+    neck = {"position": "[[560, 340]]", "region.radius": 40, "falloff": 60, "body": 0}
+    puff = {
+        "path": "[[430, 380], [560, 320], [690, 440], [820, 320], [950, 420]]",
+        "radius": 170,
+        "speed": 610,
+        "strength": 1.6,
+    }
+    drawn = (
+        ours("wind", "Wind", values={"strength": 0.6, "gust": 0.5, "turbulence": 0.7}),
+        ours("puff", "EnergyStroke", 0, "Energy Stroke: a puff", puff),
+        ours("head", "RigPoint", 0, "Rig Point: the head", HEAD),
+        ours("neck", "RigPoint", 0, "Rig Point: the neck, soft", neck, rig_points="head.rig_points"),
+    )
+    acting = {"strokes": "puff.strokes", "rig_points": "neck.rig_points", "wind": "wind.wind"}
+    scene = ours("scene", "Scene", bodies="body_0.bodies", **acting)
+    return (
+        _illustration(380, core("note", "MarkdownNote", 300, "Wind and pins", {"": PINS_NOTE})),
+        _bodies(("hair", "hair", "left")),
+        Group("3 · Wind, pins, simulation", ORANGE, (Column(330, drawn), _simulated(420, scene))),
+        _video("wind_and_pins", 520, "render.frames"),
+    )
+
+
+def contact() -> tuple[Group, ...]:
+    """Hair that is driven against the plant and cannot pass through it."""
+    touch = ours("contact", "Contact", values={"friction": 0.2})
+    gale = ours("gale", "Wind", values={"strength": 1.2, "angle": 5, "gust": 0.8, "turbulence": 0.4})
+    acting = {"wind": "gale.wind", "contact": "contact.contact"}
+    scene = ours("scene", "AutomaticScene", bodies="body_1.bodies", **acting)
+    return (
+        _illustration(380, core("note", "MarkdownNote", 300, "Contact", {"": CONTACT_NOTE})),
+        _bodies(("hair", "hair", "left"), ("plant", "leaf", "auto")),
+        Group("3 · Contact and simulation", ORANGE, (Column(330, (gale, touch)), _simulated(420, scene))),
+        _video("contact", 520, "render.frames"),
+    )
+
+
+def seamless_loop() -> tuple[Group, ...]:
+    """A bow that swings and turns, whose ribbons follow, as a loop without a seam."""
+    bow = {
+        "position": "[[543, 100]]",
+        "region": "polygon",
+        "region.points": "[[440, 10], [545, 40], [600, 70], [640, 64], [650, 160], [440, 160]]",
+        "motion": "wave",
+        "motion.amplitude": 8,
+        "motion.period": 1.5,
+        "turn": "swing",
+        "turn.amplitude": 8,
+        "turn.period": 1.5,
+        "body": 0,
+    }
+    root = ours("root", "RigPoint", 0, "Rig Point: the bow swings and turns", bow)
+    breeze = ours("breeze", "Wind", values={"strength": 0.5, "turbulence": 0.5})
+    acting = {"rig_points": "root.rig_points", "wind": "breeze.wind"}
+    scene = ours("scene", "Scene", bodies="body_0.bodies", **acting)
+    return (
+        _illustration(380, core("note", "MarkdownNote", 300, "Seamless loop", {"": LOOP_NOTE})),
+        _bodies(("ribbon", "ribbon", "left")),
+        Group("3 · Root motion and loop", ORANGE, (Column(330, (root, breeze)), _simulated(420, scene, {"loop": 3.0}))),
+        _video("seamless_loop", 520, "render.frames"),
+    )
+
+
 def _illustration(width: int, note: Node, *more: Node) -> Group:
     nodes = (note, ours("example", "ExampleIllustration", 370), *more)
     return Group("1 · Illustration and masks", BLUE, (Column(width, nodes),))
 
 
-def _four_bodies() -> Group:
-    parts = (
-        ("cape", "cloth", "top"),
-        ("hair", "hair", "left"),
-        ("ribbon", "ribbon", "left"),
-        ("plant", "leaf", "auto"),
-    )
+def _bodies(*parts: tuple[str, str, str]) -> Group:
     nodes: list[Node] = []
     for layer, (part, preset, attach) in enumerate(parts):
         before = {"bodies": f"body_{layer - 1}.bodies"} if layer else {}
@@ -166,7 +261,8 @@ def _four_bodies() -> Group:
             _mesh(part, f"example.{part}"),
             ours(f"body_{layer}", "Body", 0, f"Body: {part}", values, mesh=f"mesh_{part}.mesh", **before),
         ]
-    return Group("2 · Deformable bodies", GREEN, (Column(300, tuple(nodes[:4])), Column(300, tuple(nodes[4:]))))
+    columns = [Column(300, tuple(nodes[k : k + 4])) for k in range(0, len(nodes), 4)]
+    return Group("2 · Deformable bodies", GREEN, tuple(columns))
 
 
 def _cape_and_hair() -> Group:
@@ -202,12 +298,7 @@ def _drawn() -> Column:
         "start": 0.5,
         "interval": 2.5,
     }
-    head = {
-        "position": "[[470, 130]]",
-        "region": "polygon",
-        "region.points": "[[340, 20], [600, 20], [600, 330], [340, 330]]",
-        "body": 1,
-    }
+    head = HEAD | {"body": 1}
     shoulder = {
         "position": "[[640, 450]]",
         "region.radius": 45,
@@ -256,4 +347,10 @@ def _video(name: str, width: int, frames: str, *between: Node) -> Group:
     return Group(f"{number} · Frames and video", PURPLE, (Column(width, nodes),))
 
 
-WORKFLOWS = {"quickstart": quickstart, "every_step": every_step}
+WORKFLOWS = {
+    "quickstart": quickstart,
+    "every_step": every_step,
+    "wind_and_pins": wind_and_pins,
+    "contact": contact,
+    "seamless_loop": seamless_loop,
+}
