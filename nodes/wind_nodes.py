@@ -60,7 +60,7 @@ class Wind(io.ComfyNode):
                     tooltip="How large an eddy is [px].",
                 ),
                 io.Int.Input(
-                    "seed",
+                    "wind_seed",
                     default=usual.seed,
                     min=0,
                     max=2**31 - 1,
@@ -79,9 +79,9 @@ class Wind(io.ComfyNode):
         gust_period: float,
         turbulence: float,
         turbulence_size: float,
-        seed: int,
+        wind_seed: int,
     ) -> io.NodeOutput:
-        return io.NodeOutput(PhysicalWind(strength, angle, gust, gust_period, turbulence, turbulence_size, seed))
+        return io.NodeOutput(PhysicalWind(strength, angle, gust, gust_period, turbulence, turbulence_size, wind_seed))
 
 
 def _share(name: str, usual: float, tooltip: str) -> io.Float.Input:

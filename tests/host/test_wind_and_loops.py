@@ -45,7 +45,7 @@ def assert_loops(frames: np.ndarray) -> None:
 
 def test_wind_with_eddies_loops(host: Any) -> None:
     wind = ours(
-        "Wind", strength=2.0, angle=20.0, gust=0.8, gust_period=1.0, turbulence=0.5, turbulence_size=150.0, seed=3
+        "Wind", strength=2.0, angle=20.0, gust=0.8, gust_period=1.0, turbulence=0.5, turbulence_size=150.0, wind_seed=3
     )
     assert_loops(pictures(host, host.run(ribbon(wind=["wind", 0]) | {"wind": wind})))
 
