@@ -242,7 +242,11 @@ def seamless_loop() -> tuple[Group, ...]:
     return (
         _illustration(380, core("note", "MarkdownNote", 300, "Seamless loop", {"": LOOP_NOTE})),
         _bodies(("ribbon", "ribbon", "left")),
-        Group("3 · Root motion and loop", ORANGE, (Column(330, (root, breeze)), _simulated(420, scene, {"loop": 3.0}))),
+        Group(
+            "3 · Root motion and loop",
+            ORANGE,
+            (Column(330, (root, breeze)), _simulated(420, scene, {"loop": 3.0, "frames": 72})),
+        ),
         _video("seamless_loop", 520, "render.frames"),
     )
 
