@@ -3,8 +3,8 @@
 
 The unit is a tick (``stepping.TICK``). At its start the external acceleration of every vertex is evaluated and the
 step is chosen; then follow whole substeps: forces of all triangles, then velocities and positions of all vertices.
-One launch runs several ticks. Connected parts do not feel each other: each takes its own steps, on its own core where
-there are several. Within a part all is serial, which for some thousand triangles beats parallel launches.
+One launch runs several ticks. Connected parts do not feel each other: each takes its own steps, and
+the loop over them is parallel, though Taichi may leave few parts to one core. Within a part all is serial.
 """
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.

@@ -106,8 +106,8 @@ Move the pins, and watch them in *Preview Motion*.
 CONTACT_NOTE = """\
 ## Two bodies that touch
 
-The sunflower stands still like a wall that gives way, and a strong wind drives the hair against it. *Contact* keeps
-them out of each other; disconnect it to see the difference.
+A strong wind from the right bends the sunflower into the hair. *Contact* keeps them out of each other: the petals push
+the locks aside. Disconnect it to see the difference.
 
 More *friction*: the hair clings. A *collider* mask makes anything in the picture solid.
 """
@@ -208,9 +208,9 @@ def wind_and_pins() -> tuple[Group, ...]:
 
 
 def contact() -> tuple[Group, ...]:
-    """Hair that is driven against the plant and cannot pass through it."""
+    """A plant that the wind bends into the hair, and that cannot pass through it."""
     touch = ours("contact", "Contact", values={"friction": 0.2})
-    gale = ours("gale", "Wind", values={"strength": 1.2, "angle": 5, "gust": 0.8, "turbulence": 0.4})
+    gale = ours("gale", "Wind", values={"strength": 1.5, "angle": 180, "gust": 0.8, "turbulence": 0.4})
     acting = {"wind": "gale.wind", "contact": "contact.contact"}
     scene = ours("scene", "AutomaticScene", bodies="body_1.bodies", **acting)
     return (
