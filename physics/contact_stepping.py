@@ -51,7 +51,7 @@ class TouchingBodies:
         added[:, :2] = still
         self._solid = solid._replace(vertices=np.concatenate([solid.vertices, added]))
         self.count = len(solid.vertices)
-        self.state = State.at_rest(self.count + len(still))
+        self.state = State.at_rest(self._solid)
         if start is not None:
             self.state.displacement[: self.count] = start
 
@@ -65,4 +65,5 @@ class TouchingBodies:
         *arrays, gravity, wind = acting
         thickness = self._contact.thickness / self._scene.bodies[0].mesh.longest_side
         options = (self._contact.friction, thickness, int(self._contact.self_contact))
-        kernel(*self._solid, *self.state, *arrays, *gravity, *wind, *self._surface, *options)
+        pairs = self.state.corner_forces.reshape(-1, 2)
+        kernel(*self._solid, *self.state, pairs, *arrays, *gravity, *wind, *self._surface, *options)

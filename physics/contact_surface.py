@@ -8,18 +8,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .collision import Collider, Contact
-from .contact_kernels import LIST_LENGTH
 from .contours import area_of, contours_at_half, resampled
 from .rig import MaskRegion
 from .scene import Scene
 from .system import System
 
-__all__ = ["ContactSurface", "contact_surface", "signed_distances"]
+__all__ = ["LIST_LENGTH", "ContactSurface", "contact_surface", "signed_distances"]
 
 FloatArray = NDArray[np.float64]
 Float32Array = NDArray[np.float32]
 Int32Array = NDArray[np.int32]
 
+LIST_LENGTH = 4
+"""Contacts of one vertex, each with another part."""
+
+_CANDIDATES = 48  # edges around a vertex, on average over all, that are remembered at most
 _LEAST_SPACING = 2.0  # [px] between the points of a collider's outline
 _SMALLEST_COLLIDER = 4.0  # [px^2]
 
@@ -31,32 +34,42 @@ class ContactSurface(NamedTuple):
         points: vertices on a boundary, ascending, int32, shape [n].
         point_parts: connected part of each, colliders counted after all parts, int32, shape [n].
         edges: boundary edges in the winding of their triangles, int32, shape [e, 2].
+        neighbours: boundary edge before each, which ends where it begins, and the one after it, int32, shape [e, 2].
         edge_parts: connected part of each, int32, shape [e].
         bodies: body of each part, -1 for colliders, int32, shape [p].
         spacing: mean length of each part's boundary edges at rest [side], float32, shape [p].
         first_overlaps: where each point's entries of the following two begin, int32, shape [n + 1].
         overlap_parts: parts that a point is in or near at rest, int32, shape [o].
         overlaps: distance that it keeps from each, negative inside [side], float32, shape [o].
-        normals, heads, order, contacts, contact_data, touching, counts, report: room for the kernel.
+        heads, order: room for the kernel's spatial hash.
+        first_candidates, candidates: for each point the edges that it may come near to for a while.
+        contacts: a vertex and the two of the edge that it may touch, int32, shape [c, 4]; the last is unused.
+        contact_data: the normal, where on the edge, and the distance to keep, float32, shape [c, 4].
+        touching: whether each part is near to another, int32, shape [p].
+        steps: substeps of each part in an interval and in the whole tick, int32, shape [p, 2].
+        memory: how much farther than now the candidates foresee [side], and the number of contacts (-1: not yet
+            found), float32, shape [2].
     """
 
     points: Int32Array
     point_parts: Int32Array
     edges: Int32Array
+    neighbours: Int32Array
     edge_parts: Int32Array
     bodies: Int32Array
     spacing: Float32Array
     first_overlaps: Int32Array
     overlap_parts: Int32Array
     overlaps: Float32Array
-    normals: Float32Array
     heads: Int32Array
     order: Int32Array
+    first_candidates: Int32Array
+    candidates: Int32Array
     contacts: Int32Array
     contact_data: Float32Array
     touching: Int32Array
-    counts: Int32Array
-    report: Float32Array
+    steps: Int32Array
+    memory: Float32Array
 
 
 def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[ContactSurface, FloatArray]:
@@ -91,20 +104,22 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         points=points,
         point_parts=point_parts,
         edges=every,
+        neighbours=_neighbours(every),
         edge_parts=part_of_edge,
         bodies=bodies,
         spacing=mean.astype(np.float32),
         first_overlaps=overlaps[0],
         overlap_parts=overlaps[1],
         overlaps=overlaps[2],
-        normals=np.zeros((len(rest), 2), np.float32),
         heads=np.zeros(buckets + 1, np.int32),
         order=np.zeros(len(every), np.int32),
-        contacts=np.zeros((room, 3), np.int32),
+        first_candidates=np.zeros(len(points) + 1, np.int32),
+        candidates=np.zeros(_CANDIDATES * len(points), np.int32),
+        contacts=np.zeros((room, 4), np.int32),
         contact_data=np.zeros((room, 4), np.float32),
         touching=np.ones(len(bodies), np.int32),
-        counts=np.zeros(parts, np.int32),
-        report=np.zeros(2, np.float32),
+        steps=np.zeros((parts, 2), np.int32),
+        memory=np.array([0.0, -1.0], np.float32),
     )
     return surface, still
 
@@ -126,6 +141,15 @@ def _boundary_edges(triangles: Int32Array) -> Int32Array:
     half = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     _, inverse, counts = np.unique(np.sort(half, axis=1), axis=0, return_inverse=True, return_counts=True)
     return half[counts[inverse.reshape(-1)] == 1]
+
+
+def _neighbours(edges: Int32Array) -> Int32Array:
+    """For each edge of closed outlines one that ends where it begins, and one that begins where it ends."""
+    size = int(edges.max()) + 1
+    ending, beginning = np.zeros(size, np.int32), np.zeros(size, np.int32)
+    numbers = np.arange(len(edges), dtype=np.int32)
+    ending[edges[:, 1]], beginning[edges[:, 0]] = numbers, numbers
+    return np.column_stack([ending[edges[:, 0]], beginning[edges[:, 1]]])
 
 
 def _outlines(collider: Collider, width: int, height: int, spacing: float) -> list[FloatArray]:

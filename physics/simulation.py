@@ -19,7 +19,7 @@ from .contact_stepping import TouchingBodies
 from .drive import drive
 from .elasticity import RestShape
 from .errors import SimulationError, require
-from .kernels import REACH
+from .kernel_functions import REACH
 from .loop import MOST_CYCLES, first_frame, loop_frames, periodic, settled
 from .motion import Motion
 from .plan import MAX_WORK, SimulationPlan, check_work, plan, plan_system
@@ -126,7 +126,7 @@ def _displacements(
     ticks = max(1.0, (planned.frames - 1) / (planned.frame_rate * TICK))
     block = max(1, int(_LAUNCH_WORK * ticks / (planned.work + ticks * size)))
     if scene.contact is None:
-        state = State.at_rest(size)._replace(displacement=start.copy())
+        state = State.at_rest(solid)._replace(displacement=start.copy())
         run = partial(_run, scene, solid, state, block=block)
     else:
         touching = TouchingBodies(scene, system, solid, scene.contact, start)
@@ -180,7 +180,7 @@ def _solid(scene: Scene, system: System) -> Solid:
     squared = squared_frequencies(rest, mu, lam, system.density)
     squared = np.minimum(squared, system.highest[system.part_of_triangle])
     stiffness = np.column_stack([2 * mu * rest.areas, lam * rest.areas, squared])
-    return Solid(
+    return Solid.of_triangles(
         starts=system.starts,
         substeps=system.substeps,
         vertices=np.column_stack([rest.positions, inverse_mass, system.damping]).astype(np.float32),

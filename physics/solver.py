@@ -1,141 +1,99 @@
-"""The solver: arrays of the bodies, their state and what drives them, and the launches of the kernels on these.
+"""The solver: launches of the kernels on arrays of the bodies, their state and what drives them.
 
 The state is the displacement u = x - X rather than the position, so that F = I + grad u keeps its digits in float32.
-Units are the solver's: sides and seconds.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import os
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import taichi_runtime
+from .kernel_functions import MOST_REFINEMENT
 from .kernels import build_kernels
+from .solver_arrays import CALM, LANES, Drive, Solid, State, WindTable, aligned, check_aligned
 
-__all__ = ["CALM", "Drive", "Solid", "State", "WindTable", "advance", "internal_forces"]
+__all__ = ["CALM", "Drive", "Solid", "State", "WindTable", "advance", "internal_forces", "schedule"]
 
-Float32Array = NDArray[np.float32]
-Int32Array = NDArray[np.int32]
-
-
-class Solid(NamedTuple):
-    """The bodies, which do not change, one connected part after the other.
-
-    Attributes:
-        starts: first vertex and first triangle of each part, and where the last one ends, int32, shape [p + 1, 2].
-        substeps: planned substeps of each part in a tick, int32, shape [p].
-        vertices: rest position X [side], inverse mass (0: led or held), damping [1/s], float32, shape [v, 4].
-        reach: largest displacement in a substep [side], float32, shape [v].
-        leaders: index of the rig point that leads each vertex or pulls it along, -1 for none, int32, shape [v].
-        grips: how firmly it pulls, 0..1; 0 where it leads, float32, shape [v].
-        triangles: vertex indices, int32, shape [t, 3].
-        inverse_edges: row-major inverse of the rest edge columns [1/side], float32, shape [t, 4].
-        stiffness: 2 mu V, lambda V, and the omega^2 at rest to plan with [1/s^2], float32, shape [t, 3].
-    """
-
-    starts: Int32Array
-    substeps: Int32Array
-    vertices: Float32Array
-    reach: Float32Array
-    leaders: Int32Array
-    grips: Float32Array
-    triangles: Int32Array
-    inverse_edges: Float32Array
-    stiffness: Float32Array
+TRIANGLES_TO_SHARE = 8_000
+"""A connected part of at least so many triangles is computed by several threads together."""
 
 
-class State(NamedTuple):
-    """What the kernels change in place.
+class Schedule(NamedTuple):
+    """Which parts of a solid are computed how.
 
     Attributes:
-        displacement: u = x - X [side], float32, shape [v, 2].
-        velocity: [side/s], float32, shape [v, 2].
-        force: internal force [density side^3 / s^2], 0 between substeps, float32, shape [v, 2].
-        push: external acceleration [side/s^2] in this tick, float32, shape [v, 2].
-        decay: what damping leaves of a velocity in a substep of this tick, float32, shape [v].
+        alone: parts that a thread computes by itself, int32.
+        shared: parts that several threads compute together.
+        threads: how many these are.
     """
 
-    displacement: Float32Array
-    velocity: Float32Array
-    force: Float32Array
-    push: Float32Array
-    decay: Float32Array
-
-    @staticmethod
-    def at_rest(count: int) -> State:
-        """The undeformed, unmoving state of a number of vertices."""
-        u, v, force, push = (np.zeros((count, 2), dtype=np.float32) for _ in range(4))
-        return State(u, v, force, push, np.zeros(count, dtype=np.float32))
+    alone: NDArray[np.int32]
+    shared: tuple[int, ...]
+    threads: int
 
 
-class WindTable(NamedTuple):
-    """A wind field in each of n ticks: uniform plus the sum of amplitude sin(wave . x + phase).
+def schedule(solid: Solid, *, threads: int | None = None) -> Schedule:
+    """How ``advance`` goes about a solid.
 
-    Attributes:
-        uniform: [side/s^2], float32, shape [n, 2]; of no length for calm.
-        waves: wave vector [rad/side] and amplitude [side/s^2] of each of m waves, float32, shape [m, 4].
-        phases: [rad], float32, shape [n, max(m, 1)].
+    Args:
+        solid: the bodies.
+        threads: threads for large parts; those of the processors that this process may use when None.
     """
-
-    uniform: Float32Array
-    waves: Float32Array
-    phases: Float32Array
-
-
-CALM = WindTable(*(np.zeros(shape, dtype=np.float32) for shape in ((0, 2), (0, 4), (1, 1))))
-"""No wind."""
+    threads = _processors() if threads is None else threads
+    large = np.diff(solid.starts[:, 1]) * LANES >= TRIANGLES_TO_SHARE
+    large &= threads > 1
+    return Schedule(np.flatnonzero(~large).astype(np.int32), tuple(np.flatnonzero(large).tolist()), threads)
 
 
-class Drive(NamedTuple):
-    """What acts on the bodies in each of n ticks.
-
-    Attributes:
-        rig_leads: M row by row and d [side] of the displacement M X + d that each rig point gives its region at the
-            ticks' ends, float32, shape [n + 1, g, 6].
-        rig_rates: their time derivatives [1/s], float32, shape [n + 1, g, 6].
-        first_particles: particles of tick i are those from entry i to before entry i + 1, int32, shape [n + 1].
-        particles: position and direction of travel of each particle in the middle of its tick [side],
-            radius [side], strength [side/s^2], float32, shape [p, 6].
-        kinds: kind and falloff as in ``particles.Particles``, int32, shape [p].
-        gravity: acceleration of every vertex [side/s^2].
-        wind: beside it.
-    """
-
-    rig_leads: Float32Array
-    rig_rates: Float32Array
-    first_particles: Int32Array
-    particles: Float32Array
-    kinds: Int32Array
-    gravity: tuple[float, float]
-    wind: WindTable = CALM
-
-
-def advance(solid: Solid, state: State, drive: Drive) -> None:
+def advance(solid: Solid, state: State, drive: Drive, *, threads: int | None = None) -> None:
     """Carry a state on through the ticks of a drive, on the Taichi thread.
 
     Args:
         solid: the bodies.
         state: changed in place.
         drive: what acts on them.
+        threads: as for ``schedule``; the result is the same with any.
+
+    Raises:
+        ValueError: an array lies where the kernels cannot read it.
     """
-    taichi_runtime.run(_advance, solid, state, drive)
+    check_aligned(solid.corners, solid.elements, state.corner_forces)
+    taichi_runtime.run(_advance, solid, state, drive, schedule(solid, threads=threads))
 
 
-def internal_forces(solid: Solid, displacement: Float32Array) -> Float32Array:
+def internal_forces(solid: Solid, displacement: NDArray[np.float32]) -> NDArray[np.float32]:
     """Internal force on each vertex at a displacement, shape [v, 2]: what ``advance`` computes in a substep."""
+    corner_forces = aligned((len(solid.corners), 3, 2 * LANES))
+    arrays = solid.corners, solid.elements, np.ascontiguousarray(displacement, dtype=np.float32), corner_forces
+    taichi_runtime.run(_internal_forces, *arrays)
+    pairs = corner_forces.reshape(-1, 2)[solid.slots]
+    vertices = np.repeat(np.arange(len(solid.vertices)), np.diff(solid.first_slots))
     force = np.zeros_like(displacement)
-    taichi_runtime.run(_internal_forces, solid, np.ascontiguousarray(displacement, dtype=np.float32), force)
+    np.add.at(force, vertices, pairs)
     return force
 
 
-def _advance(solid: Solid, state: State, drive: Drive) -> None:
-    advance_kernel, _ = taichi_runtime.compiled(build_kernels)
+def _advance(solid: Solid, state: State, drive: Drive, plan: Schedule) -> None:
+    kernels = taichi_runtime.compiled(build_kernels)
     *arrays, gravity, wind = drive
-    advance_kernel(*solid, *state, *arrays, *gravity, *wind)
+    arguments = (*solid, *state, state.corner_forces.reshape(-1, 2), *arrays, *gravity, *wind)
+    if len(plan.alone):
+        kernels.advance(plan.alone, *arguments)
+    ticks = len(drive.first_particles) - 1
+    for part in plan.shared:
+        phases = 2 * ticks * (1 + MOST_REFINEMENT * int(solid.substeps[part]))
+        claims, highest = np.zeros(1 + phases, dtype=np.int32), np.zeros(ticks, dtype=np.float32)
+        kernels.advance_together(part, plan.threads, claims, highest, *arguments)
 
 
-def _internal_forces(solid: Solid, displacement: Float32Array, force: Float32Array) -> None:
-    _, force_kernel = taichi_runtime.compiled(build_kernels)
-    force_kernel(solid.triangles, solid.inverse_edges, solid.stiffness, displacement, force)
+def _internal_forces(*arrays: NDArray[Any]) -> None:
+    taichi_runtime.compiled(build_kernels).forces(*arrays)
+
+
+def _processors() -> int:
+    """Processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

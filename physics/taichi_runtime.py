@@ -146,7 +146,7 @@ class _TaichiThread:
 def _new_program(ti: Any) -> Any:
     _let_others_finish(ti.init)
     with _environment(_QUIET), _without_announcement(ti.lang.misc):
-        ti.init(arch=ti.cpu, offline_cache=_can_cache(ti), fast_math=False)
+        ti.init(arch=ti.cpu, offline_cache=_can_cache(ti), fast_math=False, real_matrix_scalarize=False)
     return ti.lang.impl.get_runtime().prog
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from physanimator.physics import solver
 from physanimator.physics.elasticity import (
     RestShape,
     deformation_gradients,
@@ -14,10 +15,12 @@ from physanimator.physics.elasticity import (
     semi_implicit_euler,
     stiffness_matrix,
 )
-from physanimator.physics.kernels import SPEED_FLOOR
+from physanimator.physics.kernel_functions import SPEED_FLOOR
+from physanimator.physics.kernels import BLOCKS_AT_ONCE, VERTICES_AT_ONCE
 from physanimator.physics.modes import highest_eigenvalue
 from physanimator.physics.particles import acceleration, all_particles
 from physanimator.physics.solver import Drive, Solid, State, advance, internal_forces
+from physanimator.physics.solver_arrays import LANES, aligned
 from physanimator.physics.stepping import TICK, squared_frequencies, substeps
 from physanimator.physics.strokes import EnergyStroke
 
@@ -50,7 +53,7 @@ def solid_of(rest: RestShape, *, led: tuple[int, ...] = (), reach: float = np.in
     count = len(rest.positions)
     leaders = np.full(count, -1, dtype=np.int32)
     leaders[list(led)] = 0
-    return Solid(
+    return Solid.of_triangles(
         starts=np.array([[0, 0], [count, len(rest.triangles)]], dtype=np.int32),
         substeps=np.array([planned(rest)], dtype=np.int32),
         vertices=np.column_stack([rest.positions, inverse_mass, np.full(count, DAMPING)]).astype(np.float32),
@@ -114,8 +117,9 @@ def test_a_collapsed_triangle_has_a_finite_force() -> None:
 
 def test_nothing_moves_at_rest() -> None:
     rest = strip()
-    state = State.at_rest(len(rest.positions))
-    advance(solid_of(rest), state, still(50))
+    solid = solid_of(rest)
+    state = State.at_rest(solid)
+    advance(solid, state, still(50))
     assert not state.displacement.any()
     assert not state.velocity.any()
 
@@ -140,8 +144,8 @@ def test_the_float32_motion_stays_with_the_float64_reference() -> None:
     held = np.isin(np.arange(len(rest.positions)), top)
     gravity = np.array([6.0, 0.5])
     exact = reference(rest, gravity, held, ticks=ticks, count=count)
-    state = State.at_rest(len(rest.positions))
     worst, solid = 0.0, solid_of(rest, led=top)
+    state = State.at_rest(solid)
     for tick in range(ticks):
         advance(solid, state, still(1, gravity=(6.0, 0.5)))
         worst = max(worst, float(np.abs(state.displacement - exact[tick]).max()))
@@ -152,7 +156,7 @@ def test_the_float32_motion_stays_with_the_float64_reference() -> None:
 def test_ticks_may_be_launched_together_or_one_by_one() -> None:
     rest = strip()
     solid = solid_of(rest, led=(0, 1, 2, 3, 4))
-    together, single = State.at_rest(len(rest.positions)), State.at_rest(len(rest.positions))
+    together, single = State.at_rest(solid), State.at_rest(solid)
     advance(solid, together, still(30, gravity=(2.0, 0.0)))
     for _ in range(30):
         advance(solid, single, still(1, gravity=(2.0, 0.0)))
@@ -160,14 +164,33 @@ def test_ticks_may_be_launched_together_or_one_by_one() -> None:
     np.testing.assert_array_equal(together.displacement, single.displacement)
 
 
+@pytest.mark.parametrize("threads", [1, 2, 3])
+def test_threads_that_share_a_part_find_the_same_to_the_last_bit(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(solver, "TRIANGLES_TO_SHARE", 1)
+    rest = strip(24, 96)
+    solid = solid_of(rest, led=tuple(range(25)))
+    alone, shared = State.at_rest(solid), State.at_rest(solid)
+    assert len(rest.triangles) > 4 * LANES * BLOCKS_AT_ONCE
+    assert len(rest.positions) > 4 * VERTICES_AT_ONCE
+    assert solver.schedule(solid, threads=threads).shared == ((0,) if threads > 1 else ())
+    for _ in range(3):
+        advance(solid, shared, still(4, gravity=(40.0, 0.0)), threads=threads)
+    advance(solid, alone, still(12, gravity=(40.0, 0.0)), threads=1)
+    assert np.abs(alone.displacement).max() > 1e-3
+    np.testing.assert_array_equal(shared.displacement, alone.displacement)
+    np.testing.assert_array_equal(shared.velocity, alone.velocity)
+
+
 @pytest.mark.parametrize("kind", ["wind", "repel", "attract"])
 def test_flow_particles_push_as_the_reference_says(kind: str) -> None:
     """One tick of free vertices without stiffness: the velocity is the acceleration times the time."""
     rest = strip()
     solid = solid_of(rest)
+    elements = aligned(solid.elements.shape)
+    elements[:, 4] = 1e-20
     loose = solid._replace(
         substeps=np.array([2], dtype=np.int32),
-        stiffness=np.zeros_like(solid.stiffness) + np.float32([1e-20, 0, 0]),
+        elements=elements,
         vertices=solid.vertices * np.float32([1, 1, 1, 0]),
     )
     path = ((300.0, 350.0), (700.0, 380.0)) if kind == "wind" else ((430.0, 330.0),)
@@ -176,7 +199,7 @@ def test_flow_particles_push_as_the_reference_says(kind: str) -> None:
         EnergyStroke(kind=kind, path=((600.0, 200.0), (400.0, 450.0)), radius=60.0, strength=-3.0, speed=900.0),
     ]
     time = 0.3
-    state = State.at_rest(len(rest.positions))
+    state = State.at_rest(loose)
     advance(loose, state, blown(strokes, time))
     exact = sum(acceleration(stroke, rest.positions * SIDE, time) for stroke in strokes)
     moved = np.abs(exact).max(axis=1) > 0
@@ -189,9 +212,10 @@ def test_flow_particles_push_as_the_reference_says(kind: str) -> None:
 def test_attraction_at_the_particle_itself_is_finite() -> None:
     rest = strip()
     point = tuple(rest.positions[7].astype(np.float32).astype(np.float64) * SIDE)
-    state = State.at_rest(len(rest.positions))
+    solid = solid_of(rest)
+    state = State.at_rest(solid)
     stroke = EnergyStroke(kind="attract", path=(point,), radius=100.0, strength=5.0)
-    advance(solid_of(rest), state, blown([stroke], 0.0))
+    advance(solid, state, blown([stroke], 0.0))
     assert np.isfinite(state.displacement).all()
     assert np.abs(state.velocity).max() > 1e-4
 
@@ -205,7 +229,7 @@ def test_led_vertices_follow_the_cubic_and_hold_their_velocity() -> None:
         rig_leads=np.array([[[0, 0, 0, 0, *start]], [[0, 0, 0, 0, *end]]], dtype=np.float32),
         rig_rates=np.array([[[0, 0, 0, 0, *v_start]], [[0, 0, 0, 0, *v_end]]], dtype=np.float32),
     )
-    state = State.at_rest(len(rest.positions))
+    state = State.at_rest(solid)
     advance(solid, state, drive)
     np.testing.assert_allclose(state.displacement[:5], np.tile(end, (5, 1)), atol=1e-7)
     np.testing.assert_allclose(state.velocity[:5], np.tile(v_end, (5, 1)), atol=1e-6)
@@ -216,12 +240,9 @@ def test_led_vertices_follow_the_cubic_and_hold_their_velocity() -> None:
 def test_a_very_fast_vertex_is_held_back() -> None:
     rest, gravity = strip(), (1e9, 0.0)
     for reach, speed in ((1e-5, SPEED_FLOOR), (1e-2, 1e-2 * 30 / TICK)):
-        state = State.at_rest(len(rest.positions))
-        advance(
-            solid_of(rest, reach=reach)._replace(substeps=np.array([30], dtype=np.int32)),
-            state,
-            still(1, gravity=gravity),
-        )
+        solid = solid_of(rest, reach=reach)._replace(substeps=np.array([30], dtype=np.int32))
+        state = State.at_rest(solid)
+        advance(solid, state, still(1, gravity=gravity))
         np.testing.assert_allclose(np.linalg.norm(state.velocity, axis=1), speed, rtol=1e-5)
 
 
@@ -233,10 +254,8 @@ def test_large_stretch_refines_the_step() -> None:
         vertices=solid_of(rest).vertices * np.float32([1, 1, 1, 0]),
         substeps=np.array([substeps(highest)], dtype=np.int32),
     )
-    stiffness = np.minimum(undamped.stiffness, np.float32([np.inf, np.inf, highest]))
-
     def energies(solid: Solid) -> list[float]:
-        state, found = State.at_rest(len(rest.positions)), []
+        state, found = State.at_rest(solid), []
         state.displacement[:] = (rest.positions - rest.positions.mean(axis=0)) / 2
         for _ in range(60):
             moved, kinetic = rest.positions + state.displacement, (masses * state.velocity**2).sum() / 2
@@ -244,9 +263,11 @@ def test_large_stretch_refines_the_step() -> None:
             advance(solid, state, still(1))
         return found
 
-    refined = energies(undamped._replace(stiffness=stiffness))
+    undamped.elements[:, 6] = np.minimum(undamped.elements[:, 6], highest)
+    refined = energies(undamped)
     assert max(refined) < 1.5 * refined[0]
-    never_refined = energies(undamped._replace(stiffness=stiffness * np.float32([1, 1, 0])))
+    undamped.elements[:, 6] = 0
+    never_refined = energies(undamped)
     assert not max(never_refined) < 3 * never_refined[0]
 
 
@@ -255,10 +276,19 @@ def test_bodies_without_triangles_that_move_are_fine() -> None:
     solid = solid_of(rest)
     empty = solid._replace(
         starts=np.array([[0, 0], [len(rest.positions), 0]], dtype=np.int32),
-        triangles=solid.triangles[:0],
-        inverse_edges=solid.inverse_edges[:0],
-        stiffness=solid.stiffness[:0],
+        corners=solid.corners[:0],
+        elements=solid.elements[:0],
+        first_slots=np.zeros_like(solid.first_slots),
+        slots=solid.slots[:0],
     )
-    state = State.at_rest(len(rest.positions))
+    state = State.at_rest(empty)
     advance(empty, state, still(3))
     assert not state.displacement.any()
+
+
+def test_arrays_that_would_crash_the_kernel_are_refused() -> None:
+    rest = strip()
+    solid = solid_of(rest)
+    elsewhere = aligned((solid.elements.size + 1,))[1:].reshape(solid.elements.shape)
+    with pytest.raises(ValueError, match="aligned"):
+        advance(solid._replace(elements=elsewhere), State.at_rest(solid), still(1))

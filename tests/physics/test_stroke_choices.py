@@ -59,7 +59,7 @@ def test_the_kernel_knows_every_choice() -> None:
     )
     mesh = TriangleMesh(np.array([[0.0, 0.0], [9.0, 0.0], [0.0, 9.0]]), np.array([[0, 1, 2]]), 128, 128)
     count, tick = len(points), 200
-    solid = Solid(
+    solid = Solid.of_triangles(
         starts=np.array([[0, 0], [count, 0]], np.int32),
         substeps=np.array([1], np.int32),
         vertices=np.column_stack([points / 128, np.ones(count), np.zeros(count)]).astype(np.float32),
@@ -71,7 +71,7 @@ def test_the_kernel_knows_every_choice() -> None:
         stiffness=np.zeros((0, 3), np.float32),
     )
     for stroke in strokes:
-        state = State.at_rest(count)
+        state = State.at_rest(solid)
         advance(solid, state, drive(Scene((Body(mesh),), (stroke,)), tick, 1))
         exact = acceleration(stroke, points, (tick + 0.5) * TICK)
         assert np.abs(exact).max() > 0.5

@@ -108,7 +108,7 @@ def test_the_kernel_blows_as_the_reference(tick: int, turbulence: float) -> None
     made = scene(Wind(3.0, 40.0, gust=0.5, turbulence=turbulence, turbulence_size=90.0, seed=3))
     count = len(POINTS)
     nothing = np.zeros((0, 4), np.float32)
-    solid = Solid(
+    solid = Solid.of_triangles(
         starts=np.array([[0, 0], [count, 0]], np.int32),
         substeps=np.array([1], np.int32),
         vertices=np.column_stack([POINTS / SIZE, np.ones(count), np.zeros(count)]).astype(np.float32),
@@ -119,7 +119,7 @@ def test_the_kernel_blows_as_the_reference(tick: int, turbulence: float) -> None
         inverse_edges=nothing,
         stiffness=nothing[:, :3],
     )
-    state = State.at_rest(count)
+    state = State.at_rest(solid)
     advance(solid, state, drive(made, tick, 1))
     assert made.wind is not None
     exact = wind_acceleration(made.wind, POINTS, (tick + 0.5) * TICK)

@@ -1,0 +1,260 @@
+# mypy: ignore-errors
+"""What the contact kernel is made of: finding vertices near boundary edges of other parts, and putting them apart.
+
+Edges go into a spatial hash, from which every boundary vertex lists those around it that it may come near to; the list
+is good until the fastest vertices could have come farther than it foresees. Of its edges, the nearest one of each part
+is a contact.
+"""
+
+# Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
+
+from types import SimpleNamespace
+from typing import Any, NamedTuple
+
+from .contact_surface import LIST_LENGTH
+from .kernel_functions import SPEED_FLOOR
+from .stepping import TICK
+
+__all__ = ["ContactOptions", "build_contact_functions"]
+
+_YIELDING = 0.5  # part of the thickness that gives way at first, so that pushes do not set light vertices ringing
+_RETURN = 0.01  # part of it that comes back in a step
+_FORESIGHT = 12.0  # ticks that a list of candidates is good for, if so many do not reach over several edges
+
+
+class ContactOptions(NamedTuple):
+    """Values of ``collision.Contact`` in the kernel's units: the thickness in sides."""
+
+    friction: Any
+    thickness: Any
+    within: Any
+
+
+def build_contact_functions(ti: Any) -> SimpleNamespace:
+    """The functions that the contact kernel is made of, by name."""
+    vec2, vec4, int4 = ti.types.vector(2, ti.f32), ti.types.vector(4, ti.f32), ti.types.vector(4, ti.i32)
+    slots_i, slots_f = ti.types.vector(LIST_LENGTH, ti.i32), ti.types.vector(LIST_LENGTH, ti.f32)
+    any_value = ti.template()
+
+    @ti.func
+    def rest_place(solid: any_value, i: ti.i32):
+        return vec2(solid.vertices[i][0], solid.vertices[i][1])
+
+    @ti.func
+    def place(solid: any_value, state: any_value, i: ti.i32):
+        return rest_place(solid, i) + state.displacement[i]
+
+    @ti.func
+    def along(p: vec2, a: vec2, b: vec2):
+        """Where on the edge from a to b (0 to 1) the point nearest to p lies."""
+        edge = b - a
+        return ti.min(1.0, ti.max(0.0, edge.dot(p - a) / ti.max(edge.norm_sqr(), 1e-20)))
+
+    @ti.func
+    def offset(p: vec2, a: vec2, b: vec2):
+        """From the nearest point of the edge to p."""
+        return p - (a + along(p, a, b) * (b - a))
+
+    @ti.func
+    def normal_of(solid: any_value, state: any_value, edges: any_value, e: ti.i32):
+        """Unit normal of an edge, which points away from its part."""
+        edge = place(solid, state, edges[e][1]) - place(solid, state, edges[e][0])
+        return vec2(0.0 - edge[1], edge[0]) / ti.max(edge.norm(), 1e-12)
+
+    @ti.func
+    def cell_of(p: vec2, size: ti.f32):
+        return ti.cast(ti.floor(p[0] / size), ti.i32), ti.cast(ti.floor(p[1] / size), ti.i32)
+
+    @ti.func
+    def bucket(x: ti.i32, y: ti.i32, count: ti.i32):
+        return ((x * 73856093) ^ (y * 19349663)) & (count - 1)
+
+    @ti.func
+    def middle_bucket(surface: any_value, solid: any_value, state: any_value, e: ti.i32, size: ti.f32):
+        edge = surface.edges[e]
+        x, y = cell_of(0.5 * (place(solid, state, edge[0]) + place(solid, state, edge[1])), size)
+        return bucket(x, y, surface.heads.shape[0] - 1)
+
+    @ti.func
+    def fill_hash(surface: any_value, solid: any_value, state: any_value, size: ti.f32):
+        """Edges by the cells of their middles: those of bucket k are order[heads[k]:heads[k + 1]]."""
+        heads, order = ti.static(surface.heads, surface.order)
+        for k in range(heads.shape[0]):
+            heads[k] = 0
+        for e in range(surface.edges.shape[0]):
+            k = middle_bucket(surface, solid, state, e, size)
+            heads[k] = heads[k] + 1
+        total = 0
+        for k in range(heads.shape[0]):
+            total = total + heads[k]
+            heads[k] = total
+        for e in range(surface.edges.shape[0]):
+            k = middle_bucket(surface, solid, state, e, size)
+            heads[k] = heads[k] - 1
+            order[heads[k]] = e
+
+    @ti.func
+    def may_touch(surface: any_value, solid: any_value, i: ti.i32, own: ti.i32, e: ti.i32, options: any_value):
+        """Whether a vertex of a part minds an edge: not its own ones, nor what is near at rest anyway."""
+        part, edge = surface.edge_parts[e], surface.edges[e]
+        allowed = surface.bodies[part] != surface.bodies[own]
+        if (not allowed) and options.within == 1 and surface.bodies[own] >= 0 and edge[0] != i and edge[1] != i:
+            allowed = True
+            if part == own:
+                apart = offset(rest_place(solid, i), rest_place(solid, edge[0]), rest_place(solid, edge[1])).norm()
+                allowed = apart > 2.0 * ti.max(surface.spacing[part], options.thickness)
+        return allowed
+
+    @ti.func
+    def list_candidates(surface: any_value, solid: any_value, state: any_value, options: any_value, margin: ti.f32):
+        """For each point the edges within the reach of a contact and a margin."""
+        heads, edges = ti.static(surface.heads, surface.edges)
+        longest, deepest = 0.0, 0.0
+        for e in range(edges.shape[0]):
+            length = (place(solid, state, edges[e][1]) - place(solid, state, edges[e][0])).norm()
+            longest = ti.max(longest, length)
+        for part in range(surface.spacing.shape[0]):
+            deepest = ti.max(deepest, surface.spacing[part])
+        size = 0.5 * longest + ti.max(options.thickness, 2.0 * deepest) + margin
+        fill_hash(surface, solid, state, size)
+        count = 0
+        for n in range(surface.points.shape[0]):
+            surface.first_candidates[n] = count
+            i, own = surface.points[n], surface.point_parts[n]
+            p = place(solid, state, i)
+            x, y = cell_of(p, size)
+            for c in range(9):
+                k = bucket(x + c % 3 - 1, y + c // 3 - 1, heads.shape[0] - 1)
+                for s in range(heads[k], heads[k + 1]):
+                    e = surface.order[s]
+                    if count < surface.candidates.shape[0]:
+                        reach = ti.max(options.thickness, 2.0 * surface.spacing[surface.edge_parts[e]]) + margin
+                        away = offset(p, place(solid, state, edges[e][0]), place(solid, state, edges[e][1]))
+                        if away.norm_sqr() < reach * reach and may_touch(surface, solid, i, own, e, options):
+                            surface.candidates[count] = e
+                            count = count + 1
+        surface.first_candidates[surface.points.shape[0]] = count
+
+    @ti.func
+    def add_contact(
+        surface: any_value,
+        solid: any_value,
+        state: any_value,
+        options: any_value,
+        n: ti.i32,
+        e: ti.i32,
+        ahead: ti.f32,
+        soon: ti.f32,
+    ):
+        """List point n and edge e as a contact if they may meet in the time ahead."""
+        edges = ti.static(surface.edges)
+        i, own, part = surface.points[n], surface.point_parts[n], surface.edge_parts[e]
+        p, a, b = place(solid, state, i), place(solid, state, edges[e][0]), place(solid, state, edges[e][1])
+        t = along(p, a, b)
+        away, normal = offset(p, a, b), normal_of(solid, state, edges, e)
+        outward = normal
+        if t <= 0.0:
+            outward = normal + normal_of(solid, state, edges, surface.neighbours[e][0])
+        if t >= 1.0:
+            outward = normal + normal_of(solid, state, edges, surface.neighbours[e][1])
+        signed = away.norm()
+        if away.dot(outward) < 0.0:
+            signed = 0.0 - signed
+        if ti.abs(signed) > 1e-6 and (t <= 0.0 or t >= 1.0):
+            normal = away / signed
+        wanted = options.thickness
+        for o in range(surface.first_overlaps[n], surface.first_overlaps[n + 1]):
+            if surface.overlap_parts[o] == part:
+                if signed > options.thickness:
+                    surface.overlaps[o] = options.thickness
+                wanted = surface.overlaps[o]
+        deep = 2.0 * surface.spacing[part]
+        if part == own:
+            deep = 0.6 * surface.spacing[own]
+        if signed > 0.0 - deep and wanted > 0.0 - deep:
+            if signed - wanted < soon:
+                surface.touching[own] = 1
+                surface.touching[part] = 1
+            count = ti.cast(surface.memory[1], ti.i32)
+            if signed - wanted < ahead and count < surface.contacts.shape[0]:
+                surface.contacts[count] = int4(i, edges[e][0], edges[e][1], 0)
+                surface.contact_data[count] = vec4(normal[0], normal[1], t, wanted)
+                surface.memory[1] = ti.cast(count + 1, ti.f32)
+
+    @ti.func
+    def find_contacts(surface: any_value, solid: any_value, state: any_value, options: any_value, time: ti.f32):
+        """List the contacts that may come about in the time ahead, and mark the parts that may touch in a tick."""
+        fastest = 0.0
+        for n in range(surface.points.shape[0]):
+            fastest = ti.max(fastest, state.velocity[surface.points[n]].norm_sqr())
+        fastest = ti.min(ti.sqrt(fastest), 2.0 * SPEED_FLOOR)  # what is led faster would have it look everywhere
+        ahead, soon = 2.0 * fastest * time, 2.0 * fastest * TICK
+        if surface.memory[0] < ahead or surface.memory[1] < 0.0:
+            width = 0.0
+            for part in range(surface.spacing.shape[0]):
+                width = ti.max(width, 2.0 * surface.spacing[part])
+            margin = ti.max(ahead, ti.min(_FORESIGHT * soon, width))
+            list_candidates(surface, solid, state, options, margin)
+            surface.memory[0] = margin
+        surface.memory[0] = surface.memory[0] - ahead
+        surface.memory[1] = 0.0
+        for n in range(surface.points.shape[0]):
+            if surface.first_candidates[n] < surface.first_candidates[n + 1]:
+                p = place(solid, state, surface.points[n])
+                parts, best, nearest = slots_i(-1), slots_f(0.0), slots_i(-1)
+                for c in range(surface.first_candidates[n], surface.first_candidates[n + 1]):
+                    e = surface.candidates[c]
+                    part, edge = surface.edge_parts[e], surface.edges[e]
+                    distance = offset(p, place(solid, state, edge[0]), place(solid, state, edge[1])).norm_sqr()
+                    reach = ti.max(options.thickness + ahead, 2.0 * surface.spacing[part])
+                    if distance < reach * reach:
+                        taken = False
+                        for j in ti.static(range(LIST_LENGTH)):
+                            if (not taken) and (parts[j] == part or parts[j] < 0):
+                                taken = True
+                                if parts[j] < 0 or distance < best[j]:
+                                    parts[j], best[j], nearest[j] = part, distance, e
+                for j in ti.static(range(LIST_LENGTH)):
+                    if parts[j] >= 0:
+                        add_contact(surface, solid, state, options, n, nearest[j], ahead, soon)
+
+    @ti.func
+    def put_apart(
+        surface: any_value, solid: any_value, state: any_value, options: any_value, interval: ti.f32, passes: ti.i32
+    ):
+        """Project positions and velocities along the contacts' normals, weighted by the inverse masses."""
+        u, v = ti.static(state.displacement, state.velocity)
+        for _sweep in range(passes):
+            for c in range(ti.cast(surface.memory[1], ti.i32)):
+                contact, data = surface.contacts[c], surface.contact_data[c]
+                i, a, b = contact[0], contact[1], contact[2]
+                normal, t, wanted = vec2(data[0], data[1]), data[2], data[3]
+                wi, wa, wb = solid.vertices[i][2], solid.vertices[a][2], solid.vertices[b][2]
+                weight = wi + (1.0 - t) * (1.0 - t) * wa + t * t * wb
+                if weight > 0.0:
+                    gap = normal.dot(
+                        place(solid, state, i) - (1.0 - t) * place(solid, state, a) - t * place(solid, state, b)
+                    )
+                    push = ti.max(wanted - _YIELDING * options.thickness - gap, 0.0)
+                    push = push + _RETURN * ti.max(wanted - gap - push, 0.0)
+                    if push > 0.0:
+                        shift = push / weight * normal
+                        u[i] = u[i] + wi * shift
+                        u[a] = u[a] - (1.0 - t) * wa * shift
+                        u[b] = u[b] - t * wb * shift
+                    relative = v[i] - (1.0 - t) * v[a] - t * v[b]
+                    approach = relative.dot(normal)
+                    # What is still apart may come as near as it wants to be, but no nearer.
+                    missing = 0.0 - approach - ti.max(gap - wanted, 0.0) / interval
+                    if missing > 0.0:
+                        impulse = missing * normal
+                        slide = relative - approach * normal
+                        speed = slide.norm()
+                        if speed > 0.0:
+                            impulse = impulse - slide * ti.min(options.friction * missing / speed, 1.0)
+                        impulse = impulse / weight
+                        v[i] = v[i] + wi * impulse
+                        v[a] = v[a] - (1.0 - t) * wa * impulse
+                        v[b] = v[b] - t * wb * impulse
+
+    return SimpleNamespace(find_contacts=find_contacts, put_apart=put_apart)
