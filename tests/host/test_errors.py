@@ -67,8 +67,14 @@ def simulated(frames: int = 9) -> dict[str, Any]:
         ({"path": "[[0, 0], [1, 1e999]]"}, "finite pixel coordinates"),
         ({"path": "[[5, 5]]"}, "2 different points"),
         ({"kind": "storm"}, "wind, repel, attract"),
-        ({"radius": -1.0}, "smaller than min"),
-        ({"interval": 0.0}, "smaller than min"),
+        ({"radius": -1.0}, "radius must be above 0"),
+        ({"interval": 0.0}, "interval must be 0.01"),
+        ({"interval": 0.01, "speed": 0.1}, "particles are under way at once"),
+        ({"start": 1.0, "end": 0.5}, "end must be after start"),
+        ({"repeat": 1.0}, "repeat must be left out where the stroke has no end"),
+        ({"strength_keys": "strong"}, "strength_keys must be a list of pairs"),
+        ({"strength_keys": "[[0.5, 1], [0.2, 1]]"}, "strength_keys must be at increasing shares"),
+        ({"speed_keys": "[[0, 0], [1, 2]]"}, "speed_keys must be factors from 0.001"),
     ],
 )
 def test_a_bad_stroke_is_refused_before_any_work(host: Any, changes: dict[str, Any], sentence: str) -> None:
