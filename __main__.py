@@ -1,4 +1,4 @@
-"""The command line: ``physanimator`` or ``python -m physanimator``. Parsing and reporting only."""
+"""The command line: ``physanimator`` or ``python -m physanimator``. What each command does with its options."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from . import __version__
 
 if TYPE_CHECKING:
     from .physics.collision import Contact
-    from .rendering.animation import Animation, StageProgress
+    from .rendering.animation import StageProgress
 
 __all__ = ["main"]
 
@@ -51,147 +51,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
+    from .rendering.command_options import add_animate, add_demo, add_figure
+
     parser = argparse.ArgumentParser(
         prog="physanimator", description="Set parts of a still illustration in motion.", allow_abbrev=False
     )
     parser.add_argument("--version", action="version", version=f"physanimator {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    _add_animate(commands.add_parser("animate", help="animate an illustration", allow_abbrev=False))
-    _add_demo(commands.add_parser("demo", help="animate the bundled example", allow_abbrev=False))
-    _add_figure(commands.add_parser("figure", help="draw a figure that explains the controls", allow_abbrev=False))
-    schema = commands.add_parser("schema", help="print the JSON Schema of scene files", allow_abbrev=False)
-    schema.set_defaults(run=_schema)
+    for name, run, add_options, summary in (
+        ("animate", _animate, add_animate, "animate an illustration"),
+        ("demo", _demo, add_demo, "animate the bundled example"),
+        ("figure", _figure, add_figure, "draw a figure that explains the controls"),
+        ("schema", _schema, None, "print the JSON Schema of scene files"),
+    ):
+        command = commands.add_parser(name, help=summary, allow_abbrev=False)
+        command.set_defaults(run=run)
+        if add_options is not None:
+            add_options(command)
     return parser
-
-
-def _add_animate(parser: argparse.ArgumentParser) -> None:
-    parser.set_defaults(run=_animate)
-    parser.description = (
-        "Animate the parts of an illustration that masks or query points select. Without a scene, the parts are"
-        " held where they are attached and a gentle wind blows."
-    )
-    parser.add_argument("image", metavar="IMAGE", help="the illustration (PNG, JPEG, WebP)")
-    parts = parser.add_argument_group("what moves (at least one)")
-    parts.add_argument(
-        "--mask",
-        metavar="MASK",
-        action="extend",
-        nargs="+",
-        default=[],
-        help="picture of the same size, white where a part is; may be repeated, later parts lie in front",
-    )
-    parts.add_argument(
-        "--points",
-        metavar="FILE",
-        action="append",
-        default=[],
-        help="clicks on one part: lines of x,y,label (1 on the part, 0 beside it) or JSON; may be repeated",
-    )
-    how = parser.add_argument_group("how it moves")
-    how.add_argument("--scene", metavar="FILE", help="scene file (JSON) with strokes, rig points and materials")
-    how.add_argument(
-        "--preset",
-        metavar="NAME",
-        action="extend",
-        nargs="+",
-        help="hair, ribbon, cloth, leaf or jelly; one for all parts or one for each (default: hair)",
-    )
-    how.add_argument("--sway", metavar="HZ", type=float, help="how often parts sway a second (default: the preset's)")
-    how.add_argument(
-        "--attach", choices=("auto", "top", "bottom", "left", "right"), help="side at which parts are held"
-    )
-    how.add_argument("--wind", metavar="STRENGTH", type=float, help="0 calm, 1 gentle (default), 3 storm")
-    how.add_argument(
-        "--wind-angle", metavar="DEG", type=float, help="where the wind blows to: 0 right (default), 90 up"
-    )
-    how.add_argument(
-        "--turbulence",
-        metavar="SHARE",
-        type=float,
-        help="blow everywhere in gusts and with eddies (0 none, 1 wild) instead of in strokes that pass",
-    )
-    how.add_argument("--contact", action="store_true", help="parts touch instead of passing through each other")
-    how.add_argument(
-        "--collider",
-        metavar="MASK",
-        action="extend",
-        nargs="+",
-        default=[],
-        help="picture of the same size, white where something stands still that parts keep out of; implies --contact",
-    )
-    how.add_argument("--spacing", metavar="PX", type=float, help="distance of mesh vertices (default: from the mask)")
-    _add_output(parser, output=None)
-
-
-def _add_demo(parser: argparse.ArgumentParser) -> None:
-    parser.set_defaults(run=_demo)
-    parser.description = "Animate the bundled example: hair, cape, ribbon and a plant in the wind."
-    _add_output(parser, output="demo.mp4")
-
-
-def _add_figure(parser: argparse.ArgumentParser) -> None:
-    parser.set_defaults(run=_figure)
-    parser.description = "Draw one of the figures that show what the controls do, from simulations made on the spot."
-    parser.add_argument(
-        "name",
-        choices=("stiffness", "strokes", "collision"),
-        help="stiffness: a ball under a sweep of Young's modulus; strokes: the example under strokes of different"
-        " direction and strength; collision: soft balls that meet, with contact and without",
-    )
-    parser.add_argument("--output", "-o", metavar="OUT", required=True, help="picture to write (PNG, JPEG, WebP)")
-    parser.add_argument("--quiet", "-q", action="store_true", help="no progress bar")
-
-
-def _add_output(parser: argparse.ArgumentParser, *, output: str | None) -> None:
-    drawing = parser.add_argument_group("what is written")
-    drawing.add_argument(
-        "--output",
-        "-o",
-        metavar="OUT",
-        required=output is None,
-        default=output,
-        help=".mp4, .webm (the moving parts, transparent), .gif, .webp, .apng, or a folder ending in / for"
-        " numbered PNG files" + (f" (default: {output})" if output else ""),
-    )
-    drawing.add_argument("--frames", metavar="N", type=int, help="number of frames (default: 72, or the loop's)")
-    drawing.add_argument(
-        "--loop", metavar="SECONDS", type=float, help="make a seamless loop of this length (its first frame moves, too)"
-    )
-    drawing.add_argument(
-        "--skip", metavar="N", type=int, default=0, help="leave out the first N frames, in which the motion settles in"
-    )
-    drawing.add_argument(
-        "--width", metavar="PX", type=int, help="width of what is written (default: the illustration's)"
-    )
-    drawing.add_argument("--fps", metavar="F", type=float, help="frames a second (default: the scene's, or 24)")
-    drawing.add_argument(
-        "--background",
-        choices=("picture", "transparent"),
-        help="behind the moving parts (default: transparent for .webm, else the picture)",
-    )
-    drawing.add_argument(
-        "--interpolate", metavar="N", type=int, default=1, help="draw every N-th frame, fill in the rest"
-    )
-    drawing.add_argument("--plate", metavar="IMAGE", help="the illustration without its moving parts, if you have it")
-    drawing.add_argument("--save-sketch", metavar="OUT", help="also write the moving line drawing")
-    drawing.add_argument("--save-flow", metavar="OUT", help="also write the optical flow as colours")
-    drawing.add_argument(
-        "--preview", metavar="OUT", help="also write the animation with meshes, pins and strokes on it"
-    )
-    data = parser.add_argument_group("data for other programs")
-    data.add_argument(
-        "--save-tracks",
-        metavar="OUT.json",
-        help="write paths of points for motion-controlled video models: a list of {x, y} for each point",
-    )
-    data.add_argument("--track-points", metavar="N", type=int, help="points on the moving parts (default: 64)")
-    data.add_argument("--track-static", metavar="N", type=int, help="points of the background (default: 16)")
-    data.add_argument("--track-frames", metavar="N", type=int, help="samples over the clip (default: one a frame)")
-    data.add_argument("--save-motion", metavar="OUT.json", help="write every vertex of the meshes in every frame")
-    data.add_argument("--save-svg", metavar="OUT.svg", help="write the moving meshes as an SVG that plays in a browser")
-    volume = parser.add_mutually_exclusive_group()
-    volume.add_argument("--verbose", "-v", action="store_true", help="report sizes and the time of each stage")
-    volume.add_argument("--quiet", "-q", action="store_true", help="no progress bars")
 
 
 def _schema(options: argparse.Namespace) -> None:
@@ -203,7 +80,9 @@ def _schema(options: argparse.Namespace) -> None:
 
 
 def _demo(options: argparse.Namespace) -> None:
-    _check_outputs(options)
+    from .rendering.command_outputs import check_outputs
+
+    check_outputs(options)
     image, masks, scene = _example()
     _run(options, image, masks=masks, scene=scene)
 
@@ -248,6 +127,7 @@ def _figure(options: argparse.Namespace) -> None:
 def _animate(options: argparse.Namespace) -> None:
     from .physics.errors import InvalidInputError
     from .physics.json_text import read_json
+    from .rendering.command_outputs import check_outputs
     from .rendering.images import load_image, load_mask
 
     if not options.mask and not options.points:
@@ -257,7 +137,7 @@ def _animate(options: argparse.Namespace) -> None:
     changes = {name: value for name, value in wind.items() if value is not None}
     if options.scene and changes:
         raise InvalidInputError("--attach, --wind, --wind-angle and --turbulence work without --scene. Got: both")
-    _check_outputs(options)
+    check_outputs(options)
     scene = read_json(_text(options.scene, "scene")) if options.scene else None
     image = load_image(options.image)
     height, width = image.shape[:2]
@@ -288,6 +168,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     """Animate, write everything that was asked for, and report."""
     from .physics.advice import advice
     from .pipeline import animate
+    from .rendering.command_outputs import report, write_outputs
     from .rendering.images import load_image
 
     plate = load_image(options.plate) if options.plate else None
@@ -305,73 +186,11 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
         )
         for sentence in advice(animation.scene):
             print(f"physanimator: warning: {sentence}", file=sys.stderr)
-        animation.save(
-            options.output,
-            transparent=_is_transparent(options),
-            every=options.interpolate,
-            width=options.width,
-            progress=progress,
-        )
-        if options.save_sketch:
-            animation.write(animation.sketches(progress=progress), options.save_sketch, width=options.width)
-        if options.save_flow:
-            animation.write(animation.flows(progress=progress), options.save_flow, width=options.width)
-        if options.preview:
-            animation.write(animation.previews(progress=progress), options.preview, width=options.width)
-    _save_data(options, animation)
+        write_outputs(options, animation, progress)
     if options.verbose:
-        _report(animation)
+        report(animation)
     if not options.quiet:
         print(f"{options.output}: {len(animation)} frames at {animation.motion.frame_rate:g} frames a second")
-
-
-def _save_data(options: argparse.Namespace, animation: Animation) -> None:
-    """Write what other programs read."""
-    if options.save_tracks:
-        wanted = {
-            "points": options.track_points,
-            "static_points": options.track_static,
-            "frames": options.track_frames,
-            "width": options.width,
-            "height": options.width and animation.height_at(options.width),
-        }
-        animation.save_tracks(options.save_tracks, **{name: n for name, n in wanted.items() if n is not None})
-    if options.save_motion:
-        animation.save_motion(options.save_motion)
-    if options.save_svg:
-        animation.save_svg(options.save_svg)
-
-
-def _is_transparent(options: argparse.Namespace) -> bool:
-    if options.background is None:
-        return Path(options.output).suffix.lower() == ".webm"
-    return bool(options.background == "transparent")
-
-
-def _check_outputs(options: argparse.Namespace) -> None:
-    from .physics.errors import InvalidInputError
-    from .physics.tracks import check_track_options
-    from .rendering.text_files import check_text_output
-    from .rendering.video import check_output
-
-    check_output(options.output, alpha=_is_transparent(options))
-    if options.width is not None and not 16 <= options.width <= 8192:
-        raise InvalidInputError(f"--width must be 16 to 8192 px. Got: {options.width}")
-    chosen = [options.output]
-    for path in (options.save_sketch, options.save_flow, options.preview):
-        if path is not None:
-            check_output(path)
-            chosen.append(path)
-    for path, suffix in ((options.save_tracks, ".json"), (options.save_motion, ".json"), (options.save_svg, ".svg")):
-        if path is not None:
-            check_text_output(path, suffix)
-            chosen.append(path)
-    tracked = (options.track_points, options.track_static, options.track_frames)
-    if not options.save_tracks and tracked != (None, None, None):
-        raise InvalidInputError("--track-points, --track-static and --track-frames need --save-tracks. Got: without")
-    check_track_options(points=tracked[0], static_points=tracked[1], frames=tracked[2])
-    if len({Path(path).resolve() for path in chosen}) < len(chosen):
-        raise InvalidInputError(f"every output must have its own name. Got: {', '.join(chosen)}")
 
 
 def _text(path: str, name: str) -> str:
@@ -398,25 +217,6 @@ def _progress_bars(stack: ExitStack) -> StageProgress:
             bars[stage].close()
 
     return advance
-
-
-def _report(animation: Animation) -> None:
-    """Sizes and times on standard error."""
-    from .physics.simulation import plan
-
-    planned = plan(animation.scene, frames=len(animation))
-    for number, body in enumerate(animation.scene.bodies):
-        name = body.name or f"part {number + 1}"
-        print(f"{name}: {len(body.mesh.vertices)} vertices, {len(body.mesh.triangles)} triangles", file=sys.stderr)
-    print(f"{planned.substeps_per_frame:g} steps of the simulation a frame", file=sys.stderr)
-    loop = animation.motion.loop
-    if loop is not None:
-        print(
-            f"loop of {loop.seconds:g} s after {loop.cycles} cycles, {loop.residual:.2g} px apart before it was closed",
-            file=sys.stderr,
-        )
-    for stage, seconds in animation.seconds.items():
-        print(f"{stage:<10}{seconds:8.2f} s", file=sys.stderr)
 
 
 if __name__ == "__main__":

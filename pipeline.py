@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from .physics.automatic import Attachment, automatic_scene
 from .physics.collision import Collider, Contact
 from .physics.errors import InvalidInputError, require
+from .physics.given_scene import given_scene, materials_of
 from .physics.loop import loop_frames
 from .physics.masks import coverage_of
 from .physics.material import Material
-from .physics.material import preset as material_preset
 from .physics.mesh import TriangleMesh
 from .physics.meshing import mesh_from_mask
 from .physics.progress import Progress
@@ -92,9 +92,7 @@ def animate(
     seconds: dict[str, float] = {}
     image = np.asarray(image)
     require("image", f"shape {image.shape}", image.ndim == 3 and image.shape[2] == 3, "an RGB picture [h, w, 3]")
-    if frames is not None:
-        require("frames", frames, frames >= 1, "at least 1")
-        require("skip", skip, 0 <= skip < frames, f"at least 0 and below the number of frames ({frames})")
+    _check_frames(frames, skip)
     if isinstance(scene, Mapping):
         from .physics.scene_checking import check_document
 
@@ -106,30 +104,22 @@ def animate(
         meshes = [mesh_from_mask(each, spacing=spacing) for each in parts]
     with timed(seconds, "scene"):
         if scene is None:
-            materials = _materials(preset or "hair", sway, len(parts))
-            rate = DEFAULT_FRAME_RATE if frame_rate is None else frame_rate
-            bodies = [Body(mesh, made, layer) for layer, (mesh, made) in enumerate(zip(meshes, materials, strict=True))]
             whole = automatic_scene(
-                bodies,
+                _layered(meshes, materials_of(preset or "hair", sway, len(meshes))),
                 attach=attach,
-                frame_rate=rate,
+                frame_rate=DEFAULT_FRAME_RATE if frame_rate is None else frame_rate,
                 wind_strength=wind_strength,
                 wind_angle=wind_angle,
                 turbulence=turbulence,
                 sway_by_size=sway is None,
             )
         else:
-            whole = _given_scene(scene, meshes, preset, sway, frame_rate)
+            whole = given_scene(scene, meshes, preset=preset, sway=sway, frame_rate=frame_rate)
         whole = whole if loop is None else replace(whole, loop=loop)
         if frames is None:
             frames = DEFAULT_FRAMES if whole.loop is None else loop_frames(whole) + skip
-            require("skip", skip, 0 <= skip < frames, f"at least 0 and below the number of frames ({frames})")
-        if contact is not None:
-            whole = replace(whole, contact=contact)
-        if colliders:
-            require("contact", whole.contact, whole.contact is not None, "given where there are colliders")
-            added = tuple(Collider.from_mask(coverage_of(each) > 0.5) for each in colliders)
-            whole = replace(whole, colliders=(*whole.colliders, *added))
+            _check_frames(frames, skip)
+        whole = _touching(whole, contact, colliders)
     with timed(seconds, "simulate"):
         motion = simulate(whole, frames=frames, progress=_stage("simulate", progress))
     with timed(seconds, "prepare"):
@@ -137,6 +127,12 @@ def animate(
 
         renderer = LayeredRenderer(image, parts, motion, plate=plate)
     return Animation(image, parts, whole, motion, renderer, skip, seconds)
+
+
+def _check_frames(frames: int | None, skip: int) -> None:
+    if frames is not None:
+        require("frames", frames, frames >= 1, "at least 1")
+        require("skip", skip, 0 <= skip < frames, f"at least 0 and below the number of frames ({frames})")
 
 
 def _segmented(image: Image, points: Sequence[Any]) -> Iterator[Mask]:
@@ -164,46 +160,18 @@ def _check_parts(image: Image, parts: Sequence[Mask], plate: Image | None) -> No
         raise InvalidInputError(f"plate must have the picture's shape, {image.shape}. Got: {np.shape(plate)}")
 
 
-def _given_scene(
-    scene: Scene | Mapping[str, Any],
-    meshes: list[TriangleMesh],
-    preset: str | Sequence[str] | None,
-    sway: float | None,
-    frame_rate: float | None,
-) -> Scene:
-    """A scene from outside, with what the caller changes in it."""
-    if not isinstance(scene, Scene):
-        from .physics.scene_json import scene_from_dict
-
-        scene = scene_from_dict(scene, meshes=_missing_meshes(scene, meshes))
-    if len(scene.bodies) != len(meshes):
-        raise InvalidInputError(
-            f"scene must have one body for each of the {len(meshes)} masks. Got: {len(scene.bodies)} bodies"
-        )
-    if (scene.width, scene.height) != (meshes[0].width, meshes[0].height):
-        scene = scene.rescaled(meshes[0].width, meshes[0].height)
-    materials: Sequence[Material] = [body.material for body in scene.bodies]
-    if preset is not None:
-        materials = _materials(preset, None, len(meshes))
-    if sway is not None:
-        materials = [replace(each, sway_frequency=sway) for each in materials]
-    bodies = tuple(replace(body, material=each) for body, each in zip(scene.bodies, materials, strict=True))
-    return replace(scene, bodies=bodies, frame_rate=scene.frame_rate if frame_rate is None else frame_rate)
+def _layered(meshes: Sequence[TriangleMesh], materials: Sequence[Material]) -> list[Body]:
+    return [Body(mesh, made, layer) for layer, (mesh, made) in enumerate(zip(meshes, materials, strict=True))]
 
 
-def _missing_meshes(document: Mapping[str, Any], meshes: list[TriangleMesh]) -> list[TriangleMesh]:
-    """The meshes that a checked document does not bring itself."""
-    brought = [bool(body.get("mesh")) for body in document.get("bodies", [])]
-    return [mesh for number, mesh in enumerate(meshes) if not any(brought[number : number + 1])]
-
-
-def _materials(names: str | Sequence[str], sway: float | None, count: int) -> list[Material]:
-    chosen = [names] if isinstance(names, str) else list(names)
-    if len(chosen) not in (1, count):
-        raise InvalidInputError(f"preset must be named once, or once for each of the {count} masks. Got: {len(chosen)}")
-    changes = {} if sway is None else {"sway_frequency": sway}
-    materials = [material_preset(name, **changes) for name in chosen]
-    return materials * count if len(materials) == 1 else materials
+def _touching(scene: Scene, contact: Contact | None, colliders: Sequence[Mask]) -> Scene:
+    if contact is not None:
+        scene = replace(scene, contact=contact)
+    if not colliders:
+        return scene
+    require("contact", scene.contact, scene.contact is not None, "given where there are colliders")
+    added = tuple(Collider.from_mask(coverage_of(each) > 0.5) for each in colliders)
+    return replace(scene, colliders=(*scene.colliders, *added))
 
 
 def _stage(name: str, progress: StageProgress | None) -> Progress | None:

@@ -51,7 +51,7 @@ class Contact(io.ComfyNode):
                     "collider",
                     optional=True,
                     tooltip="White where something stands still that bodies keep out of, such as a shoulder under hair."
-                    " What lies over it as drawn may stay there until it comes off.",
+                    " What lies over it as drawn may stay there until it comes off. For one that moves, see the help.",
                 ),
                 ContactWire.Input("contact", optional=True, tooltip="Contact whose colliders act besides this one."),
             ],

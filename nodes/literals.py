@@ -8,7 +8,7 @@ from typing import Any
 
 from ..physics.errors import InvalidInputError, PhysAnimatorError
 
-__all__ = ["PATH_FORMS", "chosen", "numbers_of", "refusal", "times_of"]
+__all__ = ["PATH_FORMS", "chosen", "keys_of", "numbers_of", "refusal", "times_of"]
 
 PATH_FORMS = 'as JSON: [[x, y], ...] or [{"x": .., "y": ..}, ...], as spline editors write it.'
 """How a tooltip says what may be typed for a path."""
@@ -80,3 +80,24 @@ def numbers_of(text: str, *, name: str, like: str) -> tuple[float, ...]:
         return tuple(float(value) for value in values)
     except (TypeError, ValueError):
         raise InvalidInputError(f"{name} must be a list of {like}. Got: {text[:60]}") from None
+
+
+def keys_of(text: str, *, name: str) -> tuple[tuple[float, float], ...]:
+    """Keys along a path from text: a JSON list of pairs [part of the path, factor]; empty text gives none.
+
+    Args:
+        text: what was typed.
+        name: what the node calls the input.
+
+    Raises:
+        InvalidInputError: the text holds something else.
+    """
+    if not text.strip():
+        return ()
+    try:
+        return tuple((float(part), float(factor)) for part, factor in json.loads(text))
+    except (TypeError, ValueError):
+        raise InvalidInputError(
+            f"{name} must be a list of pairs [part of the path from 0 to 1, factor] such as [[0, 1], [1, 0.5]]."
+            f" Got: {text[:60]}"
+        ) from None

@@ -50,8 +50,12 @@ class Scene(io.ComfyNode):
             description="Gathers the bodies and all that acts on them.",
             inputs=[
                 BodiesWire.Input("bodies", tooltip="What moves."),
-                io.Float.Input("gravity_x", default=0.0, min=-100.0, max=100.0, step=0.1, tooltip=_gravity("right")),
-                io.Float.Input("gravity_y", default=0.0, min=-100.0, max=100.0, step=0.1, tooltip=_gravity("down")),
+                io.Float.Input(
+                    "gravity_x", default=0.0, min=-100.0, max=100.0, step=0.1, tooltip=_gravity("to the right")
+                ),
+                io.Float.Input(
+                    "gravity_y", default=0.0, min=-100.0, max=100.0, step=0.1, tooltip=_gravity("downwards")
+                ),
                 _frame_rate(),
                 StrokesWire.Input("strokes", optional=True, tooltip="Energy strokes that act on every body."),
                 RigWire.Input("rig_points", optional=True, tooltip="What is held or led."),
@@ -238,6 +242,7 @@ def _frame_rate() -> io.Float.Input:
 
 
 def _gravity(direction: str) -> str:
-    return f"Acceleration of every body to the {direction} [sides/s^2], a side being the picture's longest.".replace(
-        "to the down", "downwards"
+    return (
+        f"Acceleration of every body {direction} [sides/s^2], a side being the picture's longest; 0.5 is much. What is"
+        " held hangs as it is drawn."
     )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from comfy_api.latest import io
 
-from ..physics.strokes import FALLOFFS, STROKE_KINDS, Falloff, StrokeKind
+from ..physics.strokes import FALLOFFS, STROKE_KINDS
 from ..physics.strokes import EnergyStroke as PhysicalStroke
 from ..rendering.points import parse_polyline
-from .literals import PATH_FORMS, refusal
+from .literals import PATH_FORMS, keys_of, refusal
 from .wires import StrokesWire
 
 __all__ = ["EnergyStroke"]
@@ -82,7 +84,8 @@ class EnergyStroke(io.ComfyNode):
                     min=0.01,
                     max=3600.0,
                     step=0.1,
-                    tooltip="Time between two particles [s].",
+                    tooltip="Time from one particle to the next [s]: 0.1 sends ten a second, a steady stream; 2 lets"
+                    " single gusts pass.",
                 ),
                 io.Combo.Input(
                     "falloff",
@@ -101,33 +104,51 @@ class EnergyStroke(io.ComfyNode):
                     optional=True,
                     tooltip="The time from start to end begins anew every so often [s]; 0 means never. Needs an end.",
                 ),
+                _keys("strength_keys", "strength", "[[0, 1], [1, 0]] lets it die away towards the end."),
+                _keys("speed_keys", "speed", "[[0, 0.5], [1, 2]] starts slowly and leaves fast."),
                 StrokesWire.Input("strokes", optional=True, tooltip="Strokes that act besides this one."),
             ],
             outputs=[StrokesWire.Output(display_name="strokes", tooltip="The strokes before this one, and this one.")],
         )
 
     @classmethod
-    def validate_inputs(cls, kind: StrokeKind | None = None, path: str | None = None) -> bool | str:
-        if kind is None or path is None:
+    def validate_inputs(
+        cls, path: str | None = None, strokes: tuple[PhysicalStroke, ...] | None = None, **values: Any
+    ) -> bool | str:
+        if path is None or None in values.values():  # it comes from another node
             return True
-        return refusal(lambda: PhysicalStroke(kind, tuple(parse_polyline(path))))
+        return refusal(lambda: _stroke(path, **values))
 
     @classmethod
-    def execute(
-        cls,
-        kind: StrokeKind,
-        path: str,
-        radius: float,
-        speed: float,
-        strength: float,
-        start: float,
-        end: float,
-        interval: float,
-        falloff: Falloff = "linear",
-        repeat: float = 0.0,
-        strokes: tuple[PhysicalStroke, ...] = (),
-    ) -> io.NodeOutput:
-        points = tuple(parse_polyline(path))
-        timing = (start, end or None, interval)
-        stroke = PhysicalStroke(kind, points, radius, speed, strength, *timing, falloff, repeat or None)
-        return io.NodeOutput((*strokes, stroke))
+    def execute(cls, path: str, strokes: tuple[PhysicalStroke, ...] = (), **values: Any) -> io.NodeOutput:
+        return io.NodeOutput((*strokes, _stroke(path, **values)))
+
+
+def _stroke(
+    path: str,
+    *,
+    end: float = 0.0,
+    repeat: float = 0.0,
+    strength_keys: str = "",
+    speed_keys: str = "",
+    **values: Any,
+) -> PhysicalStroke:
+    """The stroke that the values of the inputs describe; InvalidInputError where one is unusable."""
+    return PhysicalStroke(
+        path=tuple(parse_polyline(path)),
+        end=end or None,
+        repeat=repeat or None,
+        strength_keys=keys_of(strength_keys, name="strength_keys"),
+        speed_keys=keys_of(speed_keys, name="speed_keys"),
+        **values,
+    )
+
+
+def _keys(name: str, varied: str, example: str) -> io.String.Input:
+    return io.String.Input(
+        name,
+        default="",
+        optional=True,
+        tooltip=f"How the {varied} changes along the path: a list of [part of the path from 0 to 1, factor on the"
+        f" {varied}], such as {example} Empty: the same everywhere.",
+    )

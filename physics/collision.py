@@ -20,7 +20,7 @@ class Contact:
 
     Attributes:
         friction: Coulomb's coefficient: 0 slides freely, 1 hardly slides.
-        thickness: distance that bodies keep from each other [px].
+        thickness: distance that bodies keep from each other [px]; half of it gives way under pressure.
         self_contact: whether a body also keeps out of itself, such as a curl that folds, and the separate parts of a
             body out of each other.
     """

@@ -243,7 +243,12 @@ def _stroke() -> dict[str, Schema]:
             **number("End [s]", "When particles stop leaving; after start. null: never.", **ABOVE_0),
             "type": ["number", "null"],
         },
-        "interval": number("Interval [s]", "Time from one particle to the next.", minimum=0.01, maximum=LARGEST),
+        "interval": number(
+            "Interval [s]",
+            "Time from one particle to the next: 0.1 sends ten a second, 2 lets single gusts pass.",
+            minimum=0.01,
+            maximum=LARGEST,
+        ),
         "falloff": {
             "enum": list(FALLOFFS),
             "title": "Falloff",
@@ -261,14 +266,14 @@ def _stroke() -> dict[str, Schema]:
         },
         "strength_keys": list_of(
             "Strength along the path",
-            "Pairs of a share of the path's length from 0 to 1 and a factor on the strength there.",
-            "point",
+            "How the strength changes along the path; between two keys, evenly. Empty: not at all.",
+            "strength_key",
             100,
         ),
         "speed_keys": list_of(
             "Speed along the path",
-            "Pairs of a share of the path's length from 0 to 1 and a factor above 0 on the speed there.",
-            "point",
+            "How the speed changes along the path; between two keys, evenly. Empty: not at all.",
+            "speed_key",
             100,
         ),
     }
@@ -279,6 +284,10 @@ def _entries() -> dict[str, Schema]:
     whole = {"type": "integer", "minimum": 0}
     return {
         "point": pair_of_numbers("Point [px]", "x to the right, y down.", **ANY_SIZE),
+        "strength_key": pair_of_numbers(
+            "Key", "Part of the path from 0 to 1, and a factor on the strength there.", **ANY_SIZE
+        ),
+        "speed_key": pair_of_numbers("Key", "Part of the path from 0 to 1, and a factor above 0 there.", **FROM_0),
         "time": {"type": "number", **FROM_0},
         "factor": {"type": "number", **ABOVE_0},
         "angle": {"type": "number", "minimum": -MOST_DEGREES, "maximum": MOST_DEGREES},

@@ -69,7 +69,7 @@ class EnergyStroke:
         strength: acceleration at full effect [side/s^2], a side being the picture's longest; negative reverses it.
         start: when the first particle leaves [s].
         end: when the stroke stops emitting [s]; None means never.
-        interval: time between particles [s].
+        interval: time from one particle to the next [s]; the rate of emission is its inverse.
         falloff: how the effect goes with the distance d: linear as 1 - d/radius (repel: as d/radius), smooth as
             (1 - (d/radius)^2)^2 without a kink, constant up to the radius.
         repeat: the time from ``start`` to ``end`` begins anew every so many seconds [s]; None means once.

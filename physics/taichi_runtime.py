@@ -77,6 +77,7 @@ class _TaichiThread:
         self._taichi: Any = None
         self._program: Any = None
         self._kernels: dict[Callable[[Any], Any], Any] = {}
+        self._closed = False
 
     def run(self, call: Callable[[], T]) -> T:
         if threading.current_thread() is self._thread:
@@ -114,6 +115,7 @@ class _TaichiThread:
             job.done.wait(_LAST_SECONDS)
 
     def _close(self) -> None:
+        self._closed = True
         if self._program is not None and self._taichi.lang.impl.get_runtime().prog is self._program:
             self._kernels.clear()
             self._program = None
@@ -127,6 +129,8 @@ class _TaichiThread:
 
     def _initialised(self) -> Any:
         """Taichi with our program in place; kernels of a program that is gone are forgotten."""
+        if self._closed:  # a program that is made while the process ends would end it with an abort
+            raise PhysAnimatorError("Nothing more can be simulated: the process is ending")
         if self._taichi is None:
             with _environment(_QUIET):
                 import taichi

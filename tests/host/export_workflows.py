@@ -18,6 +18,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from browser import Page, opened
 from comfy_host import ROOT, Host
 from graphs import WORKFLOWS, Group
@@ -113,14 +114,15 @@ def _view(ui: dict[str, Any]) -> dict[str, Any]:
 
 
 def thumbnail(host: Host, api: dict[str, Any], path: Path) -> None:
-    """Run the workflow, and keep a frame from the middle of its video."""
+    """Run the workflow, and keep the frame in which most differs from its first one."""
     import av
 
     (save,) = [key for key, node in api.items() if node["class_type"] == "SaveVideo"]
     video = host.view(host.run(api)[save]["images"][0])
     with av.open(io.BytesIO(video)) as container:
-        frames = list(container.decode(video=0))
-    picture = frames[len(frames) // 2].to_image()
+        frames = [frame.to_image() for frame in container.decode(video=0)]
+    first = np.asarray(frames[0], dtype=np.int16)
+    picture = max(frames, key=lambda frame: np.abs(np.asarray(frame) - first).mean())
     picture.resize((640, round(640 * picture.height / picture.width))).save(path, quality=88)
     print(path.relative_to(ROOT))
 

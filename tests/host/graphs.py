@@ -192,7 +192,7 @@ def wind_and_pins() -> tuple[Group, ...]:
         "strength": 1.6,
     }
     drawn = (
-        ours("wind", "Wind", values={"strength": 0.6, "gust": 0.5, "turbulence": 0.7}),
+        ours("wind", "Wind", values={"strength": 1.5, "angle": 30, "gust": 0.7, "turbulence": 0.7}),
         ours("puff", "EnergyStroke", 0, "Energy Stroke: a puff", puff),
         ours("head", "RigPoint", 0, "Rig Point: the head", HEAD),
         ours("neck", "RigPoint", 0, "Rig Point: the neck, soft", neck, rig_points="head.rig_points"),

@@ -67,8 +67,14 @@ def simulated(frames: int = 9) -> dict[str, Any]:
         ({"path": "[[0, 0], [1, 1e999]]"}, "finite pixel coordinates"),
         ({"path": "[[5, 5]]"}, "2 different points"),
         ({"kind": "storm"}, "wind, repel, attract"),
-        ({"radius": -1.0}, "smaller than min"),
-        ({"interval": 0.0}, "smaller than min"),
+        ({"radius": -1.0}, "radius must be above 0"),
+        ({"interval": 0.0}, "interval must be 0.01"),
+        ({"interval": 0.01, "speed": 0.1}, "particles are under way at once"),
+        ({"start": 1.0, "end": 0.5}, "end must be after start"),
+        ({"repeat": 1.0}, "repeat must be left out where the stroke has no end"),
+        ({"strength_keys": "strong"}, "strength_keys must be a list of pairs"),
+        ({"strength_keys": "[[0.5, 1], [0.2, 1]]"}, "strength_keys must be at increasing shares"),
+        ({"speed_keys": "[[0, 0], [1, 2]]"}, "speed_keys must be factors from 0.001"),
     ],
 )
 def test_a_bad_stroke_is_refused_before_any_work(host: Any, changes: dict[str, Any], sentence: str) -> None:
@@ -209,14 +215,21 @@ def test_a_sketch_of_another_size_than_the_flow(host: Any) -> None:
 
 
 def test_interrupting_a_simulation_leaves_the_host_ready(host: Any) -> None:
+    short = bar() | simulated(frames=5)
+    short |= {"tracks": ours("Tracks", motion=["motion", 0], points=5, static_points=0, frames=0, width=0, height=0,
+                             fit="crop", weighting=0.5)} | seen("tracks")  # fmt: skip
+    before = host.run(short)["end"]["text"]
     long = bar() | simulated(frames=3000) | seen("motion")
     long["mesh"]["inputs"]["spacing"] = 4.0
     # On a thread of its own, because the browser's driver keeps a loop on this one.
     with ThreadPoolExecutor(1) as pool:
         frame = pool.submit(asyncio.run, _interrupted(host, long, "motion")).result()
     assert 3 <= frame < 3000
-    outputs = host.run(bar() | simulated(frames=5) | seen("motion"))
-    assert outputs["end"]["text"] == ["24.0"]
+    short["scene"]["inputs"]["frame_rate"] = 23.0  # once something else, so that nothing is taken from the cache
+    host.run(short)
+    short["scene"]["inputs"]["frame_rate"] = 24.0
+    assert host.run(short)["end"]["text"] == before
+    assert len({json.dumps(point) for track in json.loads(before[0]) for point in track}) > 10  # it moves
 
 
 async def _interrupted(host: Any, prompt: dict[str, Any], busy: str) -> int:

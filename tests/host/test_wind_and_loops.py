@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 from typing import Any
 
 import numpy as np
@@ -65,3 +66,15 @@ def test_a_repeated_smooth_stroke_loops(host: Any) -> None:
         repeat=0.5,
     )
     assert_loops(pictures(host, host.run(ribbon(strokes=["stroke", 0]) | {"stroke": stroke})))
+
+
+def test_strength_and_speed_are_keyed_along_the_path(host: Any) -> None:
+    stroke = {"kind": "wind", "path": "[[400, 60], [1000, 60]]", "radius": 200.0, "speed": 900.0, "strength": 6.0,
+              "start": 0.0, "end": 0.0, "interval": 0.1, "strength_keys": "[[0, 1], [1, 0]]",
+              "speed_keys": "[[0, 0.5], [1, 2]]"}  # fmt: skip
+    prompt = ribbon(strokes=["stroke", 0]) | {"stroke": ours("EnergyStroke", **stroke)}
+    prompt = {key: prompt[key] for key in ("example", "mesh", "body", "scene", "stroke")}
+    outputs = host.run(prompt | {"seen": core("PreviewAny", source=["scene", 1])})
+    (read,) = json.loads(outputs["seen"]["text"][0])["strokes"]
+    assert read["strength_keys"] == [[0, 1], [1, 0]]
+    assert read["speed_keys"] == [[0, 0.5], [1, 2]]

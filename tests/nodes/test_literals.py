@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from physanimator.nodes.defaults import default_of
-from physanimator.nodes.literals import chosen, refusal, times_of
+from physanimator.nodes.literals import chosen, keys_of, refusal, times_of
 from physanimator.physics.errors import InvalidInputError, require
 
 
@@ -22,6 +22,17 @@ def test_no_times(text: str) -> None:
 def test_bad_times_are_refused_by_name(text: str) -> None:
     with pytest.raises(InvalidInputError, match=r"^motion times must be a list of seconds such as \[0, 0\.5, 2\]"):
         times_of(text, name="motion times")
+
+
+def test_keys_along_a_path() -> None:
+    assert keys_of(" [[0, 1], [0.5, 2.5]] ", name="speed_keys") == ((0.0, 1.0), (0.5, 2.5))
+    assert keys_of(" ", name="speed_keys") == keys_of("[]", name="speed_keys") == ()
+
+
+@pytest.mark.parametrize("text", ["late", "3", "[0, 1]", "[[0, 1, 2]]", '[[0, "a"]]', "[[0, null]]", "{}x", "[[0, 1]"])
+def test_bad_keys_are_refused_by_name(text: str) -> None:
+    with pytest.raises(InvalidInputError, match=r"^speed_keys must be a list of pairs \[part of the path from 0 to 1"):
+        keys_of(text, name="speed_keys")
 
 
 def test_the_choice_and_what_it_brings() -> None:

@@ -106,7 +106,7 @@ def pile() -> Motion:
 
 def test_four_blobs_at_high_speed_stay_out_of_each_other() -> None:
     assert np.linalg.norm(np.diff(pile().positions, axis=0), axis=2).max() > 10
-    assert max(deepest(pile(), frame) for frame in range(0, 240, 3)) < 0.1
+    assert max(deepest(pile(), frame) for frame in range(240)) == 0
 
 
 def test_without_contact_the_blobs_pass_through_each_other() -> None:
@@ -177,7 +177,7 @@ def test_a_skirt_stays_out_of_the_legs() -> None:
     through = simulate(skirt(None), frames=48)
     assert max(depth_in_legs(through, frame) for frame in range(48)) > 5
     motion = simulate(skirt(Contact()), frames=240)
-    assert max(depth_in_legs(motion, frame) for frame in range(240)) < 0.2
+    assert max(depth_in_legs(motion, frame) for frame in range(240)) < 0
     nearest = min(320 - motion.positions[:, :, 0].max(), motion.positions[:, :, 0].min() - 200)
     assert nearest < 3  # it does reach them
 

@@ -170,6 +170,38 @@ def test_refining_the_mesh_converges() -> None:
     assert changes[2] < 0.05 * np.abs(tips[3]).max()
 
 
+def test_the_tip_goes_as_far_with_four_elements_across_as_with_eight() -> None:
+    """Same sway, as artists set it: the stiffness that it takes makes up for what coarse triangles resist bending."""
+    wave = RigPoint((430.0, 100.0), pin().region, Wave(15.0, 0.9))
+    for acting in (dict(strokes=(wind(),)), dict(rig_points=(wave,))):
+        coarse, fine = (
+            motion.positions[:, -1 - across // 2] - motion.positions[0, -1 - across // 2]
+            for across in (4, 8)
+            for motion in (simulate(scene(mesh=strip(across), **acting), frames=49),)
+        )
+        reach = np.linalg.norm(fine, axis=1).max()
+        assert reach > 20
+        assert np.linalg.norm(fine - coarse, axis=1).max() < 0.05 * reach
+
+
+def test_a_free_body_keeps_its_momentum_over_ten_thousand_steps() -> None:
+    """A short, uneven blow sets it going, turning and trembling; after it, its centre of mass goes straight on."""
+    blow = EnergyStroke(path=((300.0, 150.0), (900.0, 160.0)), radius=200.0, speed=3000.0, strength=6.0, end=0.05)
+    thrown = scene(strokes=(blow,), rig_points=(), material=Material(youngs_modulus=300.0, damping=0.0))
+    planned = plan(thrown, frames=1)
+    frames = 20 + int(10_000 / planned.substeps_per_frame)
+    positions = simulate(thrown, frames=frames).positions.astype(np.float64)
+    mesh = strip()
+    shares = np.bincount(mesh.triangles.ravel(), np.repeat(mesh.areas / 3, 3)) / mesh.areas.sum()
+    centre = np.einsum("v,fvi->fi", shares, positions)[12:]
+    steps = np.diff(centre, axis=0)
+    assert np.linalg.norm(steps[0]) > 3
+    turned = positions[-1] - positions[-1].mean(axis=0) - (positions[0] - positions[0].mean(axis=0))
+    assert np.abs(turned).max() > 30
+    straight = centre[0] + np.arange(len(centre))[:, None] * steps.mean(axis=0)
+    assert np.abs(centre - straight).max() < 1e-3  # [px], on a way of 1,000 px
+
+
 def test_two_runs_are_the_same() -> None:
     first, second = (simulate(scene(strokes=(wind(),)), frames=25).positions for _ in range(2))
     np.testing.assert_array_equal(first, second)

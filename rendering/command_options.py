@@ -1,0 +1,155 @@
+"""The options of the command line, a function for each group of them."""
+
+from __future__ import annotations
+
+import argparse
+
+__all__ = ["add_animate", "add_demo", "add_figure"]
+
+
+def add_animate(parser: argparse.ArgumentParser) -> None:
+    """All that ``physanimator animate`` takes."""
+    parser.description = (
+        "Animate the parts of an illustration that masks or query points select. Without a scene, the parts are"
+        " held where they are attached and a gentle wind blows."
+    )
+    parser.add_argument("image", metavar="IMAGE", help="the illustration (PNG, JPEG, WebP)")
+    _add_parts(parser)
+    _add_direction(parser)
+    _add_files(parser, output=None)
+    _add_data(parser)
+    _add_volume(parser)
+
+
+def add_demo(parser: argparse.ArgumentParser) -> None:
+    """All that ``physanimator demo`` takes."""
+    parser.description = "Animate the bundled example: hair, cape, ribbon and a plant in the wind."
+    _add_files(parser, output="demo.mp4")
+    _add_data(parser)
+    _add_volume(parser)
+
+
+def add_figure(parser: argparse.ArgumentParser) -> None:
+    """All that ``physanimator figure`` takes."""
+    parser.description = "Draw one of the figures that show what the controls do, from simulations made on the spot."
+    parser.add_argument(
+        "name",
+        choices=("stiffness", "strokes", "collision"),
+        help="stiffness: a ball under a sweep of Young's modulus; strokes: the example under strokes of different"
+        " direction and strength; collision: soft balls that meet, with contact and without",
+    )
+    parser.add_argument("--output", "-o", metavar="OUT", required=True, help="picture to write (PNG, JPEG, WebP)")
+    parser.add_argument("--quiet", "-q", action="store_true", help="no progress bar")
+
+
+def _add_parts(parser: argparse.ArgumentParser) -> None:
+    parts = parser.add_argument_group("what moves (at least one)")
+    parts.add_argument(
+        "--mask",
+        metavar="MASK",
+        action="extend",
+        nargs="+",
+        default=[],
+        help="picture of the same size, white where a part is; may be repeated, later parts lie in front",
+    )
+    parts.add_argument(
+        "--points",
+        metavar="FILE",
+        action="append",
+        default=[],
+        help="clicks on one part: lines of x,y,label (1 on the part, 0 beside it) or JSON; may be repeated",
+    )
+
+
+def _add_direction(parser: argparse.ArgumentParser) -> None:
+    how = parser.add_argument_group("how it moves")
+    how.add_argument("--scene", metavar="FILE", help="scene file (JSON) with strokes, rig points and materials")
+    how.add_argument(
+        "--preset",
+        metavar="NAME",
+        action="extend",
+        nargs="+",
+        help="hair, ribbon, cloth, leaf or jelly; one for all parts or one for each (default: hair)",
+    )
+    how.add_argument("--sway", metavar="HZ", type=float, help="how often parts sway a second (default: the preset's)")
+    how.add_argument(
+        "--attach", choices=("auto", "top", "bottom", "left", "right"), help="side at which parts are held"
+    )
+    how.add_argument("--wind", metavar="STRENGTH", type=float, help="0 calm, 1 gentle (default), 3 storm")
+    how.add_argument(
+        "--wind-angle", metavar="DEG", type=float, help="where the wind blows to: 0 right (default), 90 up"
+    )
+    how.add_argument(
+        "--turbulence",
+        metavar="SHARE",
+        type=float,
+        help="blow everywhere in gusts and with eddies (0 none, 1 wild) instead of in strokes that pass",
+    )
+    how.add_argument("--contact", action="store_true", help="parts touch instead of passing through each other")
+    how.add_argument(
+        "--collider",
+        metavar="MASK",
+        action="extend",
+        nargs="+",
+        default=[],
+        help="picture of the same size, white where something stands still that parts keep out of; implies --contact",
+    )
+    how.add_argument("--spacing", metavar="PX", type=float, help="distance of mesh vertices (default: from the mask)")
+
+
+def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
+    drawing = parser.add_argument_group("what is written")
+    drawing.add_argument(
+        "--output",
+        "-o",
+        metavar="OUT",
+        required=output is None,
+        default=output,
+        help=".mp4, .webm (the moving parts, transparent), .gif, .webp, .apng, or a folder ending in / for"
+        " numbered PNG files" + (f" (default: {output})" if output else ""),
+    )
+    drawing.add_argument("--frames", metavar="N", type=int, help="number of frames (default: 72, or the loop's)")
+    drawing.add_argument(
+        "--loop", metavar="SECONDS", type=float, help="make a seamless loop of this length (its first frame moves, too)"
+    )
+    drawing.add_argument(
+        "--skip", metavar="N", type=int, default=0, help="leave out the first N frames, in which the motion settles in"
+    )
+    drawing.add_argument(
+        "--width", metavar="PX", type=int, help="width of what is written (default: the illustration's)"
+    )
+    drawing.add_argument("--fps", metavar="F", type=float, help="frames a second (default: the scene's, or 24)")
+    drawing.add_argument(
+        "--background",
+        choices=("picture", "transparent"),
+        help="behind the moving parts (default: transparent for .webm, else the picture)",
+    )
+    drawing.add_argument(
+        "--interpolate", metavar="N", type=int, default=1, help="draw every N-th frame, fill in the rest"
+    )
+    drawing.add_argument("--plate", metavar="IMAGE", help="the illustration without its moving parts, if you have it")
+    drawing.add_argument("--save-sketch", metavar="OUT", help="also write the moving line drawing")
+    drawing.add_argument("--save-flow", metavar="OUT", help="also write the optical flow as colours")
+    drawing.add_argument(
+        "--preview", metavar="OUT", help="also write the animation with meshes, pins and strokes on it"
+    )
+
+
+def _add_data(parser: argparse.ArgumentParser) -> None:
+    data = parser.add_argument_group("data for other programs")
+    data.add_argument(
+        "--save-tracks",
+        metavar="OUT.json",
+        help="write paths of points for motion-controlled video models: a list of {x, y} for each point",
+    )
+    data.add_argument("--track-points", metavar="N", type=int, help="points on the moving parts (default: 64)")
+    data.add_argument("--track-static", metavar="N", type=int, help="points of the background (default: 16)")
+    data.add_argument("--track-frames", metavar="N", type=int, help="samples over the clip (default: one a frame)")
+    data.add_argument("--save-motion", metavar="OUT.json", help="write every vertex of the meshes in every frame")
+    data.add_argument("--save-svg", metavar="OUT.svg", help="write the moving meshes as an SVG that plays in a browser")
+
+
+def _add_volume(parser: argparse.ArgumentParser) -> None:
+    volume = parser.add_mutually_exclusive_group()
+    volume.add_argument("--verbose", "-v", action="store_true", help="report sizes and the time of each stage")
+    volume.add_argument("--quiet", "-q", action="store_true", help="no progress bars")
