@@ -219,10 +219,10 @@ def build_functions(ti: Any) -> SimpleNamespace:
                 before = goal(place(vertex), tick, leader, begin, drive)
                 after = goal(place(vertex), tick, leader, end, drive)
                 speed = pulled(speed, u[i], before, after, grip, dt)
-            limit = ti.max(solid.reach[i] / dt, SPEED_FLOOR)
             squared_speed = speed.norm_sqr()
-            if squared_speed > limit * limit:
-                speed = speed * (limit / ti.sqrt(squared_speed))
+            if squared_speed > SPEED_FLOOR * SPEED_FLOOR:
+                limit = ti.max(solid.reach[i] / dt, SPEED_FLOOR)
+                speed = speed * ti.min(limit / ti.sqrt(squared_speed), 1.0)
             v[i] = speed
             u[i] = u[i] + dt * speed
         else:

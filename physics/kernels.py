@@ -5,8 +5,8 @@ The unit is a tick (``stepping.TICK``). At its start the external acceleration o
 step is chosen; then follow whole substeps: forces of all triangles, then velocities and positions of all vertices.
 One launch runs several ticks. Connected parts do not feel each other: each takes its own steps.
 
-``advance`` computes a part serially, and parts in parallel. ``advance_together`` shares one large part among several
-threads, with the same result to the last bit.
+``advance`` has a thread for a part, and several parts side by side. ``advance_together`` shares one large part among
+several threads, with the same result to the last bit.
 """
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
@@ -19,10 +19,10 @@ from .stepping import TICK
 
 __all__ = ["BLOCKS_AT_ONCE", "VERTICES_AT_ONCE", "Kernels", "array_types", "build_kernels"]
 
-BLOCKS_AT_ONCE = 48
+BLOCKS_AT_ONCE = 24
 """Blocks of triangles that a thread takes from the common work."""
 
-VERTICES_AT_ONCE = 384
+VERTICES_AT_ONCE = 192
 """Vertices that a thread takes from the common work."""
 
 _SMALL = 0x7FFFFFF
@@ -95,7 +95,9 @@ def build_kernels(ti: Any) -> Kernels:
     begin_tick, move = functions.begin_tick, functions.move
 
     @ti.func
-    def advance_part(part: ti.i32, solid: ti.template(), state: ti.template(), drive: ti.template(), pairs: ti.template()):
+    def advance_part(
+        part: ti.i32, solid: ti.template(), state: ti.template(), drive: ti.template(), pairs: ti.template()
+    ):
         first, end = solid.starts[part], solid.starts[part + 1]
         for tick in range(drive.first_particles.shape[0] - 1):
             squared = highest_frequency(solid, state, first[1] & _SMALL, end[1] & _SMALL)
@@ -292,9 +294,7 @@ def build_kernels(ti: Any) -> Kernels:
             )
 
     @ti.kernel
-    def forces(
-        corners: types.index_blocks, elements: types.blocks, u: types.vectors, corner_forces: types.pair_blocks
-    ):
+    def forces(corners: types.index_blocks, elements: types.blocks, u: types.vectors, corner_forces: types.pair_blocks):
         ti.loop_config(serialize=True)
         for n in range(corners.shape[0]):
             elastic = ti.static(_Elastic(corners, elements, u, corner_forces))

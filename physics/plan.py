@@ -10,6 +10,7 @@ import numpy as np
 from .errors import SimulationError, require
 from .particles import most_alive
 from .scene import Scene
+from .schedule import schedule
 from .stepping import TICK
 from .sway import SwayPart
 from .system import System, assemble
@@ -48,6 +49,8 @@ class SimulationPlan:
         estimated_seconds: of computing, on one core of an ordinary machine.
         costliest_body: number of the body with the connected part that takes the most work.
         sway: what became of the sway frequencies that materials ask for.
+        alone: connected parts that a thread computes by itself, side by side with others.
+        shared: for each connected part that several threads compute together, how many.
     """
 
     frames: int
@@ -59,6 +62,8 @@ class SimulationPlan:
     estimated_seconds: float
     costliest_body: int
     sway: tuple[SwayPart, ...]
+    alone: int
+    shared: tuple[int, ...]
 
     @property
     def step(self) -> float:
@@ -91,7 +96,9 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
     alive = sum(most_alive(stroke, horizon=duration) for stroke in scene.strokes)
     # Bodies that touch go through time in step.
     substeps = system.substeps if scene.contact is None else CONTACT_WORK * system.substeps.max()
-    elastic = substeps * np.diff(system.starts[:, 1]).astype(np.float64)
+    triangles = np.diff(system.starts[:, 1])
+    elastic = substeps * triangles.astype(np.float64)
+    chosen = schedule(triangles, system.substeps, threads=None if scene.contact is None else 1)
     work = math.ceil(duration / TICK) * (float(elastic.sum()) + PARTICLE_WORK * alive * int(system.free.sum()))
     return SimulationPlan(
         frames=frames,
@@ -103,6 +110,8 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
         estimated_seconds=work / UPDATES_PER_SECOND,
         costliest_body=int(system.bodies[system.starts[elastic.argmax(), 0]]),
         sway=system.sway,
+        alone=len(chosen.alone),
+        shared=tuple(threads for _, threads in chosen.shared),
     )
 
 

@@ -150,7 +150,13 @@ class _TaichiThread:
 def _new_program(ti: Any) -> Any:
     _let_others_finish(ti.init)
     with _environment(_QUIET), _without_announcement(ti.lang.misc):
-        ti.init(arch=ti.cpu, offline_cache=_can_cache(ti), fast_math=False, real_matrix_scalarize=False)
+        ti.init(
+            arch=ti.cpu,
+            offline_cache=_can_cache(ti),
+            fast_math=False,
+            real_matrix_scalarize=False,
+            make_cpu_multithreading_loop=False,
+        )
     return ti.lang.impl.get_runtime().prog
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ..physics.plan import SimulationPlan
     from .animation import Animation, StageProgress
 
 __all__ = ["check_outputs", "report", "write_outputs"]
@@ -71,6 +72,7 @@ def report(animation: Animation) -> None:
         name = body.name or f"part {number + 1}"
         print(f"{name}: {len(body.mesh.vertices)} vertices, {len(body.mesh.triangles)} triangles", file=sys.stderr)
     print(f"{planned.substeps_per_frame:g} steps of the simulation a frame", file=sys.stderr)
+    print(_way(animation, planned), file=sys.stderr)
     loop = animation.motion.loop
     if loop is not None:
         print(
@@ -79,6 +81,15 @@ def report(animation: Animation) -> None:
         )
     for stage, seconds in animation.seconds.items():
         print(f"{stage:<10}{seconds:8.2f} s", file=sys.stderr)
+
+
+def _way(animation: Animation, planned: SimulationPlan) -> str:
+    """How the connected parts were gone about."""
+    if animation.scene.contact is not None:
+        return f"{planned.alone} connected parts, in step on one thread because they may touch"
+    shared = [f"one shared by {threads} threads" for threads in planned.shared]
+    alone = [f"{planned.alone} side by side, a thread for each"] if planned.alone else []
+    return f"connected parts: {', '.join(shared + alone)}"
 
 
 def _save_data(options: argparse.Namespace, animation: Animation) -> None:

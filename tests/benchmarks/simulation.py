@@ -27,17 +27,19 @@ from typing import Any
 
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
+from contact_cost import contact_costs
 from peers.problem import Advance, Problem
-from physanimator.physics import taichi_runtime
 from physanimator.physics.automatic import automatic_scene
 from physanimator.physics.material import Material, preset
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.meshing import mesh_from_mask
 from physanimator.physics.rig import Circle, Pinned, RigPoint
 from physanimator.physics.scene import Body, Scene
+from physanimator.physics.schedule import schedule
 from physanimator.physics.simulation import _solid, plan, simulate
 from physanimator.physics.solver import Drive, Solid, State
 from physanimator.physics.solver import advance as advance_solid
+from physanimator.physics.solver_arrays import LANES
 from physanimator.physics.stepping import TICK
 from physanimator.physics.system import assemble
 
@@ -63,10 +65,12 @@ import source_tree
 import numpy as np
 from physanimator.physics.solver import Drive, Solid, State, advance
 i, f = (lambda *v: np.array(v, np.int32)), (lambda *v: np.array(v, np.float32))
-solid = Solid(i([0, 0], [3, 1]), i(2), np.ones((3, 4), np.float32), np.ones(3, np.float32), i(-1, -1, -1),
-              np.zeros(3, np.float32), i([0, 1, 2]), f([1, 0, 0, 1]), f([1, 1, 1]))
+solid = Solid.of_triangles(
+    starts=i([0, 0], [3, 1]), substeps=i(2), vertices=np.ones((3, 4), np.float32), reach=np.ones(3, np.float32),
+    leaders=i(-1, -1, -1), grips=np.zeros(3, np.float32), triangles=i([0, 1, 2]), inverse_edges=f([1, 0, 0, 1]),
+    stiffness=f([1, 1, 1]))
 rig = np.zeros((2, 1, 6), np.float32)
-advance(solid, State.at_rest(3), Drive(rig, rig, i(0, 0), np.zeros((0, 6), np.float32), i(), (0.0, 0.0)))
+advance(solid, State.at_rest(solid), Drive(rig, rig, i(0, 0), np.zeros((0, 6), np.float32), i(), (0.0, 0.0)))
 print(time.perf_counter() - start)
 """
 """What a new process does before its first result: import, initialisation, first kernel."""
@@ -95,20 +99,26 @@ def solid_and_problem(mesh: TriangleMesh) -> tuple[Solid, Problem]:
     u[:, 0] = np.where(system.free, 0.01 * (np.maximum(depth, 0) / depth.max()) ** 2, 0)
     step = TICK / int(solid.substeps[0])
     decay = float(np.exp(-solid.vertices[0, 3] * step))
-    constants = solid.triangles, solid.inverse_edges, np.ascontiguousarray(solid.stiffness[:, :2])
+    rest, active = system.rest, system.active
+    mu, lam = system.lame
+    constants = (
+        np.ascontiguousarray(rest.triangles[active]),
+        rest.inverse_edges[active].reshape(-1, 4).astype(np.float32),
+        (np.column_stack([2 * mu, lam]) * rest.areas[:, None])[active].astype(np.float32),
+    )
     return solid, Problem(*constants, np.ascontiguousarray(solid.vertices[:, 2]), u, step, decay)
 
 
-def ours(solid: Solid) -> Advance:
-    """The solver itself, launched as ``simulate`` launches it."""
-    substeps, state = int(solid.substeps[0]), State.at_rest(len(solid.vertices))
+def ours(solid: Solid, threads: int | None = None) -> Advance:
+    """The solver itself, launched as ``simulate`` launches it; on so many threads where it shares the work at all."""
+    substeps, state = int(solid.substeps[0]), State.at_rest(solid)
 
     def advance(u: np.ndarray, v: np.ndarray, steps: int) -> None:
         ticks = steps // substeps
         zeros = np.zeros((ticks + 1, 1, 6), dtype=np.float32)
         nothing = np.zeros((0, 6), dtype=np.float32), np.zeros(0, dtype=np.int32)
         drive = Drive(zeros, zeros, np.zeros(ticks + 1, dtype=np.int32), *nothing, (0.0, 0.0))
-        advance_solid(solid, state._replace(displacement=u, velocity=v), drive)
+        advance_solid(solid, state._replace(displacement=u, velocity=v), drive, threads=threads)
 
     return advance
 
@@ -194,17 +204,20 @@ def start_up_seconds(rounds: int) -> float:
 
 def measure(rounds: int, sizes: dict[str, int]) -> dict[str, Any]:
     """Everything, each size in turn."""
-    mtri: dict[str, dict[str, float | None]] = {name: dict.fromkeys(sizes) for name in ("ours", *PEERS)}
+    mtri: dict[str, dict[str, float | None]] = {
+        name: dict.fromkeys(sizes) for name in ("ours", "ours_one_thread", *PEERS)
+    }
     differences: dict[str, dict[str, float | None]] = {name: dict.fromkeys(sizes) for name in PEERS}
-    triangles = {}
+    triangles, shared = {}, {}
     for size, count in sizes.items():
         mesh = mesh_of_about(count)
         solid, problem = solid_and_problem(mesh)
-        contestants = {"ours": ours(solid)}
+        contestants = {"ours": ours(solid), "ours_one_thread": ours(solid, threads=1)}
         contestants |= {name: ready for name in PEERS if (ready := peer(name, problem)) is not None}
         substeps, triangles[size] = int(solid.substeps[0]), len(problem.triangles)
+        shared[size] = bool(schedule(LANES * np.diff(solid.starts[:, 1]), solid.substeps).shared)
         for name, difference in checked(contestants, problem, substeps).items():
-            if name != "ours":
+            if name in differences:
                 differences[name][size] = difference
         for name, speed in speeds(contestants, problem, substeps, rounds).items():
             mtri[name][size] = speed
@@ -218,32 +231,11 @@ def measure(rounds: int, sizes: dict[str, int]) -> dict[str, Any]:
             "youngs_modulus_500": whole_second(Material(), rounds),
         },
         "startup_s": start_up_seconds(5),
-        "path": "serial within a connected part",
-        "parallel_loops": parallel_loops(rounds),
+        "shared_among_threads": shared,
+        "contact": contact_costs(rounds),
         "rounds": rounds,
         "machine": {"cores": os.cpu_count(), "processor": platform.machine(), "load": os.getloadavg()[0]},
     }
-
-
-def parallel_loops(rounds: int) -> dict[str, float]:
-    """What parallel loops within a part would cost: a substep needs two, and 50,000 triangles take 250 us on one core.
-
-    Gives what Taichi takes for eight empty loops, and for two equal tasks over one: 1 where both cores take
-    part, 2 where the system leaves Taichi's threads on one of them.
-    """
-    return taichi_runtime.run(_parallel_loops, rounds)
-
-
-def _parallel_loops(rounds: int) -> dict[str, float]:
-    import peers.parallel_loops
-
-    kernel = taichi_runtime.compiled(peers.parallel_loops.build_kernel)
-    values = np.zeros(64, dtype=np.float32)
-    kernel(1, 10, values)
-    empty = [timed(partial(kernel, 2, 0, values)) for _ in range(20 * rounds)]
-    one = [timed(partial(kernel, 1, 400_000, values)) for _ in range(rounds)]
-    two = [timed(partial(kernel, 2, 400_000, values)) for _ in range(rounds)]
-    return {"launch_and_8_empty_loops_us": min(empty) * 1e6, "two_tasks_over_one": min(two) / min(one)}
 
 
 def _ratio(numerator: float | None, denominator: float | None) -> float | None:

@@ -19,6 +19,7 @@ from physanimator.physics.kernel_functions import SPEED_FLOOR
 from physanimator.physics.kernels import BLOCKS_AT_ONCE, VERTICES_AT_ONCE
 from physanimator.physics.modes import highest_eigenvalue
 from physanimator.physics.particles import acceleration, all_particles
+from physanimator.physics.schedule import Schedule
 from physanimator.physics.solver import Drive, Solid, State, advance, internal_forces
 from physanimator.physics.solver_arrays import LANES, aligned
 from physanimator.physics.stepping import TICK, squared_frequencies, substeps
@@ -166,16 +167,16 @@ def test_ticks_may_be_launched_together_or_one_by_one() -> None:
 
 @pytest.mark.parametrize("threads", [1, 2, 3])
 def test_threads_that_share_a_part_find_the_same_to_the_last_bit(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(solver, "TRIANGLES_TO_SHARE", 1)
     rest = strip(24, 96)
     solid = solid_of(rest, led=tuple(range(25)))
-    alone, shared = State.at_rest(solid), State.at_rest(solid)
     assert len(rest.triangles) > 4 * LANES * BLOCKS_AT_ONCE
     assert len(rest.positions) > 4 * VERTICES_AT_ONCE
-    assert solver.schedule(solid, threads=threads).shared == ((0,) if threads > 1 else ())
-    for _ in range(3):
-        advance(solid, shared, still(4, gravity=(40.0, 0.0)), threads=threads)
+    alone, shared = State.at_rest(solid), State.at_rest(solid)
     advance(solid, alone, still(12, gravity=(40.0, 0.0)), threads=1)
+    chosen = Schedule(np.zeros(0, dtype=np.int32), ((0, threads),))
+    monkeypatch.setattr(solver, "schedule", lambda *_, **__: chosen)
+    for _ in range(3):
+        advance(solid, shared, still(4, gravity=(40.0, 0.0)))
     assert np.abs(alone.displacement).max() > 1e-3
     np.testing.assert_array_equal(shared.displacement, alone.displacement)
     np.testing.assert_array_equal(shared.velocity, alone.velocity)
@@ -254,6 +255,7 @@ def test_large_stretch_refines_the_step() -> None:
         vertices=solid_of(rest).vertices * np.float32([1, 1, 1, 0]),
         substeps=np.array([substeps(highest)], dtype=np.int32),
     )
+
     def energies(solid: Solid) -> list[float]:
         state, found = State.at_rest(solid), []
         state.displacement[:] = (rest.positions - rest.positions.mean(axis=0)) / 2
