@@ -1,8 +1,8 @@
 # mypy: ignore-errors
 """The Taichi kernel of bodies that touch: boundary vertices are kept out of the boundary edges of other parts.
 
-Parts that may touch go through a tick in the same intervals, at whose ends they are put apart; the others take their
-own steps. From pairs that are too near, velocities and positions are projected along the edge's normal, so that
+Parts that may touch go through a tick in the same steps, after each of which they are put apart; the others take their
+own. From pairs that are too near, velocities and positions are projected along the edge's normal, so that
 momentum stays. Friction acts on what slides along the edge.
 """
 
@@ -13,7 +13,7 @@ from typing import Any
 from .contact_functions import ContactOptions, build_contact_functions
 from .contact_surface import ContactSurface
 from .kernel_functions import build_functions
-from .kernels import array_types
+from .kernels import SMALL, array_types
 from .solver_arrays import Drive, Solid, State, WindTable
 from .stepping import TICK
 
@@ -21,7 +21,6 @@ __all__ = ["build_contact_kernel"]
 
 _LAST_PASSES = 4  # at the end of a tick; within it one a step is enough
 _LIST_INTERVALS = 4  # for which a list of contacts is good
-_STEPS_BETWEEN = 1  # most substeps of the stiffest part from one interval to the next
 
 
 def build_contact_kernel(ti: Any) -> Any:
@@ -43,19 +42,18 @@ def build_contact_kernel(ti: Any) -> Any:
         """Choose the steps of every part and begin its tick; returns the intervals of the parts that may touch."""
         most = 1
         for part in range(solid.substeps.shape[0]):
-            squared = highest_frequency(solid, state, solid.starts[part][1], solid.starts[part + 1][1])
+            first, end = solid.starts[part], solid.starts[part + 1]
+            squared = highest_frequency(solid, state, first[1] & SMALL, end[1] & SMALL)
             count = substeps_at(squared, solid.substeps[part])
-            surface.steps[part, 0], surface.steps[part, 1] = count, count
+            surface.steps[part] = count
             if surface.touching[part] == 1:
                 most = ti.max(most, count)
-        intervals = (most + _STEPS_BETWEEN - 1) // _STEPS_BETWEEN
         for part in range(solid.substeps.shape[0]):
             if surface.touching[part] == 1:
-                surface.steps[part, 0] = (surface.steps[part, 0] + intervals - 1) // intervals
-                surface.steps[part, 1] = surface.steps[part, 0] * intervals
+                surface.steps[part] = most
             for i in range(solid.starts[part][0], solid.starts[part + 1][0]):
-                begin_tick(i, tick, TICK / surface.steps[part, 1], solid, state, drive)
-        return intervals
+                begin_tick(i, tick, TICK / surface.steps[part], solid, state, drive)
+        return most
 
     @ti.func
     def advance_interval(
@@ -67,15 +65,18 @@ def build_contact_kernel(ti: Any) -> Any:
         pairs: ti.template(),
         surface: ti.template(),
     ):
-        """The substeps of all parts in an interval; those that touch nothing take all of a tick's in the first."""
+        """A step of the parts that may touch; those that touch nothing take all of a tick's in the first interval."""
         for part in range(solid.substeps.shape[0]):
-            steps, count = surface.steps[part, 0], surface.steps[part, 1]
+            count, steps = surface.steps[part], 1
+            if surface.touching[part] == 0:
+                steps = count
             taken = interval * steps
             if taken < count:
+                first, end = solid.starts[part], solid.starts[part + 1]
                 for step in range(taken, taken + steps):
-                    for n in range(solid.starts[part][1], solid.starts[part + 1][1]):
+                    for n in range(first[1] & SMALL, end[1] & SMALL):
                         add_forces(solid, state, n)
-                    for i in range(solid.starts[part][0], solid.starts[part + 1][0]):
+                    for i in range(first[0], end[0]):
                         move(i, tick, step, count, solid, state, drive, pairs)
 
     @ti.func
@@ -150,7 +151,7 @@ def build_contact_kernel(ti: Any) -> Any:
         contacts: pairs4,
         contact_data: types.vectors4,
         touching: types.integers,
-        steps: types.integers2,
+        steps: types.integers,
         memory: types.scalars,
         friction: ti.f32,
         thickness: ti.f32,

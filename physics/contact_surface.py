@@ -46,7 +46,7 @@ class ContactSurface(NamedTuple):
         contacts: a vertex and the two of the edge that it may touch, int32, shape [c, 4]; the last is unused.
         contact_data: the normal, where on the edge, and the distance to keep, float32, shape [c, 4].
         touching: whether each part is near to another, int32, shape [p].
-        steps: substeps of each part in an interval and in the whole tick, int32, shape [p, 2].
+        steps: substeps of each part in this tick, int32, shape [p].
         memory: how much farther than now the candidates foresee [side], and the number of contacts (-1: not yet
             found), float32, shape [2].
     """
@@ -118,7 +118,7 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         contacts=np.zeros((room, 4), np.int32),
         contact_data=np.zeros((room, 4), np.float32),
         touching=np.ones(len(bodies), np.int32),
-        steps=np.zeros((parts, 2), np.int32),
+        steps=np.zeros(parts, np.int32),
         memory=np.array([0.0, -1.0], np.float32),
     )
     return surface, still

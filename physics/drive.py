@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .leading import lead
-from .particles import Particles, all_particles
+from .particles import particles_at
 from .rig import RigPoint
 from .scene import Scene
 from .solver import CALM, Drive, WindTable
@@ -30,14 +30,14 @@ def drive(scene: Scene, first_tick: int, count: int) -> Drive:
     led = times if scene.loop is None else times % scene.loop
     side = scene.bodies[0].mesh.longest_side
     leads, rates = _rig_tables(scene.rig_points, led, side)
-    groups = [all_particles(scene.strokes, float(t) + TICK / 2) for t in times[:-1]] if scene.strokes else []
-    sizes = [len(group.kind) for group in groups] or [0] * count
+    found, counts = particles_at(scene.strokes, times[:-1] + TICK / 2)
+    rows = found.position / side, found.direction, found.radius / side, found.strength
     return Drive(
         rig_leads=leads,
         rig_rates=rates,
-        first_particles=np.cumsum([0, *sizes]).astype(np.int32),
-        particles=np.concatenate([_rows(group, side) for group in groups] or [np.zeros((0, 6), np.float32)]),
-        kinds=np.concatenate([group.kind for group in groups] or [np.zeros(0, np.int32)]),
+        first_particles=np.concatenate([[0], np.cumsum(counts)]).astype(np.int32),
+        particles=np.column_stack(rows).astype(np.float32),
+        kinds=found.kind,
         gravity=scene.gravity,
         wind=_wind_table(scene, first_tick, count),
     )
@@ -51,11 +51,6 @@ def _rig_tables(
     for index, rig_point in enumerate(rig_points):
         tables[:, :, index] = np.array(lead(rig_point.motion, rig_point.position, times)) / ([1] * 4 + [side] * 2)
     return tables[0], tables[1]
-
-
-def _rows(group: Particles, side: float) -> NDArray[np.float32]:
-    scaled = (group.position / side, group.direction, group.radius / side, group.strength)
-    return np.column_stack(scaled).astype(np.float32)
 
 
 def _wind_table(scene: Scene, first_tick: int, count: int) -> WindTable:

@@ -17,7 +17,7 @@ from .kernel_functions import build_functions
 from .solver_arrays import LANES, Drive, Solid, State, WindTable
 from .stepping import TICK
 
-__all__ = ["BLOCKS_AT_ONCE", "VERTICES_AT_ONCE", "Kernels", "array_types", "build_kernels"]
+__all__ = ["BLOCKS_AT_ONCE", "SMALL", "VERTICES_AT_ONCE", "Kernels", "array_types", "build_kernels"]
 
 BLOCKS_AT_ONCE = 24
 """Blocks of triangles that a thread takes from the common work."""
@@ -25,7 +25,7 @@ BLOCKS_AT_ONCE = 24
 VERTICES_AT_ONCE = 192
 """Vertices that a thread takes from the common work."""
 
-_SMALL = 0x7FFFFFF
+SMALL = 0x7FFFFFF
 """Masks the ends of loops over blocks, which changes nothing but tells the compiler that 48 n fits into 32 bits."""
 
 
@@ -100,12 +100,12 @@ def build_kernels(ti: Any) -> Kernels:
     ):
         first, end = solid.starts[part], solid.starts[part + 1]
         for tick in range(drive.first_particles.shape[0] - 1):
-            squared = highest_frequency(solid, state, first[1] & _SMALL, end[1] & _SMALL)
+            squared = highest_frequency(solid, state, first[1] & SMALL, end[1] & SMALL)
             count = substeps_at(squared, solid.substeps[part])
             for i in range(first[0], end[0]):
                 begin_tick(i, tick, TICK / count, solid, state, drive)
             for step in range(count):
-                for n in range(first[1] & _SMALL, end[1] & _SMALL):
+                for n in range(first[1] & SMALL, end[1] & SMALL):
                     add_forces(solid, state, n)
                 for i in range(first[0], end[0]):
                     move(i, tick, step, count, solid, state, drive, pairs)
@@ -136,7 +136,7 @@ def build_kernels(ti: Any) -> Kernels:
         piece = ti.atomic_add(claims[1 + phase], 1)
         while piece < pieces:
             low = first + piece * at_once
-            high = ti.min(low + at_once, end) & _SMALL
+            high = ti.min(low + at_once, end) & SMALL
             if ti.static(work == "plan"):
                 ti.atomic_max(highest[tick], highest_frequency(solid, state, low, high))
             elif ti.static(work == "forces"):

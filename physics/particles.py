@@ -16,9 +16,11 @@ from numpy.typing import NDArray
 from .strokes import FALLOFFS, ROUNDING, STROKE_KINDS, EnergyStroke
 from .travel import factors
 
-__all__ = ["Particles", "acceleration", "all_particles", "most_alive", "particles"]
+__all__ = ["Particles", "acceleration", "all_particles", "most_alive", "particles", "particles_at"]
 
 FloatArray = NDArray[np.float64]
+
+_NOTHING = np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0)
 
 
 class Particles(NamedTuple):
@@ -54,18 +56,18 @@ def particles(stroke: EnergyStroke, t: float) -> tuple[FloatArray, FloatArray]:
         Positions [px], shape [p, 2], and unit directions of travel, shape [p, 2]. At a corner the direction is that
         of the segment ahead; a resting particle has that of the first segment, and (0, 0) on a path without one.
     """
-    positions, directions, _ = _placed(stroke, t)
+    positions, directions, _ = _placed(stroke, _all_ages(stroke, t))
     return positions, directions
 
 
-def _placed(stroke: EnergyStroke, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Positions, directions, and the factor on the strength of each particle, shape [p]."""
+def _placed(stroke: EnergyStroke, ages: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Positions, directions, and the factor on the strength of particles of some ages [s], shape [p]."""
     path = stroke.polyline
     if stroke.rests:
-        alive = int(_emits(stroke, t))
         directions = path.directions[:1] if len(path.directions) else np.zeros((1, 2))
-        return path.points[:alive], directions[:alive], factors(stroke.strength_keys, np.zeros(alive))
-    distances = _all_distances(stroke, t)
+        first = np.zeros(len(ages), dtype=np.int64)
+        return path.points[first], directions[first], factors(stroke.strength_keys, np.zeros(len(ages)))
+    distances = stroke.travel.distance(ages)
     segments = np.searchsorted(path.arc_lengths[1:-1], distances, side="right")
     directions = path.directions[segments]
     offsets = distances - path.arc_lengths[segments]
@@ -80,18 +82,38 @@ def all_particles(strokes: Sequence[EnergyStroke], t: float) -> Particles:
         strokes: the strokes.
         t: time [s].
     """
-    each = [_placed(stroke, t) for stroke in strokes]
-    counts = [len(positions) for positions, _, _ in each]
-    nothing = [np.zeros((0, 2))]
-    kinds = [STROKE_KINDS.index(s.kind) + len(STROKE_KINDS) * FALLOFFS.index(s.falloff) for s in strokes]
-    along = np.concatenate([strengths for _, _, strengths in each] or [np.zeros(0)])
-    return Particles(
-        kind=np.repeat(np.array(kinds, dtype=np.int32), counts),
-        position=np.concatenate([positions for positions, _, _ in each] or nothing),
-        direction=np.concatenate([directions for _, directions, _ in each] or nothing),
-        radius=np.repeat(np.array([s.radius for s in strokes], dtype=np.float64), counts),
-        strength=np.repeat(np.array([s.strength for s in strokes], dtype=np.float64), counts) * along,
+    return particles_at(strokes, (t,))[0]
+
+
+def particles_at(strokes: Sequence[EnergyStroke], times: Sequence[float]) -> tuple[Particles, NDArray[np.int64]]:
+    """The particles of several strokes that are alive at some times, one time after the other.
+
+    Args:
+        strokes: the strokes.
+        times: [s], n of them.
+
+    Returns:
+        The particles of each time in the order of the strokes, and how many there are at each time, shape [n].
+    """
+    ages = [[_all_ages(stroke, t) for t in times] for stroke in strokes]
+    counts = np.array([[len(group) for group in groups] for groups in ages], dtype=np.int64).reshape(-1, len(times))
+    order = np.argsort(np.repeat(np.tile(np.arange(len(times)), len(strokes)), counts.ravel()), kind="stable")
+    placed = [_placed(stroke, np.concatenate(groups)) for stroke, groups in zip(strokes, ages, strict=True) if groups]
+    position, direction, along = (
+        np.concatenate([nothing, *parts])[order]
+        for nothing, parts in zip(_NOTHING, zip(*placed, strict=True) if placed else ((), (), ()), strict=True)
     )
+    kinds = [STROKE_KINDS.index(s.kind) + len(STROKE_KINDS) * FALLOFFS.index(s.falloff) for s in strokes]
+    of_stroke = np.repeat(np.arange(len(strokes)), counts.sum(axis=1))[order]
+    radius, strength = (np.array([getattr(s, name) for s in strokes], dtype=float) for name in ("radius", "strength"))
+    found = Particles(
+        kind=np.array(kinds, dtype=np.int32)[of_stroke],
+        position=position,
+        direction=direction,
+        radius=radius[of_stroke],
+        strength=strength[of_stroke] * along,
+    )
+    return found, counts.sum(axis=0)
 
 
 def acceleration(stroke: EnergyStroke, points: FloatArray, t: float) -> FloatArray:
@@ -112,7 +134,7 @@ def acceleration(stroke: EnergyStroke, points: FloatArray, t: float) -> FloatArr
     """
     points = np.asarray(points, dtype=np.float64).reshape(-1, 2)
     total = np.zeros_like(points)
-    for position, direction, factor in zip(*_placed(stroke, t), strict=True):
+    for position, direction, factor in zip(*_placed(stroke, _all_ages(stroke, t)), strict=True):
         offset = points - position
         distance = np.hypot(offset[:, 0], offset[:, 1])
         near = np.flatnonzero(distance <= stroke.radius)
@@ -145,25 +167,26 @@ def _emits(stroke: EnergyStroke, t: float) -> bool:
     return stroke.end is None or since < stroke.end - stroke.start
 
 
-def _all_distances(stroke: EnergyStroke, t: float) -> FloatArray:
-    """How far each living particle has travelled, those of every repetition [px], the oldest first, shape [p]."""
+def _all_ages(stroke: EnergyStroke, t: float) -> FloatArray:
+    """How long ago each living particle left, those of every repetition [s], the oldest first, shape [p]."""
+    if stroke.rests:
+        return np.zeros(int(_emits(stroke, t)))
     if stroke.repeat is None or stroke.end is None:
-        return _distances(stroke, t)
+        return _ages(stroke, t)
     window, since = stroke.end - stroke.start, t - stroke.start
     last = math.floor(since / stroke.repeat + ROUNDING)
     first = max(0, math.floor((since - window - stroke.travel.lifetime) / stroke.repeat))
-    each = [_distances(stroke, t - number * stroke.repeat) for number in range(first, last + 1)]
+    each = [_ages(stroke, t - number * stroke.repeat) for number in range(first, last + 1)]
     return np.concatenate(each) if each else np.zeros(0)
 
 
-def _distances(stroke: EnergyStroke, t: float) -> FloatArray:
-    """How far each living particle of the first repetition has travelled [px], the oldest first, shape [p]."""
+def _ages(stroke: EnergyStroke, t: float) -> FloatArray:
+    """How long ago each living particle of the first repetition left [s], the oldest first, shape [p]."""
     age = (t - stroke.start) / stroke.interval  # of the first particle, in intervals
     lifetime = min(stroke.travel.lifetime / stroke.interval, 1e12)  # a crawling particle may outlive every float
     first = max(0, math.floor(age - lifetime + ROUNDING) + 1)
     last = min(math.floor(age + ROUNDING), stroke.emissions - 1)
-    ages = t - stroke.start - np.arange(first, last + 1) * stroke.interval
-    return stroke.travel.distance(ages)
+    return t - stroke.start - np.arange(first, last + 1) * stroke.interval
 
 
 def _effect(stroke: EnergyStroke, offset: FloatArray, distance: FloatArray, direction: FloatArray) -> FloatArray:

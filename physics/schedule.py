@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["TRIANGLES_PER_THREAD", "Schedule", "schedule"]
+__all__ = ["TRIANGLES_PER_THREAD", "Schedule", "most_threads", "schedule"]
 
 TRIANGLES_PER_THREAD = 750
 """Smallest share of a part that is worth a thread's while: threads meet twice in a substep, for a microsecond."""
@@ -41,7 +41,7 @@ def schedule(triangles: NDArray[np.integer], substeps: NDArray[np.integer], *, t
         substeps: of each part in a tick, shape [p].
         threads: most threads; one for each processor that this process may use when None.
     """
-    threads = min(_processors() if threads is None else threads, _MOST_THREADS)
+    threads = most_threads() if threads is None else min(threads, _MOST_THREADS)
     work = triangles.astype(np.float64) * substeps
     shares = np.minimum(triangles // TRIANGLES_PER_THREAD, threads)
     together = work / (_EFFICIENCY * np.maximum(shares, 1)) + (work.sum() - work) / threads
@@ -51,6 +51,7 @@ def schedule(triangles: NDArray[np.integer], substeps: NDArray[np.integer], *, t
     return Schedule(alone[np.argsort(-work[alone], kind="stable")].astype(np.int32), shared)
 
 
-def _processors() -> int:
-    """Processors that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+def most_threads() -> int:
+    """Threads that are worth having: one for each processor that this process may use, but not too many."""
+    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return min(available, _MOST_THREADS)

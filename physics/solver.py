@@ -5,6 +5,7 @@ The state is the displacement u = x - X rather than the position, so that F = I 
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
 import numpy as np
@@ -13,10 +14,13 @@ from numpy.typing import NDArray
 from . import taichi_runtime
 from .kernel_functions import MOST_REFINEMENT
 from .kernels import build_kernels
+from .pace import Pace
 from .schedule import Schedule, schedule
 from .solver_arrays import CALM, LANES, Drive, Solid, State, WindTable, aligned, check_aligned
 
 __all__ = ["CALM", "Drive", "Solid", "State", "WindTable", "advance", "internal_forces"]
+
+_paces: dict[tuple[int, int], Pace] = {}  # by threads and size of the part; used on the Taichi thread only
 
 
 def advance(solid: Solid, state: State, drive: Drive, *, threads: int | None = None) -> None:
@@ -56,9 +60,17 @@ def _advance(solid: Solid, state: State, drive: Drive, chosen: Schedule) -> None
         kernels.advance(chosen.alone, *arguments)
     ticks = len(drive.first_particles) - 1
     for part, threads in chosen.shared:
-        phases = 2 * ticks * (1 + MOST_REFINEMENT * int(solid.substeps[part]))
-        claims, highest = np.zeros(1 + phases, dtype=np.int32), np.zeros(ticks, dtype=np.float32)
-        kernels.advance_together(part, threads, claims, highest, *arguments)
+        triangles = LANES * int(solid.starts[part + 1, 1] - solid.starts[part, 1])
+        pace = _paces.setdefault((threads, triangles.bit_length()), Pace())
+        shared, start = pace.share(), time.perf_counter()
+        if shared:
+            phases = 2 * ticks * (1 + MOST_REFINEMENT * int(solid.substeps[part]))
+            claims, highest = np.zeros(1 + phases, dtype=np.int32), np.zeros(ticks, dtype=np.float32)
+            kernels.advance_together(part, threads, claims, highest, *arguments)
+        else:
+            kernels.advance(np.array([part], dtype=np.int32), *arguments)
+        work = float(triangles * solid.substeps[part] * ticks)
+        pace.learn(shared=shared, work=work, seconds=time.perf_counter() - start)
 
 
 def _internal_forces(*arrays: NDArray[Any]) -> None:

@@ -86,8 +86,8 @@ def report(animation: Animation) -> None:
 def _way(animation: Animation, planned: SimulationPlan) -> str:
     """How the connected parts were gone about."""
     if animation.scene.contact is not None:
-        return f"{planned.alone} connected parts, in step on one thread because they may touch"
-    shared = [f"one shared by {threads} threads" for threads in planned.shared]
+        return f"connected parts: {planned.alone} on one thread, in step where they may touch"
+    shared = [f"one shared by up to {threads} threads, where that is faster" for threads in planned.shared]
     alone = [f"{planned.alone} side by side, a thread for each"] if planned.alone else []
     return f"connected parts: {', '.join(shared + alone)}"
 

@@ -17,7 +17,7 @@ from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.meshing import mesh_from_mask
 from physanimator.physics.motion import Motion
-from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Polygon, RigPoint
+from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.simulation import _solid, simulate
 from physanimator.physics.strokes import EnergyStroke
@@ -227,6 +227,17 @@ def test_contact_that_never_happens_changes_nothing_to_speak_of() -> None:
     np.testing.assert_allclose(
         simulate(replace(apart, contact=Contact()), frames=12).positions, without.positions, atol=1e-3
     )
+
+
+def test_a_body_by_itself_moves_as_without_contact_while_others_touch() -> None:
+    stiff = Material(youngs_modulus=2_000.0, damping=0.5)
+    pair = (Body(box(150, 100, 250, 300), SOFT), Body(box(252, 150, 350, 350), SOFT))
+    held = RigPoint((40.0, 60.0), Polygon(((20.0, 20.0), (70.0, 20.0), (70.0, 60.0), (20.0, 60.0))), Pinned(), 2)
+    together = Scene((*pair, Body(box(20, 20, 70, 250), stiff)), (pull(256, 400, 5.0),), (held,))
+    alone = simulate(together, frames=12).positions[:, -len(together.bodies[2].mesh.vertices) :]
+    touching = simulate(replace(together, contact=Contact()), frames=12).positions[:, -alone.shape[1] :]
+    assert np.abs(alone - alone[0]).max() > 0.5
+    np.testing.assert_allclose(touching, alone, atol=1e-2)
 
 
 def test_colliders_without_contact_do_nothing() -> None:

@@ -18,6 +18,7 @@ from physanimator.physics.elasticity import (
 from physanimator.physics.kernel_functions import SPEED_FLOOR
 from physanimator.physics.kernels import BLOCKS_AT_ONCE, VERTICES_AT_ONCE
 from physanimator.physics.modes import highest_eigenvalue
+from physanimator.physics.pace import Pace
 from physanimator.physics.particles import acceleration, all_particles
 from physanimator.physics.schedule import Schedule
 from physanimator.physics.solver import Drive, Solid, State, advance, internal_forces
@@ -175,6 +176,7 @@ def test_threads_that_share_a_part_find_the_same_to_the_last_bit(threads: int, m
     advance(solid, alone, still(12, gravity=(40.0, 0.0)), threads=1)
     chosen = Schedule(np.zeros(0, dtype=np.int32), ((0, threads),))
     monkeypatch.setattr(solver, "schedule", lambda *_, **__: chosen)
+    monkeypatch.setattr(Pace, "share", lambda _: True)
     for _ in range(3):
         advance(solid, shared, still(4, gravity=(40.0, 0.0)))
     assert np.abs(alone.displacement).max() > 1e-3
