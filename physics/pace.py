@@ -20,6 +20,7 @@ class Pace:
     def __init__(self) -> None:
         self._speeds = {True: math.inf, False: math.inf}  # what is untried may be the fastest
         self._launches = 0
+        self._compiled = {True: False, False: False}
 
     def share(self) -> bool:
         """Whether to share the part in the next launch."""
@@ -29,5 +30,8 @@ class Pace:
 
     def learn(self, *, shared: bool, work: float, seconds: float) -> None:
         """Take note of a launch: triangle updates, and the time that they took [s]."""
+        if not self._compiled[shared]:  # that took its time, too
+            self._compiled[shared] = True
+            return
         before, now = self._speeds[shared], work / max(seconds, 1e-9)
         self._speeds[shared] = now if before == math.inf else before + _LATEST * (now - before)
