@@ -37,7 +37,9 @@ def build_contact_kernel(ti: Any) -> Any:
     pairs4 = ti.types.ndarray(dtype=ti.types.vector(4, ti.i32), ndim=1)
 
     @ti.func
-    def plan_tick(tick: ti.i32, solid: ti.template(), state: ti.template(), drive: ti.template(), surface: ti.template()):
+    def plan_tick(
+        tick: ti.i32, solid: ti.template(), state: ti.template(), drive: ti.template(), surface: ti.template()
+    ):
         """Choose the steps of every part and begin its tick; returns the intervals of the parts that may touch."""
         most = 1
         for part in range(solid.substeps.shape[0]):
@@ -115,6 +117,9 @@ def build_contact_kernel(ti: Any) -> Any:
         elements: types.blocks,
         first_slots: types.integers,
         slots: types.integers,
+        anchors: types.integers,
+        tethers: types.scalars,
+        wind_response: types.scalars,
         u: types.vectors,
         v: types.vectors,
         push: types.vectors,
@@ -159,7 +164,21 @@ def build_contact_kernel(ti: Any) -> Any:
             advance_tick(
                 tick,
                 ti.static(
-                    Solid(starts, planned, vertices, reach, leaders, grips, corners, elements, first_slots, slots)
+                    Solid(
+                        starts,
+                        planned,
+                        vertices,
+                        reach,
+                        leaders,
+                        grips,
+                        corners,
+                        elements,
+                        first_slots,
+                        slots,
+                        anchors,
+                        tethers,
+                        wind_response,
+                    )
                 ),
                 ti.static(State(u, v, push, decay, corner_forces)),
                 ti.static(

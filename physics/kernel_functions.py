@@ -168,9 +168,12 @@ def build_functions(ti: Any) -> SimpleNamespace:
         total = vec2(0.0, 0.0)
         if vertex[2] > 0.0:
             q = place(vertex) + state.displacement[i]
-            total = vec2(drive.gravity[0], drive.gravity[1]) + wind_push(q, tick, drive)
+            total = wind_push(q, tick, drive)
             for p in range(drive.first_particles[tick], drive.first_particles[tick + 1]):
                 total = total + particle_push(q, drive, p)
+            if solid.wind_response.shape[0] > 0:
+                total = total * solid.wind_response[i]
+            total = total + vec2(drive.gravity[0], drive.gravity[1])
         state.push[i] = total
 
     @ti.func
@@ -194,6 +197,36 @@ def build_functions(ti: Any) -> SimpleNamespace:
         """Velocity after a step of the critically damped spring between a vertex and its goal, taken implicitly."""
         rate = dt * FIRMNESS * grip
         return (speed + (rate * rate * (after - u) + 2.0 * rate * (after - before)) / dt) / (1.0 + rate * (2.0 + rate))
+
+    @ti.func
+    def tether(
+        i: ti.i32,
+        tick: ti.i32,
+        begin: ti.f32,
+        end: ti.f32,
+        dt: ti.f32,
+        solid: any_value,
+        state: any_value,
+        drive: any_value,
+    ):
+        """Put a vertex that is farther from its anchor than its tether allows back, and let it move no farther away.
+
+        Where the anchor is follows from its leader: its own entries may be written by another thread at this moment.
+        """
+        u, v = ti.static(state.displacement, state.velocity)
+        anchor = solid.anchors[i]
+        if anchor >= 0:
+            x, leader = place(solid.vertices[anchor]), solid.leaders[anchor]
+            held, rate = vec2(0.0, 0.0), vec2(0.0, 0.0)
+            if leader >= 0:
+                held = goal(x, tick, leader, end, drive)
+                rate = (held - goal(x, tick, leader, begin, drive)) / dt
+            offset = place(solid.vertices[i]) - x + (u[i] - held)
+            distance, length = offset.norm(), solid.tethers[i]
+            if distance > length:
+                outward = offset / distance
+                u[i] = u[i] - (distance - length) * outward
+                v[i] = v[i] - ti.max((v[i] - rate).dot(outward), 0.0) * outward
 
     @ti.func
     def move(
@@ -225,6 +258,8 @@ def build_functions(ti: Any) -> SimpleNamespace:
                 speed = speed * (limit / ti.sqrt(squared_speed))
             v[i] = speed
             u[i] = u[i] + dt * speed
+            if solid.anchors.shape[0] > 0:
+                tether(i, tick, begin, end, dt, solid, state, drive)
         else:
             v[i] = led(place(vertex), drive.rig_rates, tick + 1, leader)
             u[i] = goal(place(vertex), tick, leader, end, drive)

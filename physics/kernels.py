@@ -95,7 +95,9 @@ def build_kernels(ti: Any) -> Kernels:
     begin_tick, move = functions.begin_tick, functions.move
 
     @ti.func
-    def advance_part(part: ti.i32, solid: ti.template(), state: ti.template(), drive: ti.template(), pairs: ti.template()):
+    def advance_part(
+        part: ti.i32, solid: ti.template(), state: ti.template(), drive: ti.template(), pairs: ti.template()
+    ):
         first, end = solid.starts[part], solid.starts[part + 1]
         for tick in range(drive.first_particles.shape[0] - 1):
             squared = highest_frequency(solid, state, first[1] & _SMALL, end[1] & _SMALL)
@@ -195,6 +197,9 @@ def build_kernels(ti: Any) -> Kernels:
         elements: types.blocks,
         first_slots: types.integers,
         slots: types.integers,
+        anchors: types.integers,
+        tethers: types.scalars,
+        wind_response: types.scalars,
         u: types.vectors,
         v: types.vectors,
         push: types.vectors,
@@ -217,7 +222,21 @@ def build_kernels(ti: Any) -> Kernels:
             advance_part(
                 parts[n],
                 ti.static(
-                    Solid(starts, planned, vertices, reach, leaders, grips, corners, elements, first_slots, slots)
+                    Solid(
+                        starts,
+                        planned,
+                        vertices,
+                        reach,
+                        leaders,
+                        grips,
+                        corners,
+                        elements,
+                        first_slots,
+                        slots,
+                        anchors,
+                        tethers,
+                        wind_response,
+                    )
                 ),
                 ti.static(State(u, v, push, decay, corner_forces)),
                 ti.static(
@@ -250,6 +269,9 @@ def build_kernels(ti: Any) -> Kernels:
         elements: types.blocks,
         first_slots: types.integers,
         slots: types.integers,
+        anchors: types.integers,
+        tethers: types.scalars,
+        wind_response: types.scalars,
         u: types.vectors,
         v: types.vectors,
         push: types.vectors,
@@ -272,7 +294,21 @@ def build_kernels(ti: Any) -> Kernels:
             work_together(
                 part,
                 ti.static(
-                    Solid(starts, planned, vertices, reach, leaders, grips, corners, elements, first_slots, slots)
+                    Solid(
+                        starts,
+                        planned,
+                        vertices,
+                        reach,
+                        leaders,
+                        grips,
+                        corners,
+                        elements,
+                        first_slots,
+                        slots,
+                        anchors,
+                        tethers,
+                        wind_response,
+                    )
                 ),
                 ti.static(State(u, v, push, decay, corner_forces)),
                 ti.static(
@@ -292,9 +328,7 @@ def build_kernels(ti: Any) -> Kernels:
             )
 
     @ti.kernel
-    def forces(
-        corners: types.index_blocks, elements: types.blocks, u: types.vectors, corner_forces: types.pair_blocks
-    ):
+    def forces(corners: types.index_blocks, elements: types.blocks, u: types.vectors, corner_forces: types.pair_blocks):
         ti.loop_config(serialize=True)
         for n in range(corners.shape[0]):
             elastic = ti.static(_Elastic(corners, elements, u, corner_forces))

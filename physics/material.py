@@ -33,6 +33,10 @@ class Material:
         sway_frequency: when set, Young's modulus is chosen so that the body's longest connected part sways this often
             about its pinned points [Hz], 0.001 to 1000; shorter parts sway faster, as pendulums do, and parts without
             a pinned point keep ``youngs_modulus``.
+        stretch_limit: when set, no point gets farther from where its part is held than this factor times the way to
+            there through the drawing [1], at least 1: 1.03 looks inextensible and yet bends freely. Parts of which
+            nothing is held do not feel it.
+        wind_response: factor on the acceleration by wind and strokes [1]: light things fly, heavy ones hardly move.
         stiffness_scale: factor on Young's modulus for each triangle, shape [t]; None means 1 everywhere.
         damping_scale: factor on the damping for each triangle, shape [t]; None means 1 everywhere.
         density_scale: factor on the density for each triangle, shape [t]; None means 1 everywhere.
@@ -48,6 +52,8 @@ class Material:
     name: str = ""
     damping_scale: NDArray[np.float64] | None = None
     density_scale: NDArray[np.float64] | None = None
+    stretch_limit: float | None = None
+    wind_response: float = 1.0
 
     def __post_init__(self) -> None:
         bounded = 0 < self.youngs_modulus <= STIFFEST
@@ -57,6 +63,9 @@ class Material:
         require("damping", self.damping, 0 <= self.damping <= LARGEST, f"0 to {LARGEST} per second")
         if self.sway_frequency is not None:
             require("sway_frequency", self.sway_frequency, 0.001 <= self.sway_frequency <= 1_000, "0.001 to 1000 Hz")
+        if self.stretch_limit is not None:
+            require("stretch_limit", self.stretch_limit, 1 <= self.stretch_limit <= LARGEST, f"1 to {LARGEST}")
+        require("wind_response", self.wind_response, 0 <= self.wind_response <= LARGEST, f"0 to {LARGEST}")
         for field in SCALES:
             if getattr(self, field) is not None:
                 object.__setattr__(self, field, _checked_scale(field, getattr(self, field)))
