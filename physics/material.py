@@ -90,11 +90,19 @@ def _checked_scale(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 
 PRESETS: dict[str, Material] = {
-    "hair": Material(youngs_modulus=400.0, damping=1.4, sway_frequency=0.9, name="hair"),
-    "ribbon": Material(youngs_modulus=250.0, damping=1.2, sway_frequency=1.1, name="ribbon"),
-    "cloth": Material(youngs_modulus=300.0, damping=1.6, sway_frequency=1.0, name="cloth"),
-    "leaf": Material(youngs_modulus=900.0, damping=1.8, sway_frequency=1.0, name="leaf"),
-    "jelly": Material(youngs_modulus=150.0, poisson_ratio=0.42, damping=1.2, sway_frequency=2.2, name="jelly"),
+    "hair": Material(
+        youngs_modulus=400.0, damping=1.0, sway_frequency=0.7, stretch_limit=1.03, wind_response=0.6, name="hair"
+    ),
+    "ribbon": Material(
+        youngs_modulus=250.0, damping=1.4, sway_frequency=2.1, stretch_limit=1.02, wind_response=4.5, name="ribbon"
+    ),
+    "cloth": Material(
+        youngs_modulus=300.0, damping=4.0, sway_frequency=0.6, stretch_limit=1.06, wind_response=0.5, name="cloth"
+    ),
+    "leaf": Material(youngs_modulus=900.0, damping=2.5, sway_frequency=2.8, wind_response=1.5, name="leaf"),
+    "jelly": Material(
+        youngs_modulus=40.0, poisson_ratio=0.45, damping=0.5, sway_frequency=1.5, wind_response=1.6, name="jelly"
+    ),
 }
 
 
