@@ -32,7 +32,7 @@ def build_contact_kernel(ti: Any) -> Any:
         functions.highest_frequency,
         functions.substeps_at,
     )
-    begin_tick, move = functions.begin_tick, functions.move
+    begin_tick, move_vertices = functions.begin_tick, functions.move_vertices
     find_contacts, put_apart = contact.find_contacts, contact.put_apart
     pairs4 = ti.types.ndarray(dtype=ti.types.vector(4, ti.i32), ndim=1)
 
@@ -75,8 +75,8 @@ def build_contact_kernel(ti: Any) -> Any:
                 for step in range(taken, taken + steps):
                     for n in range(solid.starts[part][1], solid.starts[part + 1][1]):
                         add_forces(solid, state, n)
-                    for i in range(solid.starts[part][0], solid.starts[part + 1][0]):
-                        move(i, tick, step, count, solid, state, drive, pairs)
+                    first, end = solid.starts[part][0], solid.starts[part + 1][0]
+                    move_vertices(first, end, tick, step, count, solid, state, drive, pairs)
 
     @ti.func
     def advance_tick(

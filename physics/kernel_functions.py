@@ -200,14 +200,7 @@ def build_functions(ti: Any) -> SimpleNamespace:
 
     @ti.func
     def tether(
-        i: ti.i32,
-        tick: ti.i32,
-        begin: ti.f32,
-        end: ti.f32,
-        dt: ti.f32,
-        solid: any_value,
-        state: any_value,
-        drive: any_value,
+        i: ti.i32, tick: ti.i32, step: ti.i32, count: ti.i32, solid: any_value, state: any_value, drive: any_value
     ):
         """Put a vertex that is farther from its anchor than its tether allows back, and let it move no farther away.
 
@@ -216,6 +209,7 @@ def build_functions(ti: Any) -> SimpleNamespace:
         u, v = ti.static(state.displacement, state.velocity)
         anchor = solid.anchors[i]
         if anchor >= 0:
+            begin, end, dt = step / ti.cast(count, ti.f32), (step + 1.0) / count, TICK / count
             x, leader = place(solid.vertices[anchor]), solid.leaders[anchor]
             held, rate = vec2(0.0, 0.0), vec2(0.0, 0.0)
             if leader >= 0:
@@ -258,11 +252,31 @@ def build_functions(ti: Any) -> SimpleNamespace:
                 speed = speed * (limit / ti.sqrt(squared_speed))
             v[i] = speed
             u[i] = u[i] + dt * speed
-            if solid.anchors.shape[0] > 0:
-                tether(i, tick, begin, end, dt, solid, state, drive)
         else:
             v[i] = led(place(vertex), drive.rig_rates, tick + 1, leader)
             u[i] = goal(place(vertex), tick, leader, end, drive)
+
+    @ti.func
+    def move_vertices(
+        first: ti.i32,
+        last: ti.i32,
+        tick: ti.i32,
+        step: ti.i32,
+        count: ti.i32,
+        solid: any_value,
+        state: any_value,
+        drive: any_value,
+        pairs_of_forces: any_value,
+    ):
+        """One of the substeps of the vertices from the first to before the last one in a tick.
+
+        Tethers have a loop of their own, which costs nothing where there are none.
+        """
+        for i in range(first, last):
+            move(i, tick, step, count, solid, state, drive, pairs_of_forces)
+        if solid.anchors.shape[0] > 0:
+            for i in range(first, last):
+                tether(i, tick, step, count, solid, state, drive)
 
     return SimpleNamespace(
         add_forces=add_forces,
@@ -270,5 +284,5 @@ def build_functions(ti: Any) -> SimpleNamespace:
         substeps_at=substeps_at,
         begin_tick=begin_tick,
         place=place,
-        move=move,
+        move_vertices=move_vertices,
     )
