@@ -103,6 +103,7 @@ def _figure(options: argparse.Namespace) -> None:
     from .rendering.collision_figure import collision_figure
     from .rendering.figures import stiffness_figure, strokes_figure
     from .rendering.images import check_image_output, load_image, save_image
+    from .rendering.preset_figure import presets_figure
 
     check_image_output(options.output)
     with ExitStack() as bars:
@@ -112,6 +113,8 @@ def _figure(options: argparse.Namespace) -> None:
             figure = stiffness_figure(progress=progress)
         elif options.name == "collision":
             figure = collision_figure(progress=progress)
+        elif options.name == "presets":
+            figure = presets_figure(progress=progress)
         else:
             from .physics.meshing import mesh_from_mask
             from .physics.scene_json import scene_from_dict

@@ -22,7 +22,7 @@ _CUSTOM = "custom"
 class Material(io.ComfyNode):
     @classmethod
     def define_schema(cls) -> io.Schema:
-        options = [io.DynamicCombo.Option(name, [_sway(made), _damping(made)]) for name, made in PRESETS.items()]
+        options = [io.DynamicCombo.Option(name, _preset_inputs(made)) for name, made in PRESETS.items()]
         options.append(io.DynamicCombo.Option(_CUSTOM, _elastic_inputs(PhysicalMaterial())))
         return io.Schema(
             node_id="PhysAnimator_Material",
@@ -42,6 +42,8 @@ class Material(io.ComfyNode):
     @classmethod
     def execute(cls, preset: dict[str, Any] | None = None) -> io.NodeOutput:
         name, values = chosen(preset, "preset", (*PRESETS, _CUSTOM))
+        if "stretch_limit" in values:
+            values["stretch_limit"] = values["stretch_limit"] or None
         return io.NodeOutput(PhysicalMaterial(**values) if name == _CUSTOM else preset_material(name, **values))
 
 
@@ -95,6 +97,10 @@ class Body(io.ComfyNode):
         return io.NodeOutput((*bodies, MaskedBody(body, mesh.mask, attach)))
 
 
+def _preset_inputs(material: PhysicalMaterial) -> list[io.Input]:
+    return [_sway(material), _damping(material), *_shared_inputs(material)]
+
+
 def _sway(material: PhysicalMaterial) -> io.Float.Input:
     return io.Float.Input(
         "sway_frequency",
@@ -117,6 +123,31 @@ def _damping(material: PhysicalMaterial) -> io.Float.Input:
         display_name="damping",
         tooltip="How fast it comes to rest [1/s]: 0 swings forever, 1.5 is a breeze, 10 moves as in honey.",
     )
+
+
+def _shared_inputs(material: PhysicalMaterial) -> list[io.Input]:
+    return [
+        io.Float.Input(
+            "stretch_limit",
+            default=material.stretch_limit or 0.0,
+            min=0.0,
+            max=10.0,
+            step=0.01,
+            display_name="stretch limit",
+            tooltip="How many times as far as drawn a point gets from where the part is held, at most [1]: 1.03 hardly"
+            " stretches and yet bends; 0 for no limit.",
+        ),
+        io.Float.Input(
+            "wind_response",
+            default=material.wind_response,
+            min=0.0,
+            max=100.0,
+            step=0.1,
+            display_name="wind response",
+            tooltip="How strongly wind and strokes act on it [1]: 1 is ordinary, 3 light as a ribbon, 0.5 heavy, 0 not"
+            " at all.",
+        ),
+    ]
 
 
 def _elastic_inputs(material: PhysicalMaterial) -> list[io.Input]:
@@ -149,4 +180,5 @@ def _elastic_inputs(material: PhysicalMaterial) -> list[io.Input]:
             tooltip="Mass per area [1]; 1 is ordinary.",
         ),
         _damping(material),
+        *_shared_inputs(material),
     ]

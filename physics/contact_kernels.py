@@ -31,7 +31,7 @@ def build_contact_kernel(ti: Any) -> Any:
         functions.highest_frequency,
         functions.substeps_at,
     )
-    begin_tick, move = functions.begin_tick, functions.move
+    begin_tick, move_vertices = functions.begin_tick, functions.move_vertices
     find_contacts, put_apart = contact.find_contacts, contact.put_apart
     pairs4 = ti.types.ndarray(dtype=ti.types.vector(4, ti.i32), ndim=1)
 
@@ -76,8 +76,7 @@ def build_contact_kernel(ti: Any) -> Any:
                 for step in range(taken, taken + steps):
                     for n in range(first[1] & SMALL, end[1] & SMALL):
                         add_forces(solid, state, n)
-                    for i in range(first[0], end[0]):
-                        move(i, tick, step, count, solid, state, drive, pairs)
+                    move_vertices(first[0], end[0], tick, step, count, solid, state, drive, pairs)
 
     @ti.func
     def advance_tick(
@@ -118,6 +117,9 @@ def build_contact_kernel(ti: Any) -> Any:
         elements: types.blocks,
         first_slots: types.integers,
         slots: types.integers,
+        anchors: types.integers,
+        tethers: types.scalars,
+        wind_response: types.scalars,
         u: types.vectors,
         v: types.vectors,
         push: types.vectors,
@@ -162,7 +164,21 @@ def build_contact_kernel(ti: Any) -> Any:
             advance_tick(
                 tick,
                 ti.static(
-                    Solid(starts, planned, vertices, reach, leaders, grips, corners, elements, first_slots, slots)
+                    Solid(
+                        starts,
+                        planned,
+                        vertices,
+                        reach,
+                        leaders,
+                        grips,
+                        corners,
+                        elements,
+                        first_slots,
+                        slots,
+                        anchors,
+                        tethers,
+                        wind_response,
+                    )
                 ),
                 ti.static(State(u, v, push, decay, corner_forces)),
                 ti.static(

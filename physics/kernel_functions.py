@@ -168,9 +168,12 @@ def build_functions(ti: Any) -> SimpleNamespace:
         total = vec2(0.0, 0.0)
         if vertex[2] > 0.0:
             q = place(vertex) + state.displacement[i]
-            total = vec2(drive.gravity[0], drive.gravity[1]) + wind_push(q, tick, drive)
+            total = wind_push(q, tick, drive)
             for p in range(drive.first_particles[tick], drive.first_particles[tick + 1]):
                 total = total + particle_push(q, drive, p)
+            if solid.wind_response.shape[0] > 0:
+                total = total * solid.wind_response[i]
+            total = total + vec2(drive.gravity[0], drive.gravity[1])
         state.push[i] = total
 
     @ti.func
@@ -194,6 +197,30 @@ def build_functions(ti: Any) -> SimpleNamespace:
         """Velocity after a step of the critically damped spring between a vertex and its goal, taken implicitly."""
         rate = dt * FIRMNESS * grip
         return (speed + (rate * rate * (after - u) + 2.0 * rate * (after - before)) / dt) / (1.0 + rate * (2.0 + rate))
+
+    @ti.func
+    def tether(
+        i: ti.i32, tick: ti.i32, step: ti.i32, count: ti.i32, solid: any_value, state: any_value, drive: any_value
+    ):
+        """Put a vertex that is farther from its anchor than its tether allows back, and let it move no farther away.
+
+        Where the anchor is follows from its leader: its own entries may be written by another thread at this moment.
+        """
+        u, v = ti.static(state.displacement, state.velocity)
+        anchor = solid.anchors[i]
+        if anchor >= 0:
+            begin, end, dt = step / ti.cast(count, ti.f32), (step + 1.0) / count, TICK / count
+            x, leader = place(solid.vertices[anchor]), solid.leaders[anchor]
+            held, rate = vec2(0.0, 0.0), vec2(0.0, 0.0)
+            if leader >= 0:
+                held = goal(x, tick, leader, end, drive)
+                rate = (held - goal(x, tick, leader, begin, drive)) / dt
+            offset = place(solid.vertices[i]) - x + (u[i] - held)
+            distance, length = offset.norm(), solid.tethers[i]
+            if distance > length:
+                outward = offset / distance
+                u[i] = u[i] - (distance - length) * outward
+                v[i] = v[i] - ti.max((v[i] - rate).dot(outward), 0.0) * outward
 
     @ti.func
     def move(
@@ -229,11 +256,33 @@ def build_functions(ti: Any) -> SimpleNamespace:
             v[i] = led(place(vertex), drive.rig_rates, tick + 1, leader)
             u[i] = goal(place(vertex), tick, leader, end, drive)
 
+    @ti.func
+    def move_vertices(
+        first: ti.i32,
+        last: ti.i32,
+        tick: ti.i32,
+        step: ti.i32,
+        count: ti.i32,
+        solid: any_value,
+        state: any_value,
+        drive: any_value,
+        pairs_of_forces: any_value,
+    ):
+        """One of the substeps of the vertices from the first to before the last one in a tick.
+
+        Tethers have a loop of their own, which costs nothing where there are none.
+        """
+        for i in range(first, last):
+            move(i, tick, step, count, solid, state, drive, pairs_of_forces)
+        if solid.anchors.shape[0] > 0:
+            for i in range(first, last):
+                tether(i, tick, step, count, solid, state, drive)
+
     return SimpleNamespace(
         add_forces=add_forces,
         highest_frequency=highest_frequency,
         substeps_at=substeps_at,
         begin_tick=begin_tick,
         place=place,
-        move=move,
+        move_vertices=move_vertices,
     )

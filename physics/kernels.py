@@ -92,7 +92,7 @@ def build_kernels(ti: Any) -> Kernels:
         functions.highest_frequency,
         functions.substeps_at,
     )
-    begin_tick, move = functions.begin_tick, functions.move
+    begin_tick, move_vertices = functions.begin_tick, functions.move_vertices
 
     @ti.func
     def advance_part(
@@ -107,8 +107,7 @@ def build_kernels(ti: Any) -> Kernels:
             for step in range(count):
                 for n in range(first[1] & SMALL, end[1] & SMALL):
                     add_forces(solid, state, n)
-                for i in range(first[0], end[0]):
-                    move(i, tick, step, count, solid, state, drive, pairs)
+                move_vertices(first[0], end[0], tick, step, count, solid, state, drive, pairs)
 
     @ti.func
     def share(
@@ -146,8 +145,7 @@ def build_kernels(ti: Any) -> Kernels:
                 for i in range(low, high):
                     begin_tick(i, tick, TICK / count, solid, state, drive)
             else:
-                for i in range(low, high):
-                    move(i, tick, step, count, solid, state, drive, pairs)
+                move_vertices(low, high, tick, step, count, solid, state, drive, pairs)
             ti.atomic_add(claims[0], 1)
             piece = ti.atomic_add(claims[1 + phase], 1)
         return pieces
@@ -197,6 +195,9 @@ def build_kernels(ti: Any) -> Kernels:
         elements: types.blocks,
         first_slots: types.integers,
         slots: types.integers,
+        anchors: types.integers,
+        tethers: types.scalars,
+        wind_response: types.scalars,
         u: types.vectors,
         v: types.vectors,
         push: types.vectors,
@@ -219,7 +220,21 @@ def build_kernels(ti: Any) -> Kernels:
             advance_part(
                 parts[n],
                 ti.static(
-                    Solid(starts, planned, vertices, reach, leaders, grips, corners, elements, first_slots, slots)
+                    Solid(
+                        starts,
+                        planned,
+                        vertices,
+                        reach,
+                        leaders,
+                        grips,
+                        corners,
+                        elements,
+                        first_slots,
+                        slots,
+                        anchors,
+                        tethers,
+                        wind_response,
+                    )
                 ),
                 ti.static(State(u, v, push, decay, corner_forces)),
                 ti.static(
@@ -252,6 +267,9 @@ def build_kernels(ti: Any) -> Kernels:
         elements: types.blocks,
         first_slots: types.integers,
         slots: types.integers,
+        anchors: types.integers,
+        tethers: types.scalars,
+        wind_response: types.scalars,
         u: types.vectors,
         v: types.vectors,
         push: types.vectors,
@@ -274,7 +292,21 @@ def build_kernels(ti: Any) -> Kernels:
             work_together(
                 part,
                 ti.static(
-                    Solid(starts, planned, vertices, reach, leaders, grips, corners, elements, first_slots, slots)
+                    Solid(
+                        starts,
+                        planned,
+                        vertices,
+                        reach,
+                        leaders,
+                        grips,
+                        corners,
+                        elements,
+                        first_slots,
+                        slots,
+                        anchors,
+                        tethers,
+                        wind_response,
+                    )
                 ),
                 ti.static(State(u, v, push, decay, corner_forces)),
                 ti.static(

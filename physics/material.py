@@ -33,6 +33,10 @@ class Material:
         sway_frequency: when set, Young's modulus is chosen so that the body's longest connected part sways this often
             about its pinned points [Hz], 0.001 to 1000; shorter parts sway faster, as pendulums do, and parts without
             a pinned point keep ``youngs_modulus``.
+        stretch_limit: when set, no point gets farther from where its part is held than this factor times the way to
+            there through the drawing [1], at least 1: 1.03 looks inextensible and yet bends freely. Parts of which
+            nothing is held do not feel it.
+        wind_response: factor on the acceleration by wind and strokes [1]: light things fly, heavy ones hardly move.
         stiffness_scale: factor on Young's modulus for each triangle, shape [t]; None means 1 everywhere.
         damping_scale: factor on the damping for each triangle, shape [t]; None means 1 everywhere.
         density_scale: factor on the density for each triangle, shape [t]; None means 1 everywhere.
@@ -48,6 +52,8 @@ class Material:
     name: str = ""
     damping_scale: NDArray[np.float64] | None = None
     density_scale: NDArray[np.float64] | None = None
+    stretch_limit: float | None = None
+    wind_response: float = 1.0
 
     def __post_init__(self) -> None:
         bounded = 0 < self.youngs_modulus <= STIFFEST
@@ -57,6 +63,9 @@ class Material:
         require("damping", self.damping, 0 <= self.damping <= LARGEST, f"0 to {LARGEST} per second")
         if self.sway_frequency is not None:
             require("sway_frequency", self.sway_frequency, 0.001 <= self.sway_frequency <= 1_000, "0.001 to 1000 Hz")
+        if self.stretch_limit is not None:
+            require("stretch_limit", self.stretch_limit, 1 <= self.stretch_limit <= LARGEST, f"1 to {LARGEST}")
+        require("wind_response", self.wind_response, 0 <= self.wind_response <= LARGEST, f"0 to {LARGEST}")
         for field in SCALES:
             if getattr(self, field) is not None:
                 object.__setattr__(self, field, _checked_scale(field, getattr(self, field)))
@@ -81,11 +90,19 @@ def _checked_scale(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 
 PRESETS: dict[str, Material] = {
-    "hair": Material(youngs_modulus=400.0, damping=1.4, sway_frequency=0.9, name="hair"),
-    "ribbon": Material(youngs_modulus=250.0, damping=1.2, sway_frequency=1.1, name="ribbon"),
-    "cloth": Material(youngs_modulus=300.0, damping=1.6, sway_frequency=1.0, name="cloth"),
-    "leaf": Material(youngs_modulus=900.0, damping=1.8, sway_frequency=1.0, name="leaf"),
-    "jelly": Material(youngs_modulus=150.0, poisson_ratio=0.42, damping=1.2, sway_frequency=2.2, name="jelly"),
+    "hair": Material(
+        youngs_modulus=400.0, damping=1.0, sway_frequency=0.7, stretch_limit=1.03, wind_response=0.6, name="hair"
+    ),
+    "ribbon": Material(
+        youngs_modulus=250.0, damping=1.4, sway_frequency=2.1, stretch_limit=1.02, wind_response=4.5, name="ribbon"
+    ),
+    "cloth": Material(
+        youngs_modulus=300.0, damping=4.0, sway_frequency=0.6, stretch_limit=1.06, wind_response=0.5, name="cloth"
+    ),
+    "leaf": Material(youngs_modulus=900.0, damping=2.5, sway_frequency=2.8, wind_response=1.5, name="leaf"),
+    "jelly": Material(
+        youngs_modulus=40.0, poisson_ratio=0.45, damping=0.5, sway_frequency=1.5, wind_response=1.6, name="jelly"
+    ),
 }
 
 

@@ -192,6 +192,21 @@ def _material() -> dict[str, Schema]:
             ),
             "type": ["number", "null"],
         },
+        "stretch_limit": {
+            **number(
+                "Stretch limit",
+                "How many times as far as in the drawing a point gets from where its part is held, at most, as if on"
+                " a thread: 1.03 for hair and ribbon, which bend but do not stretch. null: no limit.",
+                minimum=1,
+                maximum=LARGEST,
+            ),
+            "type": ["number", "null"],
+        },
+        "wind_response": number(
+            "Wind response",
+            "How strongly wind and strokes act on the body: 1 is ordinary, 2 light as paper, 0.5 heavy, 0 not at all.",
+            **FROM_0,
+        ),
         **{
             f"{quantity}_scale": {
                 "type": ["array", "null"],

@@ -30,6 +30,7 @@ from .scene import Scene
 from .solver import Solid, State, advance
 from .stepping import TICK, squared_frequencies
 from .system import System, assemble
+from .tethers import tethers
 
 __all__ = ["SimulationPlan", "plan", "simulate"]
 
@@ -121,7 +122,7 @@ def _displacements(
         start: displacement to begin with, without velocity [side], shape [v, 2].
         first: number of the frame with which to begin.
     """
-    solid, size = _solid(scene, system), len(system.masses)
+    solid, size = _solid(scene, system, start), len(system.masses)
     done, _ = _ticks(first, scene.frame_rate)
     ticks = max(1.0, (planned.frames - 1) / (planned.frame_rate * TICK))
     block = max(1, int(_LAUNCH_WORK * ticks / (planned.work + ticks * size)))
@@ -167,8 +168,12 @@ def _between(before: State, after: State, fraction: float) -> NDArray[np.float32
     return a + s * (va + s * (3 * (b - a) - 2 * va - vb + s * (2 * (a - b) + va + vb)))
 
 
-def _solid(scene: Scene, system: System) -> Solid:
-    """The assembled bodies in the kernels' form, without triangles that act on nothing free."""
+def _solid(scene: Scene, system: System, start: NDArray[np.float32] | None = None) -> Solid:
+    """The assembled bodies in the kernels' form, without triangles that act on nothing free.
+
+    Args:
+        start: displacement in which they were drawn [side], shape [v, 2]; tethers are as long as in the drawing.
+    """
     rest, active, free = system.rest, system.active, system.free
     mu, lam = system.lame
     inverse_mass = np.divide(1.0, system.masses, out=np.zeros_like(system.masses), where=free)
@@ -180,6 +185,9 @@ def _solid(scene: Scene, system: System) -> Solid:
     squared = squared_frequencies(rest, mu, lam, system.density)
     squared = np.minimum(squared, system.highest[system.part_of_triangle])
     stiffness = np.column_stack([2 * mu * rest.areas, lam * rest.areas, squared])
+    drawn = rest.positions if start is None else rest.positions + start
+    anchors, lengths = tethers(RestShape(drawn, rest.triangles), system.leaders >= 0, system.stretch_limits)
+    tethered, alike = (anchors >= 0).any(), (system.wind_response == 1).all()
     return Solid.of_triangles(
         starts=system.starts,
         substeps=system.substeps,
@@ -190,4 +198,6 @@ def _solid(scene: Scene, system: System) -> Solid:
         triangles=np.ascontiguousarray(rest.triangles[active]),
         inverse_edges=rest.inverse_edges[active].reshape(-1, 4).astype(np.float32),
         stiffness=stiffness[active].astype(np.float32),
+        **({"anchors": anchors, "tethers": lengths.astype(np.float32)} if tethered else {}),
+        **({} if alike else {"wind_response": system.wind_response.astype(np.float32)}),
     )

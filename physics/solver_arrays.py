@@ -40,6 +40,11 @@ class Solid(NamedTuple):
         first_slots: where each vertex's slots begin, int32, shape [v + 1].
         slots: where the forces on a vertex are among ``State.corner_forces`` seen as pairs, one slot for each of its
             triangles, int32, shape [3 t].
+        anchors: vertex that holds each vertex by a tether, one that is held or led itself, -1 for none, int32, shape
+            [v]; of no length where nothing is tethered.
+        tethers: length of the tether [side], float32, shape as ``anchors``.
+        wind_response: factor on what wind and strokes do to each vertex, float32, shape [v]; of no length for 1
+            everywhere.
     """
 
     starts: Int32Array
@@ -52,6 +57,9 @@ class Solid(NamedTuple):
     elements: Float32Array
     first_slots: Int32Array
     slots: Int32Array
+    anchors: Int32Array = np.zeros(0, dtype=np.int32)
+    tethers: Float32Array = np.zeros(0, dtype=np.float32)
+    wind_response: Float32Array = np.zeros(0, dtype=np.float32)
 
     @staticmethod
     def of_triangles(

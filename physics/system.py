@@ -43,6 +43,8 @@ class System:
         leaders: index of the rig point that leads each vertex, -1 where it is free, shape [v].
         grips: how firmly a rig point pulls each vertex along that it does not lead, 0..1, shape [v].
         grippers: index of that rig point, -1 where there is none, shape [v].
+        stretch_limits: of each vertex, infinite for none, shape [v].
+        wind_response: factor on the acceleration by wind and strokes of each vertex, shape [v].
         sway: what became of the sway frequencies that materials ask for.
     """
 
@@ -58,6 +60,8 @@ class System:
     leaders: IndexArray
     grips: FloatArray
     grippers: IndexArray
+    stretch_limits: FloatArray
+    wind_response: FloatArray
     sway: tuple[SwayPart, ...]
 
     @cached_property
@@ -148,6 +152,8 @@ def assemble(scene: Scene) -> System:
         leaders=np.concatenate(leaders)[order],
         grips=np.concatenate([grip for grip, _ in grips])[order],
         grippers=np.concatenate([gripper for _, gripper in grips])[order],
+        stretch_limits=np.repeat([body.material.stretch_limit or np.inf for body in bodies], vertex_counts)[order],
+        wind_response=np.repeat([body.material.wind_response for body in bodies], vertex_counts)[order],
         sway=tuple(part for _, parts in stiffness for part in parts),
     )
     return replace(system, masses=_masses_with_slower_slivers(system))

@@ -34,9 +34,10 @@ def add_figure(parser: argparse.ArgumentParser) -> None:
     parser.description = "Draw one of the figures that show what the controls do, from simulations made on the spot."
     parser.add_argument(
         "name",
-        choices=("stiffness", "strokes", "collision"),
+        choices=("stiffness", "strokes", "collision", "presets"),
         help="stiffness: a ball under a sweep of Young's modulus; strokes: the example under strokes of different"
-        " direction and strength; collision: soft balls that meet, with contact and without",
+        " direction and strength; collision: soft balls that meet, with contact and without; presets: a strip of each"
+        " preset in one gust",
     )
     parser.add_argument("--output", "-o", metavar="OUT", required=True, help="picture to write (PNG, JPEG, WebP)")
     parser.add_argument("--quiet", "-q", action="store_true", help="no progress bar")

@@ -275,7 +275,7 @@ def _cape_and_hair() -> Group:
         _mesh("cape", "segment.mask"),
         ours("body_cape", "Body", 0, "Body: cape", {"preset": "cloth"}, mesh="mesh_cape.mesh"),
         _mesh("hair", "example.hair"),
-        ours("material", "Material", values={"preset.sway_frequency": 0.8}),
+        ours("material", "Material", values={"preset.sway_frequency": 0.55}),
         ours("body_hair", "Body", 0, "Body: hair", {"layer": 1}, **hair),
     )
     return Group("2 · Deformable bodies", GREEN, (Column(300, nodes),))

@@ -100,7 +100,8 @@ def test_sides_are_one_or_one_each() -> None:
 def test_smaller_bodies_sway_faster_unless_told_otherwise() -> None:
     bodies = [body_of(grid(0, 0, 180, 240)), body_of(grid(0, 0, 45, 60))]
     large, small = automatic_scene(bodies).bodies
-    assert large.material.sway_frequency == pytest.approx(0.9)
-    assert small.material.sway_frequency == pytest.approx(1.8)
+    usual = preset("hair").sway_frequency
+    assert large.material.sway_frequency == pytest.approx(usual)
+    assert small.material.sway_frequency == pytest.approx(2 * usual)
     as_given = automatic_scene(bodies, sway_by_size=False).bodies
-    assert [body.material.sway_frequency for body in as_given] == [0.9, 0.9]
+    assert [body.material.sway_frequency for body in as_given] == [usual, usual]

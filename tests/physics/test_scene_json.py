@@ -239,7 +239,7 @@ def test_everything_else_may_be_left_out() -> None:
 def test_preset_with_own_values() -> None:
     material = {"preset": "jelly", "density": 3, "sway_frequency": None}
     scene = scene_from_dict({**BARE, "bodies": [{"material": material}]}, meshes=[square_mesh()])
-    expected = Material(150.0, 0.42, 3.0, 1.2, None, name="jelly")
+    expected = Material(40.0, 0.45, 3.0, 0.5, None, name="jelly", wind_response=1.6)
     assert [getattr(scene.bodies[0].material, f.name) for f in fields(Material)] == [
         getattr(expected, f.name) for f in fields(Material)
     ]
