@@ -134,7 +134,7 @@ def _shared_inputs(material: PhysicalMaterial) -> list[io.Input]:
             max=10.0,
             step=0.01,
             display_name="stretch limit",
-            tooltip="How many times as far as drawn a point gets from where the part is held, at most [1]: 1.03 hardly"
+            tooltip="How many times as far as drawn a point gets from where the part is held, at most [1]: 1.06 hardly"
             " stretches and yet bends; 0 for no limit.",
         ),
         io.Float.Input(

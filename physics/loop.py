@@ -23,7 +23,7 @@ __all__ = ["MOST_CYCLES", "TOLERANCE", "first_frame", "loop_frames", "periodic",
 
 FloatArray = NDArray[np.float64]
 
-TOLERANCE = 0.05
+TOLERANCE = 0.04
 """Residual below which a loop needs no further cycle [px]."""
 
 MOST_CYCLES = 40
@@ -142,7 +142,7 @@ def settled(
     last, cycles = _cycle(displacements, count, 0, report), 1
     while True:
         before, last = last, _cycle(displacements, count, cycles, report)
-        residual = float(np.linalg.norm(last[-overlap:] - before[-overlap:], axis=2).max(initial=0.0)) * side
+        residual = float(np.linalg.norm(last - before, axis=2).max(initial=0.0)) * side
         cycles += 1
         if residual <= tolerance or cycles >= most_cycles:
             break

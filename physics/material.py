@@ -34,7 +34,7 @@ class Material:
             about its pinned points [Hz], 0.001 to 1000; shorter parts sway faster, as pendulums do, and parts without
             a pinned point keep ``youngs_modulus``.
         stretch_limit: when set, no point gets farther from where its part is held than this factor times the way to
-            there through the drawing [1], at least 1: 1.03 looks inextensible and yet bends freely. Parts of which
+            there through the drawing [1], at least 1: 1.06 looks inextensible and yet bends freely. Parts of which
             nothing is held do not feel it.
         wind_response: factor on the acceleration by wind and strokes [1]: light things fly, heavy ones hardly move.
         stiffness_scale: factor on Young's modulus for each triangle, shape [t]; None means 1 everywhere.
@@ -91,10 +91,10 @@ def _checked_scale(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 PRESETS: dict[str, Material] = {
     "hair": Material(
-        youngs_modulus=400.0, damping=1.0, sway_frequency=0.7, stretch_limit=1.03, wind_response=0.6, name="hair"
+        youngs_modulus=400.0, damping=1.0, sway_frequency=0.7, stretch_limit=1.06, wind_response=0.6, name="hair"
     ),
     "ribbon": Material(
-        youngs_modulus=250.0, damping=1.4, sway_frequency=2.1, stretch_limit=1.02, wind_response=4.5, name="ribbon"
+        youngs_modulus=250.0, damping=1.4, sway_frequency=2.1, stretch_limit=1.06, wind_response=4.5, name="ribbon"
     ),
     "cloth": Material(
         youngs_modulus=300.0, damping=4.0, sway_frequency=0.6, stretch_limit=1.06, wind_response=0.5, name="cloth"

@@ -196,7 +196,7 @@ def _material() -> dict[str, Schema]:
             **number(
                 "Stretch limit",
                 "How many times as far as in the drawing a point gets from where its part is held, at most, as if on"
-                " a thread: 1.03 for hair and ribbon, which bend but do not stretch. null: no limit.",
+                " a thread: 1.06 for hair and ribbon, which bend but do not stretch. null: no limit.",
                 minimum=1,
                 maximum=LARGEST,
             ),
