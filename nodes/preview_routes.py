@@ -21,7 +21,8 @@ from ..physics.preview_limits import MAX_EDITORS, MAX_REQUEST_BYTES
 from ..physics.preview_records import encode_mesh
 from ..physics.preview_requests import PreviewRequest, is_key, preview_scene, read_request
 from ..physics.preview_session import PreviewRun, PreviewRuns, RecordQueue, stream
-from ..physics.preview_store import PreviewStore
+from ..physics.preview_store import PreviewBodies, PreviewStore
+from .preview_plates import Plates
 
 __all__ = ["PreviewRoutes"]
 
@@ -46,22 +47,32 @@ class PreviewRoutes:
         self.store = store
         self.runs = PreviewRuns()
         self._under_way = 0
+        self._plates = Plates()
         # One thread for each editor's simulation and one for the one that it supersedes, and two for checking.
         self._threads = ThreadPoolExecutor(2 * MAX_EDITORS + 2, thread_name_prefix="physanimator-preview")
 
     def register(self, routes: web.RouteTableDef) -> None:
         """Add the routes to a table such as the host's."""
         routes.get("/physanimator/mesh/{key}")(self._guarded(self.mesh))
+        routes.get("/physanimator/plate/{key}")(self._guarded(self.plate))
         routes.post("/physanimator/preview")(self._guarded(self.preview))
 
     async def mesh(self, request: web.Request) -> web.StreamResponse:
         """The rest shape of the bodies of a key, as ``physics.preview_records`` describes it."""
-        key = request.match_info["key"]
-        stored = self.store.get(key) if is_key(key) else None
+        stored = self._stored(request)
         if stored is None:
             return _refused(404, _FORGOTTEN)
         body = await self._on_a_thread(encode_mesh, stored)
         return web.Response(body=body, content_type="application/octet-stream", headers=_KEEP_NOTHING)
+
+    async def plate(self, request: web.Request) -> web.StreamResponse:
+        """The picture of a key without its bodies, as PNG."""
+        stored = self._stored(request)
+        if stored is None:
+            return _refused(404, _FORGOTTEN)
+        if stored.picture is None:
+            return _refused(409, "Connect the illustration to image: a clean plate is made from it.")
+        return web.Response(body=await self._plates.png(stored), content_type="image/png", headers=_KEEP_NOTHING)
 
     async def preview(self, request: web.Request) -> web.StreamResponse:
         """A scene over the bodies of a key, simulated and streamed frame by frame."""
@@ -83,6 +94,10 @@ class PreviewRoutes:
         finally:
             run.cancel("The editor is gone.")
             self.runs.leave(run)
+
+    def _stored(self, request: web.Request) -> PreviewBodies | None:
+        key = request.match_info["key"]
+        return self.store.get(key) if is_key(key) else None
 
     async def _streamed(
         self, request: web.Request, run: PreviewRun, simulate: Callable[[RecordQueue], None]
