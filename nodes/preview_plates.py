@@ -35,6 +35,10 @@ class Plates:
             self._made.popitem(last=False)
         return await asyncio.shield(task)  # whoever goes away must not stop it for the others
 
+    def close(self) -> None:
+        """Let the thread end once it has nothing to do."""
+        self._thread.shutdown(wait=False)
+
     async def _make(self, stored: PreviewBodies) -> bytes:
         return await asyncio.get_running_loop().run_in_executor(self._thread, _png_of, stored)
 
