@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from .errors import Cancelled, PhysAnimatorError
 from .loop import first_frame, periodic
+from .preparation import Preparations, Prepare
 from .preview_limits import MAX_EDITORS, MAX_PREVIEW_WORK
 from .preview_records import END, ERROR, FRAME, HEADER, FrameEncoder, record
 from .scene import Scene
@@ -80,11 +81,13 @@ class PreviewRun:
 
     Attributes:
         editor: whose it is.
+        prepare: keeps what simulations need before their first step.
         turn: held by whichever run of that editor simulates; the others wait for it.
         reason: why it was cancelled; empty while it was not.
     """
 
     editor: str
+    prepare: Prepare
     turn: threading.Lock
     reason: str = ""
     _cancelled: threading.Event = field(default_factory=threading.Event)
@@ -122,6 +125,7 @@ class PreviewRuns:
             most: editors that may have a run at once.
         """
         self._most = most
+        self._prepare = Preparations(most=2 * most)
         self._runs: dict[str, PreviewRun] = {}
         self._lock = threading.Lock()
 
@@ -131,7 +135,7 @@ class PreviewRuns:
             before = self._runs.get(editor)
             if before is None and len(self._runs) >= self._most:
                 return None
-            run = PreviewRun(editor, before.turn if before else threading.Lock())
+            run = PreviewRun(editor, self._prepare, before.turn if before else threading.Lock())
             self._runs[editor] = run
         if before is not None:
             before.cancel(SUPERSEDED)
@@ -194,7 +198,12 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) ->
         run.check()
 
     simulate(
-        scene, frames=None if scene.loop else frames, on_frame=send, progress=_checking(run), max_work=MAX_PREVIEW_WORK
+        scene,
+        frames=None if scene.loop else frames,
+        on_frame=send,
+        progress=_checking(run),
+        max_work=MAX_PREVIEW_WORK,
+        prepare=run.prepare,
     )
     seconds = time.perf_counter() - begun
     return record(END, {"frames": frames, "seconds": seconds, "largest_displacement": largest})

@@ -258,13 +258,17 @@ def test_the_latest_request_of_an_editor_wins() -> None:
     in_a_server(test)
 
 
-def test_a_client_that_goes_away_stops_its_simulation() -> None:
+def test_a_client_that_goes_away_stops_its_simulation(monkeypatch: pytest.MonkeyPatch) -> None:
+    ends: list[bytes] = []
+    monkeypatch.setattr(preview_routes.RecordQueue, "close", lambda _, last=b"": ends.append(last))
+
     async def test(server: Served) -> None:
         answer = await server.ask(frames=1200, scene={**SCENE, "frame_rate": 1})
         await answer.content.readexactly(8)
         assert len(server.routes.runs) == 1
         answer.close()
         await server.idle()
+        assert [json.loads(payload)["error"] for _, payload in split_records(ends[0])] == ["The editor is gone."]
 
     in_a_server(test)
 

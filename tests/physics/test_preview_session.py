@@ -7,6 +7,7 @@ import struct
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,10 +15,12 @@ import pytest
 from physanimator.physics.errors import Cancelled
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
+from physanimator.physics.paint import Paint
+from physanimator.physics.preparation import Preparations
 from physanimator.physics.preview_records import END, ERROR, FRAME, HEADER, record, split_records
 from physanimator.physics.preview_session import PreviewRun, PreviewRuns, RecordQueue, stream
 from physanimator.physics.preview_store import PreviewBodies, PreviewStore
-from physanimator.physics.rig import Circle, RigPoint
+from physanimator.physics.rig import Circle, Polygon, RigPoint, Wave
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.simulation import simulate
 from physanimator.physics.strokes import EnergyStroke
@@ -178,6 +181,46 @@ def test_cancelling_frees_who_waits_for_room() -> None:
     threading.Timer(0.05, run.cancel, ["gone"]).start()
     with pytest.raises(Cancelled, match="gone"):
         queue.put(bytes(100), run)
+
+
+def test_preparing_is_shared_where_only_strokes_and_motions_differ() -> None:
+    preparations, base = Preparations(most=3), scene(gravity=(0.0, 0.3))
+    prepared = preparations(base)
+    stroke = replace(base.strokes[0], strength=9.0)
+    led = replace(base.rig_points[0], motion=Wave(5.0, 1.0))
+    assert preparations(replace(base, strokes=(stroke,), rig_points=(led,), frame_rate=12.0)) is prepared
+    stiffer = replace(base.bodies[0], material=Material(youngs_modulus=11.0, damping=4.0))
+    region = Polygon(((30.0, 20.0), (60.0, 20.0), (60.0, 40.0)))
+    others = {
+        "gravity": (0.0, 0.31),
+        "sag": True,
+        "rig_points": (replace(led, region=Circle(25.0)),),
+        "bodies": (stiffer,),
+        "paint": (Paint(region, stiffness=3.0),),
+    }
+    changed = [replace(base, **{name: value}) for name, value in others.items()]  # type: ignore[arg-type]
+    changed.append(replace(base, paint=(Paint(region, stiffness=2.0),)))
+    changed.append(replace(base, rig_points=(replace(led, falloff=8.0),)))
+    preparations = Preparations(most=9)
+    assert len({id(preparations(each)) for each in [base, *changed]}) == 8
+
+
+def test_a_shared_preparation_moves_as_one_of_its_own() -> None:
+    preparations, base = Preparations(most=1), scene(gravity=(0.0, 0.2))
+    preparations(base)
+    led = replace(base.rig_points[0], motion=Wave(5.0, 1.0))
+    changed = replace(base, rig_points=(led,), strokes=())
+    assert preparations(changed).scene is base
+    shared = simulate(changed, frames=10, prepare=preparations).positions
+    np.testing.assert_array_equal(shared, simulate(changed, frames=10).positions)
+    assert np.abs(shared[-1] - shared[0]).max() > 1
+
+
+def test_of_preparations_the_last_are_kept() -> None:
+    preparations = Preparations(most=1)
+    first = preparations(scene())
+    preparations(scene(gravity=(0.0, 1.0)))
+    assert preparations(scene()) is not first
 
 
 def kept(seed: int, *, pixels: int = 0) -> PreviewBodies:
