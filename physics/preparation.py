@@ -104,9 +104,9 @@ def _key(scene: Scene) -> str:
     for number, body in enumerate(scene.bodies):
         digest.update(repr(body.name).encode() + body.mesh.content_hash.encode())
         _add_fields(digest, body)
-        digest.update(leaders_of(scene.rig_points, body.mesh, body=number))
+        digest.update(leaders_of(scene.rig_points, body.mesh, body=number).tobytes())
         for values in grips_of(scene.rig_points, body.mesh, body=number):
-            digest.update(np.ascontiguousarray(values))
+            digest.update(values.tobytes())
     for entry in scene.paint:
         _add_fields(digest, entry)
     return digest.hexdigest()
@@ -121,4 +121,4 @@ def _add_fields(digest: hashlib._Hash, part: Body | Paint) -> None:
         shown = value.shape if isinstance(value, np.ndarray) else value
         digest.update(f"{field.name}={shown!r};".encode())
         if isinstance(value, np.ndarray):
-            digest.update(np.ascontiguousarray(value))
+            digest.update(value.tobytes())
