@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import struct
 import threading
@@ -17,8 +18,9 @@ from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.paint import Paint
 from physanimator.physics.preparation import Preparations
+from physanimator.physics.preview_queue import RecordQueue
 from physanimator.physics.preview_records import END, ERROR, FRAME, HEADER, record, split_records
-from physanimator.physics.preview_session import PreviewRun, PreviewRuns, RecordQueue, stream
+from physanimator.physics.preview_session import PreviewRun, PreviewRuns, stream
 from physanimator.physics.preview_store import PreviewBodies, PreviewStore
 from physanimator.physics.rig import Circle, Polygon, RigPoint, Wave
 from physanimator.physics.scene import Body, Scene
@@ -26,6 +28,7 @@ from physanimator.physics.simulation import simulate
 from physanimator.physics.strokes import EnergyStroke
 
 PATIENCE = 60.0
+ORDER = itertools.count()
 
 
 def scene(**changes: Any) -> Scene:
@@ -39,7 +42,7 @@ def scene(**changes: Any) -> Scene:
 
 
 def run_of(runs: PreviewRuns, editor: str = "one") -> PreviewRun:
-    run = runs.enter(editor)
+    run = runs.enter(editor, next(ORDER))
     assert run is not None
     return run
 
@@ -144,12 +147,12 @@ def test_a_run_that_was_superseded_before_its_turn_never_simulates(monkeypatch: 
 def test_editors_do_not_disturb_each_other_and_have_a_limit() -> None:
     runs = PreviewRuns(most=2)
     one, two = run_of(runs, "one"), run_of(runs, "two")
-    assert runs.enter("three") is None
+    assert runs.enter("three", next(ORDER)) is None
     one.check()
     two.check()
-    assert runs.enter("two") is not None, "an editor may replace its own"
+    assert runs.enter("two", next(ORDER)) is not None, "an editor may replace its own"
     runs.leave(one)
-    assert runs.enter("three") is not None
+    assert runs.enter("three", next(ORDER)) is not None
 
 
 def test_a_full_queue_holds_the_simulation_back() -> None:
@@ -159,7 +162,7 @@ def test_a_full_queue_holds_the_simulation_back() -> None:
 
     def put() -> None:
         for number in range(10):
-            queue.put(record(FRAME, bytes(40)), run)
+            queue.put(record(FRAME, bytes(40)), run.check)
             done.append(number)
 
     thread = threading.Thread(target=put)
@@ -177,10 +180,10 @@ def test_a_full_queue_holds_the_simulation_back() -> None:
 
 def test_cancelling_frees_who_waits_for_room() -> None:
     queue, run = RecordQueue(lambda: None, max_bytes=10), run_of(PreviewRuns())
-    queue.put(bytes(100), run)
+    queue.put(bytes(100), run.check)
     threading.Timer(0.05, run.cancel, ["gone"]).start()
     with pytest.raises(Cancelled, match="gone"):
-        queue.put(bytes(100), run)
+        queue.put(bytes(100), run.check)
 
 
 def test_preparing_is_shared_where_only_strokes_and_motions_differ() -> None:
