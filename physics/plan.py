@@ -23,7 +23,7 @@ MAX_WORK = 2e10
 A clip of less than a second may not take more than its share of them: a single tick must not take seconds.
 """
 
-UPDATES_PER_SECOND = 9e7
+UPDATES_PER_SECOND = 1.5e8
 """Triangle updates a second on one core of an ordinary machine; for estimates only."""
 
 PARTICLE_WORK = 0.2

@@ -1,0 +1,169 @@
+"""Routes of the host's server for the scene editor: meshes, and live previews by the real solver.
+
+Requests come from whoever reaches the server: only the host's own pages may use the routes, nothing in a request names
+a file, everything has a limit, and a simulation never runs on the thread that answers.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import functools
+import itertools
+import logging
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+from aiohttp import web
+
+from ..physics.preview_limits import MAX_EDITORS, MAX_REQUEST_BYTES
+from ..physics.preview_queue import RecordQueue
+from ..physics.preview_records import encode_mesh
+from ..physics.preview_requests import PreviewRequest, is_key, preview_scene, read_request
+from ..physics.preview_session import PreviewRun, PreviewRuns, stream
+from ..physics.preview_store import PreviewBodies, PreviewStore
+from .preview_guard import BUSY, KEEP_NOTHING, Guard, body_of, refused
+from .preview_plates import Plates
+
+__all__ = ["PreviewRoutes"]
+
+_FORGOTTEN = "The server does not hold these bodies any more: run the graph once, then edit on."
+_WRITE_SECONDS = 60.0
+_POLL_SECONDS = 0.25
+
+
+class PreviewRoutes:
+    """The routes over one store of bodies.
+
+    Attributes:
+        store: the bodies that previews can be made of.
+        runs: the simulations that are under way.
+        threads: on which requests are checked and simulated.
+    """
+
+    def __init__(self, store: PreviewStore) -> None:
+        self.store = store
+        self.runs = PreviewRuns()
+        self._guard = Guard()
+        self._order = itertools.count()
+        self._plates = Plates()
+        # One thread for each editor's simulation and one for the one that it supersedes, and two for checking.
+        self.threads = ThreadPoolExecutor(2 * MAX_EDITORS + 2, thread_name_prefix="physanimator-preview")
+
+    def register(self, routes: web.RouteTableDef) -> None:
+        """Add the routes to a table such as the host's."""
+        routes.get("/physanimator/mesh/{key}")(self._guard(self.mesh))
+        routes.get("/physanimator/plate/{key}")(self._guard(self.plate))
+        routes.post("/physanimator/preview")(self._guard(self.preview))
+
+    def close(self) -> None:
+        """Let the threads end once they have nothing to do."""
+        self.threads.shutdown(wait=False)
+        self._plates.close()
+
+    async def mesh(self, request: web.Request) -> web.StreamResponse:
+        """The rest shape of the bodies of a key, as ``physics.preview_records`` describes it."""
+        stored = self._stored(request)
+        if stored is None:
+            return refused(404, _FORGOTTEN)
+        body = await self._on_a_thread(encode_mesh, stored)
+        return web.Response(body=body, content_type="application/octet-stream", headers=KEEP_NOTHING)
+
+    async def plate(self, request: web.Request) -> web.StreamResponse:
+        """The picture of a key without its bodies, as PNG."""
+        stored = self._stored(request)
+        if stored is None:
+            return refused(404, _FORGOTTEN)
+        if stored.picture is None:
+            return refused(409, "Connect the illustration to image: a clean plate is made from it.")
+        return web.Response(body=await self._plates.png(stored), content_type="image/png", headers=KEEP_NOTHING)
+
+    async def preview(self, request: web.Request) -> web.StreamResponse:
+        """A scene over the bodies of a key, simulated and streamed frame by frame."""
+        order = next(self._order)
+        if request.content_type != "application/json":
+            return refused(415, "The request must have the content type application/json.")
+        body = await body_of(request)
+        if body is None:
+            return refused(413, f"The scene must be at most {MAX_REQUEST_BYTES >> 20} MB of text.")
+        wanted: PreviewRequest = await self._on_a_thread(read_request, body)
+        stored = self.store.get(wanted.key)
+        if stored is None:
+            return refused(404, _FORGOTTEN)
+        scene, frames = await self._on_a_thread(preview_scene, wanted, stored.bodies)
+        run = self.runs.enter(wanted.editor, order)
+        if run is None:
+            return refused(429, BUSY)
+        try:
+            return await self._streamed(request, run, functools.partial(stream, scene, frames, run))
+        finally:
+            run.cancel("The editor is gone.")
+            self.runs.leave(run)
+
+    def _stored(self, request: web.Request) -> PreviewBodies | None:
+        key = request.match_info["key"]
+        return self.store.get(key) if is_key(key) else None
+
+    async def _streamed(
+        self, request: web.Request, run: PreviewRun, simulate: Callable[[RecordQueue], None]
+    ) -> web.StreamResponse:
+        response = web.StreamResponse(headers=KEEP_NOTHING)
+        response.content_type = "application/octet-stream"
+        await response.prepare(request)
+        loop, filled = asyncio.get_running_loop(), asyncio.Event()
+        queue = RecordQueue(lambda: _wake(loop, filled))
+        simulating = loop.run_in_executor(self.threads, simulate, queue)
+        closed = False
+        while not closed and not _is_gone(request):
+            filled.clear()
+            data, closed = queue.take()
+            if data:
+                await _sent(response, data)
+            elif not closed:
+                await _woken(filled)
+        if closed:
+            await _ended(simulating)
+            await response.write_eof()
+        return response
+
+    async def _on_a_thread(self, call: Callable[..., Any], *arguments: Any) -> Any:
+        return await asyncio.get_running_loop().run_in_executor(self.threads, functools.partial(call, *arguments))
+
+
+async def _ended(simulating: asyncio.Future[None]) -> None:
+    """Wait for a simulation whose last record has been taken; what went wrong has gone out with that."""
+    try:
+        await simulating
+    except Exception:
+        logging.exception("PhysAnimator: a preview has failed")
+
+
+def _wake(loop: asyncio.AbstractEventLoop, filled: asyncio.Event) -> None:
+    try:
+        loop.call_soon_threadsafe(filled.set)
+    except RuntimeError:  # the server has stopped
+        logging.debug("PhysAnimator: a preview has outlived its server")
+
+
+async def _woken(filled: asyncio.Event) -> None:
+    """Wait for the event, but no longer than it may take to notice that nobody listens any more."""
+    try:
+        await asyncio.wait_for(filled.wait(), _POLL_SECONDS)
+    except asyncio.TimeoutError:
+        return
+
+
+async def _sent(response: web.StreamResponse, data: bytes) -> None:
+    """Send, unless the client has not read for so long that it shall not keep others from simulating.
+
+    Raises:
+        ConnectionError: the client is gone or does not read.
+    """
+    try:
+        await asyncio.wait_for(response.write(data), _WRITE_SECONDS)
+    except asyncio.TimeoutError:
+        raise ConnectionError("the client does not read") from None
+
+
+def _is_gone(request: web.Request) -> bool:
+    return request.transport is None or request.transport.is_closing()
