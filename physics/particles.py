@@ -7,7 +7,7 @@ not depend on the mesh, and end at the radius, where wind and attract would othe
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -85,7 +85,7 @@ def all_particles(strokes: Sequence[EnergyStroke], t: float) -> Particles:
     return particles_at(strokes, (t,))[0]
 
 
-def particles_at(strokes: Sequence[EnergyStroke], times: Sequence[float]) -> tuple[Particles, NDArray[np.int64]]:
+def particles_at(strokes: Sequence[EnergyStroke], times: Iterable[float]) -> tuple[Particles, NDArray[np.int64]]:
     """The particles of several strokes that are alive at some times, one time after the other.
 
     Args:
@@ -95,6 +95,7 @@ def particles_at(strokes: Sequence[EnergyStroke], times: Sequence[float]) -> tup
     Returns:
         The particles of each time in the order of the strokes, and how many there are at each time, shape [n].
     """
+    times = [float(t) for t in times]
     ages = [[_all_ages(stroke, t) for t in times] for stroke in strokes]
     counts = np.array([[len(group) for group in groups] for groups in ages], dtype=np.int64).reshape(-1, len(times))
     order = np.argsort(np.repeat(np.tile(np.arange(len(times)), len(strokes)), counts.ravel()), kind="stable")

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from .contact_stepping import TouchingBodies
 from .drive import drive
+from .elasticity import RestShape
 from .errors import SimulationError, require
 from .kernel_functions import REACH
 from .loop import MOST_CYCLES, first_frame, loop_frames, periodic, settled
