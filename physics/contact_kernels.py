@@ -31,7 +31,7 @@ def build_contact_kernel(ti: Any) -> Any:
         functions.highest_frequency,
         functions.substeps_at,
     )
-    begin_tick, move_vertices = functions.begin_tick, functions.move_vertices
+    begin_tick, move_vertices, record = functions.begin_tick, functions.move_vertices, functions.record
     find_contacts, put_apart = contact.find_contacts, contact.put_apart
     pairs4 = ti.types.ndarray(dtype=ti.types.vector(4, ti.i32), ndim=1)
 
@@ -104,6 +104,7 @@ def build_contact_kernel(ti: Any) -> Any:
             surface.touching[part] = 0
         find_contacts(surface, solid, state, options, TICK)
         put_apart(surface, solid, state, options, dt, _LAST_PASSES)
+        record(0, state.displacement.shape[0], tick, state, drive)
 
     @ti.kernel
     def advance_touching(
@@ -125,6 +126,7 @@ def build_contact_kernel(ti: Any) -> Any:
         push: types.vectors,
         decay: types.scalars,
         corner_forces: types.pair_blocks,
+        records: types.vectors2,
         pairs: types.vectors,
         rig_leads: types.scalars3,
         rig_rates: types.scalars3,
@@ -180,7 +182,7 @@ def build_contact_kernel(ti: Any) -> Any:
                         wind_response,
                     )
                 ),
-                ti.static(State(u, v, push, decay, corner_forces)),
+                ti.static(State(u, v, push, decay, corner_forces, records)),
                 ti.static(
                     Drive(
                         rig_leads,

@@ -58,12 +58,18 @@ class TouchingBodies:
     def advance(self, first: int, end: int, *, block: int = 1) -> None:
         """Carry the state on from one tick to another, some ticks in a launch."""
         for tick in range(first, end, block):
-            taichi_runtime.run(self._advance, drive(self._scene, tick, min(block, end - tick)))
+            taichi_runtime.run(self._advance, self.state, drive(self._scene, tick, min(block, end - tick)))
 
-    def _advance(self, acting: Drive) -> None:
+    def record(self, first: int, end: int, *, count: int) -> NDArray[np.float32]:
+        """Carry the state on in one launch; the displacement so many times meanwhile [side], shape [count, v, 2]."""
+        recording = self.state.recording(count)
+        taichi_runtime.run(self._advance, recording, drive(self._scene, first, end - first))
+        return recording.records
+
+    def _advance(self, state: State, acting: Drive) -> None:
         kernel = taichi_runtime.compiled(build_contact_kernel)
         *arrays, gravity, wind = acting
         thickness = self._contact.thickness / self._scene.bodies[0].mesh.longest_side
         options = (self._contact.friction, thickness, int(self._contact.self_contact))
-        pairs = self.state.corner_forces.reshape(-1, 2)
-        kernel(*self._solid, *self.state, pairs, *arrays, *gravity, *wind, *self._surface, *options)
+        pairs = state.corner_forces.reshape(-1, 2)
+        kernel(*self._solid, *state, pairs, *arrays, *gravity, *wind, *self._surface, *options)

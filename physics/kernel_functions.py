@@ -278,6 +278,16 @@ def build_functions(ti: Any) -> SimpleNamespace:
             for i in range(first, last):
                 tether(i, tick, step, count, solid, state, drive)
 
+    @ti.func
+    def record(first: ti.i32, last: ti.i32, tick: ti.i32, state: any_value, drive: any_value):
+        """Write down where vertices are after a tick, if it is one of those."""
+        records = ti.static(state.records)
+        if records.shape[0] > 0:
+            every = (drive.first_particles.shape[0] - 1) // records.shape[0]
+            if (tick + 1) % every == 0:
+                for i in range(first, last):
+                    records[(tick + 1) // every - 1, i] = state.displacement[i]
+
     return SimpleNamespace(
         add_forces=add_forces,
         highest_frequency=highest_frequency,
@@ -285,4 +295,5 @@ def build_functions(ti: Any) -> SimpleNamespace:
         begin_tick=begin_tick,
         place=place,
         move_vertices=move_vertices,
+        record=record,
     )

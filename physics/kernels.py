@@ -55,6 +55,7 @@ class ArrayTypes(NamedTuple):
     integers: Any
     integers2: Any
     vectors: Any
+    vectors2: Any
     vectors4: Any
     pairs: Any
     index_blocks: Any
@@ -76,6 +77,7 @@ def array_types(ti: Any) -> ArrayTypes:
         integers=array(dtype=ti.i32, ndim=1),
         integers2=array(dtype=ti.i32, ndim=2),
         vectors=array(dtype=vector(2, ti.f32), ndim=1),
+        vectors2=array(dtype=vector(2, ti.f32), ndim=2),
         vectors4=array(dtype=vector(4, ti.f32), ndim=1),
         pairs=array(dtype=vector(2, ti.i32), ndim=1),
         index_blocks=array(dtype=vector(LANES, ti.i32), ndim=2),
@@ -92,7 +94,7 @@ def build_kernels(ti: Any) -> Kernels:
         functions.highest_frequency,
         functions.substeps_at,
     )
-    begin_tick, move_vertices = functions.begin_tick, functions.move_vertices
+    begin_tick, move_vertices, record = functions.begin_tick, functions.move_vertices, functions.record
 
     @ti.func
     def advance_part(
@@ -108,6 +110,7 @@ def build_kernels(ti: Any) -> Kernels:
                 for n in range(first[1] & SMALL, end[1] & SMALL):
                     add_forces(solid, state, n)
                 move_vertices(first[0], end[0], tick, step, count, solid, state, drive, pairs)
+            record(first[0], end[0], tick, state, drive)
 
     @ti.func
     def share(
@@ -144,6 +147,8 @@ def build_kernels(ti: Any) -> Kernels:
             elif ti.static(work == "begin"):
                 for i in range(low, high):
                     begin_tick(i, tick, TICK / count, solid, state, drive)
+            elif ti.static(work == "record"):
+                record(low, high, tick, state, drive)
             else:
                 move_vertices(low, high, tick, step, count, solid, state, drive, pairs)
             ti.atomic_add(claims[0], 1)
@@ -181,6 +186,8 @@ def build_kernels(ti: Any) -> Kernels:
                 due += share("move", part, tick, step, count, phase + 1, *arrays)
                 meet(claims, due)
                 phase += 2
+            due += share("record", part, tick, 0, count, phase, *arrays)  # all meet after the next plan
+            phase += 1
 
     @ti.kernel
     def advance(
@@ -203,6 +210,7 @@ def build_kernels(ti: Any) -> Kernels:
         push: types.vectors,
         decay: types.scalars,
         corner_forces: types.pair_blocks,
+        records: types.vectors2,
         pairs: types.vectors,
         rig_leads: types.scalars3,
         rig_rates: types.scalars3,
@@ -236,7 +244,7 @@ def build_kernels(ti: Any) -> Kernels:
                         wind_response,
                     )
                 ),
-                ti.static(State(u, v, push, decay, corner_forces)),
+                ti.static(State(u, v, push, decay, corner_forces, records)),
                 ti.static(
                     Drive(
                         rig_leads,
@@ -275,6 +283,7 @@ def build_kernels(ti: Any) -> Kernels:
         push: types.vectors,
         decay: types.scalars,
         corner_forces: types.pair_blocks,
+        records: types.vectors2,
         pairs: types.vectors,
         rig_leads: types.scalars3,
         rig_rates: types.scalars3,
@@ -308,7 +317,7 @@ def build_kernels(ti: Any) -> Kernels:
                         wind_response,
                     )
                 ),
-                ti.static(State(u, v, push, decay, corner_forces)),
+                ti.static(State(u, v, push, decay, corner_forces, records)),
                 ti.static(
                     Drive(
                         rig_leads,

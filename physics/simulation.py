@@ -158,10 +158,19 @@ def _displacements(
     if scene.contact is None:
         state = State.at_rest(solid)._replace(displacement=start.copy())
         run = partial(_run, scene, solid, state, block=block)
+        record: Callable[..., NDArray[np.float32]] = partial(_record, scene, solid, state)
     else:
         touching = TouchingBodies(scene, system, solid, scene.contact, start)
-        state, run = touching.state, partial(touching.advance, block=block)
+        state, run, record = touching.state, partial(touching.advance, block=block), touching.record
     yield state.displacement[:size]
+    per_frame, fraction = _ticks(1, scene.frame_rate)
+    if fraction == 0 and block >= 2 * per_frame:
+        most, left, together = block // per_frame, planned.frames - 1, 1
+        while True:
+            for displacement in record(done, done + together * per_frame, count=together):
+                yield displacement[:size]
+            done, left = done + together * per_frame, left - together
+            together = min(2 * together, most, left if left > 0 else most)  # the first frame comes at once
     for frame in count(first + 1):
         whole, fraction = _ticks(frame, scene.frame_rate)
         run(done, whole)
@@ -187,6 +196,13 @@ def _run(scene: Scene, solid: Solid, state: State, first: int, end: int, *, bloc
     """Advance the state from one tick to another, some ticks in a launch."""
     for tick in range(first, end, block):
         advance(solid, state, drive(scene, tick, min(block, end - tick)))
+
+
+def _record(scene: Scene, solid: Solid, state: State, first: int, end: int, *, count: int) -> NDArray[np.float32]:
+    """Advance the state in one launch; the displacement so many times meanwhile [side], shape [count, v, 2]."""
+    recording = state.recording(count)
+    advance(solid, recording, drive(scene, first, end - first))
+    return recording.records
 
 
 def _between(before: State, after: State, fraction: float) -> NDArray[np.float32]:

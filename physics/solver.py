@@ -64,7 +64,7 @@ def _advance(solid: Solid, state: State, drive: Drive, chosen: Schedule) -> None
         pace = _paces.setdefault((threads, triangles.bit_length()), Pace())
         shared, start = pace.share(), time.perf_counter()
         if shared:
-            phases = 2 * ticks * (1 + MOST_REFINEMENT * int(solid.substeps[part]))
+            phases = ticks * (3 + 2 * MOST_REFINEMENT * int(solid.substeps[part]))
             claims, highest = np.zeros(1 + phases, dtype=np.int32), np.zeros(ticks, dtype=np.float32)
             kernels.advance_together(part, threads, claims, highest, *arguments)
         else:

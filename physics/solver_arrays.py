@@ -114,6 +114,8 @@ class State(NamedTuple):
         decay: what damping leaves of a velocity in a substep of this tick, float32, shape [v].
         corner_forces: internal force of each triangle on its corners [density side^3 / s^2], the pairs of a block one
             after the other, float32, shape [n, 3, 32].
+        records: receives the displacement f times in a launch, each time after as many ticks [side], float32,
+            shape [f, v, 2]; f may be 0.
     """
 
     displacement: Float32Array
@@ -121,13 +123,19 @@ class State(NamedTuple):
     push: Float32Array
     decay: Float32Array
     corner_forces: Float32Array
+    records: Float32Array
 
     @staticmethod
     def at_rest(solid: Solid) -> State:
         """The undeformed, unmoving state of bodies."""
         count = len(solid.vertices)
         u, v, push = (np.zeros((count, 2), dtype=np.float32) for _ in range(3))
-        return State(u, v, push, np.zeros(count, dtype=np.float32), aligned((len(solid.corners), 3, 2 * LANES)))
+        decay, corner_forces = np.zeros(count, dtype=np.float32), aligned((len(solid.corners), 3, 2 * LANES))
+        return State(u, v, push, decay, corner_forces, np.zeros((0, count, 2), dtype=np.float32))
+
+    def recording(self, count: int) -> State:
+        """The same state, which a launch records so many times."""
+        return self._replace(records=np.empty((count, *self.displacement.shape), dtype=np.float32))
 
 
 class WindTable(NamedTuple):

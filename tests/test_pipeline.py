@@ -114,7 +114,7 @@ def test_points_select_the_part() -> None:
 def test_presets_one_for_each_part() -> None:
     other = np.roll(strip(), 45, axis=1)
     both = animate(picture(), [strip(), other], preset=["ribbon", "leaf"], frames=1)
-    assert [body.material.damping for body in both.scene.bodies] == [1.2, 1.8]
+    assert [body.material.damping for body in both.scene.bodies] == [PRESETS["ribbon"].damping, PRESETS["leaf"].damping]
 
 
 def test_stages_are_timed_and_reported() -> None:
