@@ -51,8 +51,8 @@ def build_contact_kernel(ti: Any) -> Any:
         for part in range(solid.substeps.shape[0]):
             if surface.touching[part] == 1:
                 surface.steps[part] = most
-            for i in range(solid.starts[part][0], solid.starts[part + 1][0]):
-                begin_tick(i, tick, TICK / surface.steps[part], solid, state, drive)
+            first, end = solid.starts[part][0], solid.starts[part + 1][0]
+            begin_tick(first, end, tick, TICK / surface.steps[part], solid, state, drive)
         return most
 
     @ti.func

@@ -96,7 +96,7 @@ def build_functions(ti: Any) -> SimpleNamespace:
         largest = 0.5 * (square + ti.sqrt(ti.max(square * square - 4.0 * j * j, 0.0)))  # singular value squared
         bulk = ti.max(largest + magnitude(2.0 * j - 1.0), magnitude(j - 1.0))
         shear, pressure = elements[n, 4], elements[n, 5]
-        return elements[n, 6] * (shear + pressure * bulk) / (shear + 2.0 * pressure)
+        return elements[n, 6] * (shear + pressure * bulk)
 
     @ti.func
     def highest_frequency(solid: any_value, state: any_value, first: ti.i32, end: ti.i32):
@@ -161,11 +161,9 @@ def build_functions(ti: Any) -> SimpleNamespace:
         return vec2(vertex[0], vertex[1])
 
     @ti.func
-    def begin_tick(i: ti.i32, tick: ti.i32, dt: ti.f32, solid: any_value, state: any_value, drive: any_value):
-        """External acceleration and damping of a vertex in a tick of steps of dt."""
-        vertex = solid.vertices[i]
-        state.decay[i] = ti.exp(-vertex[3] * dt)
-        total = vec2(0.0, 0.0)
+    def external_acceleration(i: ti.i32, tick: ti.i32, solid: any_value, state: any_value, drive: any_value):
+        """What strokes, wind and gravity give a vertex."""
+        vertex, total = solid.vertices[i], vec2(0.0, 0.0)
         if vertex[2] > 0.0:
             q = place(vertex) + state.displacement[i]
             total = wind_push(q, tick, drive)
@@ -174,7 +172,20 @@ def build_functions(ti: Any) -> SimpleNamespace:
             if solid.wind_response.shape[0] > 0:
                 total = total * solid.wind_response[i]
             total = total + vec2(drive.gravity[0], drive.gravity[1])
-        state.push[i] = total
+        return total
+
+    @ti.func
+    def begin_tick(
+        first: ti.i32, last: ti.i32, tick: ti.i32, dt: ti.f32, solid: any_value, state: any_value, drive: any_value
+    ):
+        """External acceleration and damping of some vertices in a tick of steps of dt."""
+        damping, decay = 0.0, 1.0
+        for i in range(first, last):
+            if solid.vertices[i][3] != damping:  # most have the same
+                damping = solid.vertices[i][3]
+                decay = ti.exp(0.0 - damping * dt)
+            state.decay[i] = decay
+            state.push[i] = external_acceleration(i, tick, solid, state, drive)
 
     @ti.func
     def led(x: vec2, coefficients: any_value, tick: ti.i32, leader: ti.i32):

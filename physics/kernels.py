@@ -104,8 +104,7 @@ def build_kernels(ti: Any) -> Kernels:
         for tick in range(drive.first_particles.shape[0] - 1):
             squared = highest_frequency(solid, state, first[1] & SMALL, end[1] & SMALL)
             count = substeps_at(squared, solid.substeps[part])
-            for i in range(first[0], end[0]):
-                begin_tick(i, tick, TICK / count, solid, state, drive)
+            begin_tick(first[0], end[0], tick, TICK / count, solid, state, drive)
             for step in range(count):
                 for n in range(first[1] & SMALL, end[1] & SMALL):
                     add_forces(solid, state, n)
@@ -145,8 +144,7 @@ def build_kernels(ti: Any) -> Kernels:
                 for n in range(low, high):
                     add_forces(solid, state, n)
             elif ti.static(work == "begin"):
-                for i in range(low, high):
-                    begin_tick(i, tick, TICK / count, solid, state, drive)
+                begin_tick(low, high, tick, TICK / count, solid, state, drive)
             elif ti.static(work == "record"):
                 record(low, high, tick, state, drive)
             else:
