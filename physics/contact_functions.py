@@ -182,21 +182,17 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
                 surface.memory[1] = ti.cast(count + 1, ti.f32)
 
     @ti.func
-    def find_contacts(surface: any_value, solid: any_value, state: any_value, options: any_value, time: ti.f32):
-        """List the contacts that may come about in the time ahead, and mark the parts that may touch in a tick."""
-        fastest = 0.0
-        for n in range(surface.points.shape[0]):
-            fastest = ti.max(fastest, state.velocity[surface.points[n]].norm_sqr())
-        fastest = ti.min(ti.sqrt(fastest), 2.0 * SPEED_FLOOR)  # what is led faster would have it look everywhere
-        ahead, soon = 2.0 * fastest * time, 2.0 * fastest * TICK
+    def look_around(
+        surface: any_value, solid: any_value, state: any_value, options: any_value, ahead: ti.f32, soon: ti.f32
+    ):
+        """List the contacts among the candidates, or find how far all is from any."""
+        width, nearest_square = 0.0, 1e6
+        for part in range(surface.spacing.shape[0]):
+            width = ti.max(width, 2.0 * surface.spacing[part])
         if surface.memory[0] < ahead or surface.memory[1] < 0.0:
-            width = 0.0
-            for part in range(surface.spacing.shape[0]):
-                width = ti.max(width, 2.0 * surface.spacing[part])
             margin = ti.max(ahead, ti.min(_FORESIGHT * soon, width))
             list_candidates(surface, solid, state, options, margin)
             surface.memory[0] = margin
-        surface.memory[0] = surface.memory[0] - ahead
         surface.memory[1] = 0.0
         for n in range(surface.points.shape[0]):
             if surface.first_candidates[n] < surface.first_candidates[n + 1]:
@@ -206,6 +202,7 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
                     e = surface.candidates[c]
                     part, edge = surface.edge_parts[e], surface.edges[e]
                     distance = offset(p, place(solid, state, edge[0]), place(solid, state, edge[1])).norm_sqr()
+                    nearest_square = ti.min(nearest_square, distance)
                     reach = ti.max(options.thickness + ahead, 2.0 * surface.spacing[part])
                     if distance < reach * reach:
                         taken = False
@@ -217,6 +214,21 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
                 for j in ti.static(range(LIST_LENGTH)):
                     if parts[j] >= 0:
                         add_contact(surface, solid, state, options, n, nearest[j], ahead, soon)
+        gap = ti.sqrt(nearest_square) - ti.max(options.thickness, width)
+        surface.memory[2] = ti.min(gap, surface.memory[0])
+
+    @ti.func
+    def find_contacts(surface: any_value, solid: any_value, state: any_value, options: any_value, time: ti.f32):
+        """List the contacts that may come about in the time ahead, and mark the parts that may touch in a tick."""
+        fastest = 0.0
+        for n in range(surface.points.shape[0]):
+            fastest = ti.max(fastest, state.velocity[surface.points[n]].norm_sqr())
+        fastest = ti.min(ti.sqrt(fastest), 2.0 * SPEED_FLOOR)  # what is led faster would have it look everywhere
+        ahead, soon = 2.0 * fastest * time, 2.0 * fastest * TICK
+        if surface.memory[1] < 0.0 or surface.memory[2] < 2.0 * ahead:
+            look_around(surface, solid, state, options, ahead, soon)
+        surface.memory[0] = surface.memory[0] - ahead
+        surface.memory[2] = surface.memory[2] - ahead
 
     @ti.func
     def put_apart(

@@ -47,8 +47,8 @@ class ContactSurface(NamedTuple):
         contact_data: the normal, where on the edge, and the distance to keep, float32, shape [c, 4].
         touching: whether each part is near to another, int32, shape [p].
         steps: substeps of each part in this tick, int32, shape [p].
-        memory: how much farther than now the candidates foresee [side], and the number of contacts (-1: not yet
-            found), float32, shape [2].
+        memory: how much farther than now the candidates foresee [side], the number of contacts (-1: not yet found), and
+            how far everything is from any [side], float32, shape [3].
     """
 
     points: Int32Array
@@ -119,7 +119,7 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         contact_data=np.zeros((room, 4), np.float32),
         touching=np.ones(len(bodies), np.int32),
         steps=np.zeros(parts, np.int32),
-        memory=np.array([0.0, -1.0], np.float32),
+        memory=np.array([0.0, -1.0, 0.0], np.float32),
     )
     return surface, still
 

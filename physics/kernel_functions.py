@@ -52,7 +52,7 @@ def build_functions(ti: Any) -> SimpleNamespace:
     @ti.func
     def pairs(x: lanes, y: lanes):
         """x and y of each lane side by side."""
-        return ti.Vector([(x, y)[place % 2][place // 2] for place in range(2 * LANES)])
+        return ti.Vector([axis[lane] for lane in range(LANES) for axis in (x, y)])
 
     @ti.func
     def add_forces(solid: any_value, state: any_value, n: ti.i32):

@@ -18,7 +18,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from types import CodeType, FrameType
 from typing import Any, ParamSpec, TypeVar, cast
 
@@ -78,6 +78,7 @@ class _TaichiThread:
         self._program: Any = None
         self._kernels: dict[Callable[[Any], Any], Any] = {}
         self._closed = False
+        self._during_job = ExitStack()
 
     def run(self, call: Callable[[], T]) -> T:
         if threading.current_thread() is self._thread:
@@ -91,6 +92,7 @@ class _TaichiThread:
         if threading.current_thread() is not self._thread:
             raise RuntimeError("compiled() must be called inside a job of run()")
         taichi = self._initialised()
+        self._during_job.enter_context(_unwrapped_positions())
         if build not in self._kernels:
             self._kernels[build] = build(taichi)
         return cast(T, self._kernels[build])
@@ -124,7 +126,8 @@ class _TaichiThread:
     def _work(self) -> None:
         while True:
             job = self._jobs.get()
-            job.execute()
+            with ExitStack() as self._during_job:
+                job.execute()
             del job  # the arrays of a finished job must not live until the next one
 
     def _initialised(self) -> Any:
@@ -211,6 +214,35 @@ def _without_announcement(module: Any) -> Iterator[None]:
         yield
     finally:
         del module.print
+
+
+class _Unwrapped:
+    """Stands in for ``textwrap.TextWrapper``."""
+
+    def __init__(self, width: int) -> None:
+        """The width does not matter."""
+
+    def wrap(self, text: str) -> list[str]:
+        """The text as one line, none where it is empty."""
+        return [text.rstrip()] if text.strip() else []
+
+
+@contextmanager
+def _unwrapped_positions() -> Iterator[None]:
+    """Taichi wraps the source line of every expression that it reads, in case it has to tell of an error there.
+
+    That takes more than a third of the time from the start to the first result.
+    """
+    module: Any = sys.modules.get("taichi.lang.ast.ast_transformer_utils")
+    original = getattr(module, "TextWrapper", None)
+    if original is None:
+        yield
+        return
+    module.TextWrapper = _Unwrapped
+    try:
+        yield
+    finally:
+        module.TextWrapper = original
 
 
 _taichi_thread = _TaichiThread()
