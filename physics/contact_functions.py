@@ -19,7 +19,7 @@ __all__ = ["ContactOptions", "build_contact_functions"]
 
 _YIELDING = 0.5  # part of the thickness that gives way at first, so that pushes do not set light vertices ringing
 _RETURN = 0.01  # part of it that comes back in a step
-_FORESIGHT = 12.0  # ticks that a list of candidates is good for, if so many do not reach over several edges
+_FORESIGHT = 24.0  # ticks that a list of candidates is good for, if so many do not reach over several edges
 
 
 class ContactOptions(NamedTuple):
@@ -127,12 +127,16 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
                 k = bucket(x + c % 3 - 1, y + c // 3 - 1, heads.shape[0] - 1)
                 for s in range(heads[k], heads[k + 1]):
                     e = surface.order[s]
-                    if count < surface.candidates.shape[0]:
-                        reach = ti.max(options.thickness, 2.0 * surface.spacing[surface.edge_parts[e]]) + margin
-                        away = offset(p, place(solid, state, edges[e][0]), place(solid, state, edges[e][1]))
-                        if away.norm_sqr() < reach * reach and may_touch(surface, solid, i, own, e, options):
-                            surface.candidates[count] = e
-                            count = count + 1
+                    part = surface.edge_parts[e]
+                    if options.within == 1 or surface.bodies[part] != surface.bodies[own]:
+                        reach = ti.max(options.thickness, 2.0 * surface.spacing[part]) + margin
+                        a, b = place(solid, state, edges[e][0]), place(solid, state, edges[e][1])
+                        far = reach + 0.5 * longest
+                        if (p - 0.5 * (a + b)).norm_sqr() < far * far and count < surface.candidates.shape[0]:
+                            near = offset(p, a, b).norm_sqr() < reach * reach
+                            if near and may_touch(surface, solid, i, own, e, options):
+                                surface.candidates[count] = e
+                                count = count + 1
         surface.first_candidates[surface.points.shape[0]] = count
 
     @ti.func

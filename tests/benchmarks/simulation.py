@@ -207,6 +207,13 @@ def start_up_seconds(rounds: int) -> float:
     return min(times[1:])
 
 
+def contact_costs_on_one_core(rounds: int) -> Any:
+    """The same in a process that may use one processor only."""
+    script = Path(__file__).parent / "contact_cost.py"
+    command = [sys.executable, str(script), "--one-core", "--rounds", str(rounds)]
+    return json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+
+
 def measure(rounds: int, sizes: dict[str, int]) -> dict[str, Any]:
     """Everything, each size in turn."""
     mtri: dict[str, dict[str, float | None]] = {
@@ -237,7 +244,7 @@ def measure(rounds: int, sizes: dict[str, int]) -> dict[str, Any]:
         },
         "startup_s": start_up_seconds(5),
         "shared_among_threads": shared,
-        "contact": contact_costs(rounds),
+        "contact": {"all_cores": contact_costs(rounds), "one_core": contact_costs_on_one_core(rounds)},
         "rounds": rounds,
         "machine": {"cores": os.cpu_count(), "processor": platform.machine(), "load": os.getloadavg()[0]},
     }
