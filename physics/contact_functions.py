@@ -193,10 +193,15 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
         width, nearest_square = 0.0, 1e6
         for part in range(surface.spacing.shape[0]):
             width = ti.max(width, 2.0 * surface.spacing[part])
-        if surface.memory[0] < ahead or surface.memory[1] < 0.0:
+        moved = 0.0  # since the candidates were listed
+        for n in range(surface.points.shape[0]):
+            moved = ti.max(moved, (place(solid, state, surface.points[n]) - surface.marks[n]).norm_sqr())
+        if surface.memory[0] < 2.0 * ti.sqrt(moved) + ahead or surface.memory[1] < 0.0:
             margin = ti.max(ahead, ti.min(_FORESIGHT * soon, width))
             list_candidates(surface, solid, state, options, margin)
             surface.memory[0] = margin
+            for n in range(surface.points.shape[0]):
+                surface.marks[n] = place(solid, state, surface.points[n])
         surface.memory[1] = 0.0
         for n in range(surface.points.shape[0]):
             if surface.first_candidates[n] < surface.first_candidates[n + 1]:
@@ -219,7 +224,7 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
                     if parts[j] >= 0:
                         add_contact(surface, solid, state, options, n, nearest[j], ahead, soon)
         gap = ti.sqrt(nearest_square) - ti.max(options.thickness, width)
-        surface.memory[2] = ti.min(gap, surface.memory[0])
+        surface.memory[2] = ti.min(gap, surface.memory[0] - 2.0 * ti.sqrt(moved))
 
     @ti.func
     def find_contacts(surface: any_value, solid: any_value, state: any_value, options: any_value, time: ti.f32):
@@ -231,7 +236,6 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
         ahead, soon = 2.0 * fastest * time, 2.0 * fastest * TICK
         if surface.memory[1] < 0.0 or surface.memory[2] < 2.0 * ahead:
             look_around(surface, solid, state, options, ahead, soon)
-        surface.memory[0] = surface.memory[0] - ahead
         surface.memory[2] = surface.memory[2] - ahead
 
     @ti.func

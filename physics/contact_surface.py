@@ -43,11 +43,12 @@ class ContactSurface(NamedTuple):
         overlaps: distance that it keeps from each, negative inside [side], float32, shape [o].
         heads, order: room for the kernel's spatial hash.
         first_candidates, candidates: for each point the edges that it may come near to for a while.
+        marks: where each point was when they were listed [side], float32, shape [n, 2].
         contacts: a vertex and the two of the edge that it may touch, int32, shape [c, 4]; the last is unused.
         contact_data: the normal, where on the edge, and the distance to keep, float32, shape [c, 4].
         touching: whether each part is near to another, int32, shape [p].
         steps: substeps of each part in this tick, int32, shape [p].
-        memory: how much farther than now the candidates foresee [side], the number of contacts (-1: not yet found), and
+        memory: how far the candidates foresee [side], the number of contacts (-1: not yet found), and
             how far everything is from any [side], float32, shape [3].
     """
 
@@ -65,6 +66,7 @@ class ContactSurface(NamedTuple):
     order: Int32Array
     first_candidates: Int32Array
     candidates: Int32Array
+    marks: Float32Array
     contacts: Int32Array
     contact_data: Float32Array
     touching: Int32Array
@@ -115,6 +117,7 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         order=np.zeros(len(every), np.int32),
         first_candidates=np.zeros(len(points) + 1, np.int32),
         candidates=np.zeros(_CANDIDATES * len(points), np.int32),
+        marks=np.zeros((len(points), 2), np.float32),
         contacts=np.zeros((room, 4), np.int32),
         contact_data=np.zeros((room, 4), np.float32),
         touching=np.ones(len(bodies), np.int32),
