@@ -1,0 +1,134 @@
+/**
+ * Puts an editor into a node of the host. It works in the LiteGraph canvas and in the Vue canvas.
+ *
+ * @typedef {object} Kind  of node
+ * @property {string} input  name of the text input that holds the value
+ * @property {any} format
+ * @property {string[][]} groups
+ * @property {boolean} moves
+ * @property {[number, number]} size  of a new node, at least
+ */
+
+import { Editor } from "../editor/editor.js";
+import { runNode } from "./queueing.js";
+import { upstreamImage, viewQuery } from "./upstream.js";
+
+const SHORTEST = 300;
+const OUTPUT = "physanimator_editor";
+
+/**
+ * @param {any} app  the host's
+ * @param {any} api  the host's
+ * @param {any} node
+ * @param {Kind} kind
+ */
+export function attachEditor(app, api, node, kind) {
+  const value = node.widgets?.find((/** @type {any} */ widget) => widget.name === kind.input);
+  if (!value) return null;
+  const editor = new Editor({
+    ...kind,
+    fetch: (path, options) => api.fetchApi(path, options),
+    onChange: (text) => keep(app, node, value, text),
+    onRun: () => runNode(app, node),
+  });
+  hide(value);
+  const widget = node.addDOMWidget("physanimator_editor", "physanimator_editor", editor.root, {
+    serialize: false,
+    hideOnZoom: false,
+    getMinHeight: () => SHORTEST,
+  });
+  // A widget that is only shown must not be saved: it would shift the values of all that come after it.
+  widget.serialize = false;
+  follow(app, api, node, value, editor);
+  node.setSize?.([Math.max(node.size[0], kind.size[0]), Math.max(node.size[1], kind.size[1])]);
+  return editor;
+}
+
+/** @param {any} value the widget whose text the editor shows */
+function hide(value) {
+  value.hidden = true;
+  value.options ??= {};
+  value.options.hidden = true;
+}
+
+/**
+ * @param {any} app
+ * @param {any} node
+ * @param {any} value
+ * @param {string} text
+ */
+function keep(app, node, value, text) {
+  value.value = text;
+  value.callback?.(text);
+  node.graph?.change?.();
+  const tracker = app.extensionManager?.workflow?.activeWorkflow?.changeTracker;
+  if (tracker?.captureCanvasState) tracker.captureCanvasState();
+  else tracker?.checkState?.();
+}
+
+/**
+ * Keep the editor up to date with the graph.
+ *
+ * @param {any} app
+ * @param {any} api
+ * @param {any} node
+ * @param {any} value
+ * @param {Editor} editor
+ */
+function follow(app, api, node, value, editor) {
+  let file = /** @type {string | null | undefined} */ (undefined);
+  const look = () => {
+    if (!node.graph) return;
+    editor.load(String(value.value ?? ""));
+    const found = upstreamImage(node, app.rootGraph ?? app.graph);
+    if (found === file) return;
+    const first = file === undefined;
+    file = found;
+    if (!first) editor.forgetRun();
+    if (found) editor.setPicture(api.apiURL(`/view?${viewQuery(found)}`));
+  };
+  const ran = (/** @type {any} */ output) => {
+    const [info] = output?.[OUTPUT] ?? [];
+    if (info) editor.setRun(runOf(api, info)).catch((error) => editor.say(error.message));
+  };
+  chain(node, "onConfigure", () => queueMicrotask(look));
+  chain(node, "onConnectionsChange", () => queueMicrotask(look));
+  chain(node, "onExecuted", ran);
+  // The graph does not tell when a node upstream changes: look while the node is drawn or the pointer comes near.
+  chain(node, "onDrawForeground", look);
+  editor.root.addEventListener("pointerenter", look);
+  const remains = setInterval(look, 1000);
+  chain(node, "onRemoved", () => {
+    clearInterval(remains);
+    editor.release();
+  });
+  queueMicrotask(() => {
+    look();
+    editor.load(String(value.value ?? ""));
+    ran(app.nodeOutputs?.[String(node.id)]);
+  });
+}
+
+/**
+ * @param {any} api
+ * @param {any} info  as the node tells it
+ * @returns {import("../editor/live.js").Run}
+ */
+function runOf(api, { key, width, height, image, plate }) {
+  const url = (/** @type {any} */ saved) => api.apiURL(`/view?${new URLSearchParams(saved)}`);
+  return { key, width, height, image: url(image), plate: plate ? url(plate) : null };
+}
+
+/**
+ * @param {any} node
+ * @param {string} name
+ * @param {(argument: any) => void} more
+ */
+function chain(node, name, more) {
+  const before = node[name];
+  node[name] = function (/** @type {any[]} */ ...args) {
+    const result = before?.apply(this, args);
+    more(args[0]);
+    return result;
+  };
+}

@@ -1,0 +1,31 @@
+/** Draws at most once in an animation frame, however often it is asked to. */
+export class Scheduler {
+  /**
+   * @param {(now: number) => boolean} draw  returns whether to go on in the next frame
+   * @param {(callback: (now: number) => void) => number} [frame]
+   */
+  constructor(draw, frame = (callback) => requestAnimationFrame(callback)) {
+    this.draw = draw;
+    this.frame = frame;
+    this.waiting = false;
+    this.stopped = false;
+    this.requested = 0;
+    this.drawn = 0;
+  }
+
+  request() {
+    this.requested += 1;
+    if (this.waiting || this.stopped) return;
+    this.waiting = true;
+    this.frame((now) => {
+      this.waiting = false;
+      if (this.stopped) return;
+      this.drawn += 1;
+      if (this.draw(now)) this.request();
+    });
+  }
+
+  stop() {
+    this.stopped = true;
+  }
+}
