@@ -11,8 +11,10 @@ from .flow_nodes import OpticalFlow, PreviewFlow
 from .mask_nodes import MaskToMesh, SegmentByPoints
 from .motion_nodes import PreviewMotion, Simulate
 from .paint_nodes import PaintMaterial
+from .preview_server import register_routes
 from .render_nodes import Interpolate, Render
 from .rig_nodes import RigPoint
+from .scene_editor_nodes import SceneEditor
 from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
 from .sketch_nodes import ExtractSketch, WarpSketch
 from .stroke_nodes import EnergyStroke
@@ -35,6 +37,7 @@ NODES: list[type[io.ComfyNode]] = [
     Scene,
     AutomaticScene,
     SceneFromJSON,
+    SceneEditor,
     Simulate,
     PreviewMotion,
     OpticalFlow,
@@ -49,4 +52,5 @@ NODES: list[type[io.ComfyNode]] = [
 
 class PhysAnimatorExtension(ComfyExtension):
     async def get_node_list(self) -> list[type[io.ComfyNode]]:
+        register_routes()  # here, because host 0.8.0 does not call on_load
         return list(NODES)

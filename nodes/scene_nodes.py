@@ -26,7 +26,7 @@ from .wires import (
     WindWire,
 )
 
-__all__ = ["AutomaticScene", "Scene", "SceneFromJSON"]
+__all__ = ["AutomaticScene", "Scene", "SceneFromJSON", "scene_output", "scene_outputs"]
 
 _SAMPLE = """\
 {
@@ -62,7 +62,7 @@ class Scene(io.ComfyNode):
                 WindWire.Input("wind", optional=True, tooltip="Blows everywhere beside the strokes."),
                 _contact(),
             ],
-            outputs=_scene_outputs(),
+            outputs=scene_outputs(),
         )
 
     @classmethod
@@ -83,7 +83,7 @@ class Scene(io.ComfyNode):
             )
         gravity = (gravity_x, gravity_y)
         scene = PhysicalScene(_physical(bodies), strokes, rig_points, gravity, frame_rate, wind=wind)
-        return _output(_touching(scene, contact), bodies)
+        return scene_output(_touching(scene, contact), bodies)
 
 
 class AutomaticScene(io.ComfyNode):
@@ -124,7 +124,7 @@ class AutomaticScene(io.ComfyNode):
                 WindWire.Input("wind", optional=True, tooltip="Blows instead of the gusts when connected."),
                 _contact(),
             ],
-            outputs=_scene_outputs(),
+            outputs=scene_outputs(),
         )
 
     @classmethod
@@ -150,7 +150,7 @@ class AutomaticScene(io.ComfyNode):
         )
         drawn = {"strokes": strokes, "rig_points": rig_points}
         given = {name: value for name, value in drawn.items() if value}
-        return _output(_touching(replace(scene, wind=wind, **given), contact), bodies)
+        return scene_output(_touching(replace(scene, wind=wind, **given), contact), bodies)
 
 
 class SceneFromJSON(io.ComfyNode):
@@ -173,7 +173,7 @@ class SceneFromJSON(io.ComfyNode):
                     tooltip="A scene document [JSON]: positions and radii in px, times in s, as Scene writes it.",
                 ),
             ],
-            outputs=_scene_outputs(),
+            outputs=scene_outputs(),
         )
 
     @classmethod
@@ -186,17 +186,9 @@ class SceneFromJSON(io.ComfyNode):
     @classmethod
     def execute(cls, bodies: tuple[MaskedBody, ...], scene: str) -> io.NodeOutput:
         from ..physics.json_text import read_json
-        from ..physics.scene_checking import check_document
-        from ..physics.scene_json import scene_from_dict
+        from ..physics.scene_over import scene_over
 
-        document = check_document(read_json(scene))
-        entries = [{k: v for k, v in entry.items() if k != "mesh"} for entry in document.get("bodies", [])]
-        read = scene_from_dict(document | {"bodies": entries}, meshes=[item.body.mesh for item in bodies])
-        named = [
-            replace(item.body, **{field: getattr(found, field) for field in entry})
-            for item, found, entry in zip(bodies, read.bodies, entries, strict=False)
-        ]
-        return _output(replace(read, bodies=(*named, *_physical(bodies)[len(named) :])), bodies)
+        return scene_output(scene_over(read_json(scene), _physical(bodies)), bodies)
 
 
 def _touching(scene: PhysicalScene, touch: Touch | None) -> PhysicalScene:
@@ -213,13 +205,15 @@ def _physical(bodies: tuple[MaskedBody, ...]) -> tuple[Any, ...]:
     return tuple(item.body for item in bodies)
 
 
-def _output(scene: PhysicalScene, bodies: tuple[MaskedBody, ...]) -> io.NodeOutput:
+def scene_output(scene: PhysicalScene, bodies: tuple[MaskedBody, ...], *, ui: Any = None) -> io.NodeOutput:
+    """What the nodes of this file give: the scene with the bodies' masks, and its document."""
     from ..physics.scene_json import dumps
 
-    return io.NodeOutput(MaskedScene(scene, tuple(item.mask for item in bodies)), dumps(scene, meshes=False))
+    return io.NodeOutput(MaskedScene(scene, tuple(item.mask for item in bodies)), dumps(scene, meshes=False), ui=ui)
 
 
-def _scene_outputs() -> list[io.Output]:
+def scene_outputs() -> list[io.Output]:
+    """Outputs for ``scene_output``."""
     return [
         SceneWire.Output(display_name="scene", tooltip="For Simulate."),
         io.String.Output(

@@ -7,7 +7,7 @@ two ticks is read from the cubic through both.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from itertools import count
@@ -31,14 +31,22 @@ from .solver import Solid, State, advance
 from .stepping import TICK, squared_frequencies
 from .system import System, assemble
 
-__all__ = ["SimulationPlan", "plan", "simulate"]
+__all__ = ["OnFrame", "SimulationPlan", "plan", "simulate"]
+
+OnFrame = Callable[[int, NDArray[np.float32]], None]
+"""Called with the number of a frame and its positions [px], shape [v, 2]: to be read before it returns."""
 
 _LAUNCH_WORK = 1.5e6  # triangle updates: some 15 ms, for which a launch stops the other threads of the process
 _ON_TICK = 1e-6  # [ticks]
 
 
 def simulate(
-    scene: Scene, *, frames: int | None = None, progress: Progress | None = None, max_work: float = MAX_WORK
+    scene: Scene,
+    *,
+    frames: int | None = None,
+    progress: Progress | None = None,
+    max_work: float = MAX_WORK,
+    on_frame: OnFrame | None = None,
 ) -> Motion:
     """Where every vertex is in every frame (paper, Appendix A; semi-implicit Euler).
 
@@ -52,6 +60,9 @@ def simulate(
             of more frames, each is that one cycle before.
         progress: called after each frame with (frames done, frames); may raise to stop.
         max_work: most triangle updates that are accepted; ``plan`` tells what a scene takes.
+        on_frame: is shown each frame as soon as it is known; may raise to stop. Of a loop it is shown every cycle while
+            the motion settles, and at the end the one that closes: a frame takes the place of an earlier one with its
+            number.
 
     Raises:
         InvalidInputError: ``frames`` is below 1.
@@ -59,7 +70,7 @@ def simulate(
             loop does not.
     """
     if scene.loop is not None:
-        return _looped(periodic(scene), frames=frames, progress=progress, max_work=max_work)
+        return _looped(periodic(scene), frames=frames, progress=progress, max_work=max_work, on_frame=on_frame)
     require("frames", frames, frames is not None, "a number where the scene has no loop")
     assert frames is not None
     system = assemble(scene)
@@ -74,12 +85,16 @@ def simulate(
             raise SimulationError(
                 f"The motion is no longer finite in frame {frame}. Weaken the strokes, or move the rig points less far."
             )
+        if on_frame is not None:
+            on_frame(frame, positions[frame])
         if progress is not None:
             progress(frame + 1, frames)
     return Motion(scene.bodies, positions, scene.frame_rate)
 
 
-def _looped(scene: Scene, *, frames: int | None, progress: Progress | None, max_work: float) -> Motion:
+def _looped(
+    scene: Scene, *, frames: int | None, progress: Progress | None, max_work: float, on_frame: OnFrame | None
+) -> Motion:
     """One cycle of a periodic scene, again and again for as many frames as are wanted."""
     length = loop_frames(scene)
     require("frames", frames, frames is None or frames >= 1, "at least 1")
@@ -90,11 +105,32 @@ def _looped(scene: Scene, *, frames: int | None, progress: Progress | None, max_
     side, order = scene.bodies[0].mesh.longest_side, system.order
     rest, system, start = _at_rest(scene, system)
     endless = _displacements(scene, system, planned, start, first=first_frame(scene))
+    if on_frame is not None:
+        endless = _shown(endless, on_frame, length=length, rest=rest, order=order, side=side)
     cycle, report = settled(scene, endless, most_cycles=most, progress=progress)
     positions = np.empty((length, len(rest), 2), dtype=np.float32)
     positions[:, order] = rest + cycle.astype(np.float64) * side
+    for frame in range(length if on_frame else 0):
+        on_frame(frame, positions[frame])  # type: ignore[misc]
     shown = np.arange(length if frames is None else frames) % length
     return Motion(scene.bodies, positions[shown], scene.frame_rate, report)
+
+
+def _shown(
+    displacements: Iterator[NDArray[np.float32]],
+    on_frame: OnFrame,
+    *,
+    length: int,
+    rest: NDArray[np.float64],
+    order: NDArray[np.int32],
+    side: float,
+) -> Iterator[NDArray[np.float32]]:
+    """The same displacements, each shown under its frame of the cycle before it is handed on."""
+    positions = np.empty((len(rest), 2), dtype=np.float32)
+    for number, displacement in enumerate(displacements):
+        positions[order] = rest + displacement.astype(np.float64) * side
+        on_frame(number % length, positions)
+        yield displacement
 
 
 def _at_rest(scene: Scene, system: System) -> tuple[NDArray[np.float64], System, NDArray[np.float32]]:

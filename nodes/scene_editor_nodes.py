@@ -1,0 +1,118 @@
+"""The scene editor: strokes and rig points drawn on the picture, with the real physics under the pen.
+
+Its value is a scene document, so the node runs from that alone; what it returns beside its outputs is for the canvas.
+"""
+
+from __future__ import annotations
+
+import secrets
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from comfy_api.latest import io, ui
+
+from ..physics.errors import require
+from ..physics.preview_store import PreviewBodies
+from .literals import refusal
+from .preview_server import STORE, warm_up
+from .scene_nodes import scene_output, scene_outputs
+from .tensors import batch_of_pictures, picture_of
+from .wires import BodiesWire, MaskedBody
+
+if TYPE_CHECKING:
+    import torch
+
+__all__ = ["SceneEditor"]
+
+_EMPTY = '{"version": 2, "width": 1280, "height": 720}'
+
+
+class SceneEditor(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        return io.Schema(
+            node_id="PhysAnimator_SceneEditor",
+            display_name="Scene Editor",
+            category="PhysAnimator/scene",
+            description="Draw wind, pushes, pins and paths on the picture and see it move.",
+            is_output_node=True,
+            inputs=[
+                io.String.Input(
+                    "scene",
+                    default=_EMPTY,
+                    multiline=True,
+                    socketless=True,
+                    tooltip="What is drawn, as a scene document [JSON]: positions and radii in px, times in s.",
+                ),
+                BodiesWire.Input("bodies", tooltip="What moves."),
+                io.Image.Input("image", optional=True, tooltip="The illustration, to draw on."),
+                io.Image.Input(
+                    "plate",
+                    optional=True,
+                    tooltip="The illustration without its moving parts, which the preview shows behind them. One is"
+                    " made when none is connected.",
+                ),
+            ],
+            outputs=scene_outputs(),
+        )
+
+    @classmethod
+    def validate_inputs(cls, scene: str | None = None) -> bool | str:
+        from ..physics.json_text import read_json
+        from ..physics.scene_checking import check_document
+
+        return scene is None or refusal(lambda: check_document(read_json(scene)))
+
+    @classmethod
+    def execute(
+        cls,
+        scene: str,
+        bodies: tuple[MaskedBody, ...],
+        image: torch.Tensor | None = None,
+        plate: torch.Tensor | None = None,
+    ) -> io.NodeOutput:
+        from ..physics.json_text import read_json
+        from ..physics.scene_over import scene_over
+
+        drawn = scene_over(read_json(scene), [item.body for item in bodies])
+        shown = None if image is None else _shown(image, drawn.width, drawn.height, "image")
+        behind = None if plate is None else _shown(plate, drawn.width, drawn.height, "plate")
+        info = {
+            "key": STORE.put(_kept(bodies, shown)),
+            "width": drawn.width,
+            "height": drawn.height,
+            "image": _saved(shown),
+            "plate": _saved(behind),
+        }
+        warm_up()
+        return scene_output(drawn, bodies, ui={"physanimator_editor": [info]})
+
+
+def _shown(image: torch.Tensor, width: int, height: int, name: str) -> np.ndarray:
+    """A picture of the bodies' size as bytes, uint8, shape [h, w, 3]."""
+    picture = picture_of(image, name=name)
+    got = f"{picture.shape[1]} x {picture.shape[0]} px"
+    require(name, got, picture.shape[:2] == (height, width), f"of the bodies' size, {width} x {height} px")
+    return np.rint(picture * 255).astype(np.uint8)
+
+
+def _kept(bodies: tuple[MaskedBody, ...], picture: np.ndarray | None) -> PreviewBodies:
+    physical = tuple(item.body for item in bodies)
+    if picture is None:
+        return PreviewBodies(physical)
+    hole = np.max([item.mask for item in bodies], axis=0)
+    return PreviewBodies(physical, picture, np.rint(hole * 255).astype(np.uint8))
+
+
+def _saved(picture: np.ndarray | None) -> dict[str, Any] | None:
+    """Where the host keeps a picture for its page to fetch."""
+    if picture is None:
+        return None
+    saved = ui.ImageSaveHelper.save_images(
+        batch_of_pictures([picture], 1),
+        filename_prefix=f"physanimator_{secrets.token_hex(4)}",
+        folder_type=io.FolderType.temp,
+        cls=None,
+        compress_level=1,
+    )
+    return dict(saved[0])

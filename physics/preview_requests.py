@@ -1,0 +1,141 @@
+"""What an editor asks for, read without trust: a scene over bodies that the server keeps, and how many frames of it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from .errors import InvalidInputError, require
+from .json_text import read_json
+from .loop import loop_frames
+from .preview_limits import (
+    MAX_ANSWER_BYTES,
+    MAX_EDITOR_NAME,
+    MAX_FRAMES,
+    MAX_NESTING,
+    MAX_OBJECTS,
+    MAX_PREVIEW_POINTS,
+    MAX_PREVIEW_RIG_POINTS,
+    MAX_PREVIEW_STROKES,
+    MAX_PREVIEW_TRIANGLES,
+    MAX_REQUEST_BYTES,
+    MAX_VALUES,
+)
+from .scene import Body, Scene
+
+__all__ = ["PreviewRequest", "is_key", "preview_scene", "read_request"]
+
+_FIELDS = {"editor", "key", "scene", "frames"}
+_KEY = re.compile(r"[0-9a-f]{64}")
+_POINT_LISTS = ("path", "points", "times", "strength_keys", "speed_keys", "angles", "factors")
+
+
+@dataclass(frozen=True)
+class PreviewRequest:
+    """A request whose form is right; its scene has not been checked yet.
+
+    Attributes:
+        editor: which editor asks; a later request of it takes the place of an earlier one.
+        key: of the bodies.
+        document: the decoded scene document.
+        frames: how many frames to show, the drawing included; of a loop, those of one cycle are shown.
+    """
+
+    editor: str
+    key: str
+    document: dict[str, Any]
+    frames: int
+
+
+def is_key(text: object) -> bool:
+    """Whether something has the form of a key: 64 hexadecimal digits."""
+    return isinstance(text, str) and _KEY.fullmatch(text) is not None
+
+
+def read_request(body: bytes) -> PreviewRequest:
+    """The request in the body of a POST.
+
+    Raises:
+        InvalidInputError: it is no such request, or larger than the limits.
+    """
+    require("the request", f"{len(body)} bytes", len(body) <= MAX_REQUEST_BYTES, f"at most {MAX_REQUEST_BYTES} bytes")
+    data = read_json(body)
+    _require_small(data)
+    named = isinstance(data, dict) and set(data) == _FIELDS
+    require("the request", _shown(data), named, f"an object with {', '.join(sorted(_FIELDS))}")
+    editor, key, document, frames = (data[name] for name in ("editor", "key", "scene", "frames"))
+    is_name = isinstance(editor, str) and 0 < len(editor) <= MAX_EDITOR_NAME
+    require("editor", _shown(editor), is_name, f"a text of 1 to {MAX_EDITOR_NAME} characters")
+    require("key", _shown(key), is_key(key), "64 hexadecimal digits")
+    require("scene", _shown(document), isinstance(document, dict), "a scene document, an object in braces")
+    counted = type(frames) is int and 1 <= frames <= MAX_FRAMES
+    require("frames", _shown(frames), counted, f"a whole number from 1 to {MAX_FRAMES}")
+    _require_few(document, "strokes", MAX_PREVIEW_STROKES)
+    _require_few(document, "rig_points", MAX_PREVIEW_RIG_POINTS)
+    points = _count_points(document)
+    require("scene", f"{points} points", points <= MAX_PREVIEW_POINTS, f"of at most {MAX_PREVIEW_POINTS} points")
+    return PreviewRequest(editor, key, document, frames)
+
+
+def preview_scene(request: PreviewRequest, bodies: Sequence[Body]) -> tuple[Scene, int]:
+    """The scene to simulate for a request, and how many frames of it.
+
+    Raises:
+        SceneError: a value of the scene is wrong.
+        InvalidInputError: it is more than a preview shows.
+    """
+    from .scene_over import scene_over
+
+    triangles = sum(len(body.mesh.triangles) for body in bodies)
+    _require_preview("triangles", triangles, MAX_PREVIEW_TRIANGLES, "mesh the bodies with a larger spacing")
+    scene = scene_over(request.document, bodies)
+    frames = request.frames if scene.loop is None else loop_frames(scene)
+    _require_preview("frames", frames, MAX_FRAMES, "shorten the loop")
+    vertices = sum(len(body.mesh.vertices) for body in bodies)
+    _require_preview("bytes", 4 * vertices * frames, MAX_ANSWER_BYTES, "show fewer frames, or mesh more coarsely")
+    return scene, frames
+
+
+def _require_preview(name: str, count: int, most: int, remedy: str) -> None:
+    if count > most:
+        raise InvalidInputError(f"A live preview shows at most {most:,} {name}; {remedy}. Got: {count:,}")
+
+
+def _require_few(document: dict[str, Any], name: str, most: int) -> None:
+    entries = document.get(name)
+    count = len(entries) if isinstance(entries, list) else 0
+    _require_preview(name, count, most, "queue the graph to see them all")
+
+
+def _require_small(data: object) -> None:
+    """Refuse what is nested too deep or has too many parts, before anything walks through it with more effort."""
+    level, depth, values, objects = [data], 0, 1, 0
+    while level := [entry for entry in level if isinstance(entry, dict | list)]:
+        depth += 1
+        require("the request", "more", depth <= MAX_NESTING, f"nested at most {MAX_NESTING} deep")
+        values += sum(map(len, level))
+        objects += sum(isinstance(entry, dict) for entry in level)
+        require("the request", "more", values <= MAX_VALUES, f"of at most {MAX_VALUES} values")
+        require("the request", "more", objects <= MAX_OBJECTS, f"of at most {MAX_OBJECTS} objects")
+        level = [each for entry in level for each in (entry.values() if isinstance(entry, dict) else entry)]
+
+
+def _count_points(data: object) -> int:
+    """Entries of all lists of points, times and keys."""
+    count, pending = 0, [data]
+    while pending:
+        entry = pending.pop()
+        if isinstance(entry, dict):
+            count += sum(len(entry[name]) for name in _POINT_LISTS if isinstance(entry.get(name), list))
+            pending += [each for each in entry.values() if isinstance(each, dict | list)]
+        elif isinstance(entry, list):
+            pending += [each for each in entry if isinstance(each, dict)]
+    return count
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, dict | list):
+        return f"{'an object' if isinstance(value, dict) else 'a list'} of {len(value)}"
+    return repr(value)[:60]

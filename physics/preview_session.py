@@ -1,0 +1,218 @@
+"""Live previews: one simulation at a time for each editor, of which the latest wins, and the records it sends."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import Cancelled, PhysAnimatorError
+from .loop import first_frame, periodic
+from .preview_limits import MAX_EDITORS, MAX_PREVIEW_WORK
+from .preview_records import END, ERROR, FRAME, HEADER, FrameEncoder, record
+from .scene import Scene
+
+__all__ = ["SUPERSEDED", "PreviewRun", "PreviewRuns", "RecordQueue", "stream", "warm_up"]
+
+SUPERSEDED = "superseded"
+"""Why a run was cancelled when its editor has asked for another."""
+
+_QUEUE_BYTES = 2 * 2**20
+_POLL_SECONDS = 0.02
+
+
+class RecordQueue:
+    """Records on their way from the simulating thread to the one that sends them; it never holds many."""
+
+    def __init__(self, wake: Callable[[], None], *, max_bytes: int = _QUEUE_BYTES) -> None:
+        """
+        Args:
+            wake: called, from the simulating thread, when there is something to take.
+            max_bytes: above which ``put`` waits.
+        """
+        self._wake, self._max_bytes = wake, max_bytes
+        self._records: deque[bytes] = deque()
+        self._bytes, self._closed = 0, False
+        self._changed = threading.Condition()
+
+    def put(self, data: bytes, run: PreviewRun) -> None:
+        """Add a record; waits while the queue is full.
+
+        Raises:
+            Cancelled: the run was cancelled meanwhile.
+        """
+        with self._changed:
+            while self._bytes and self._bytes + len(data) > self._max_bytes:
+                run.check()
+                self._changed.wait(_POLL_SECONDS)
+            self._append(data)
+        self._wake()
+
+    def close(self, last: bytes = b"") -> None:
+        """Add a last record, whether there is room or not; no more will come."""
+        with self._changed:
+            self._append(last)
+            self._closed = True
+        self._wake()
+
+    def take(self) -> tuple[bytes, bool]:
+        """Everything that waits, and whether that was the last; never waits itself."""
+        with self._changed:
+            data, closed = b"".join(self._records), self._closed
+            self._records.clear()
+            self._bytes = 0
+            self._changed.notify_all()
+        return data, closed
+
+    def _append(self, data: bytes) -> None:
+        self._records.append(data)
+        self._bytes += len(data)
+
+
+@dataclass(eq=False)
+class PreviewRun:
+    """One simulation of an editor.
+
+    Attributes:
+        editor: whose it is.
+        turn: held by whichever run of that editor simulates; the others wait for it.
+        reason: why it was cancelled; empty while it was not.
+    """
+
+    editor: str
+    turn: threading.Lock
+    reason: str = ""
+    _cancelled: threading.Event = field(default_factory=threading.Event)
+
+    def cancel(self, reason: str) -> None:
+        """Let the simulation stop after the present frame."""
+        self.reason = self.reason or reason
+        self._cancelled.set()
+
+    def check(self) -> None:
+        """
+        Raises:
+            Cancelled: the run was cancelled; the message is the reason.
+        """
+        if self._cancelled.is_set():
+            raise Cancelled(self.reason)
+
+    def wait_for_turn(self) -> None:
+        """Wait until the editor's earlier runs have stopped; release ``turn`` afterwards.
+
+        Raises:
+            Cancelled: the run was cancelled meanwhile.
+        """
+        self.check()
+        while not self.turn.acquire(timeout=_POLL_SECONDS):
+            self.check()
+
+
+class PreviewRuns:
+    """The latest run of each editor; safe to use from any thread."""
+
+    def __init__(self, *, most: int = MAX_EDITORS) -> None:
+        """
+        Args:
+            most: editors that may have a run at once.
+        """
+        self._most = most
+        self._runs: dict[str, PreviewRun] = {}
+        self._lock = threading.Lock()
+
+    def enter(self, editor: str) -> PreviewRun | None:
+        """A new run, for which the editor's earlier one is cancelled; None when too many editors have one."""
+        with self._lock:
+            before = self._runs.get(editor)
+            if before is None and len(self._runs) >= self._most:
+                return None
+            run = PreviewRun(editor, before.turn if before else threading.Lock())
+            self._runs[editor] = run
+        if before is not None:
+            before.cancel(SUPERSEDED)
+        return run
+
+    def leave(self, run: PreviewRun) -> None:
+        """Forget a run that has ended, unless another has taken its place."""
+        with self._lock:
+            if self._runs.get(run.editor) is run:
+                del self._runs[run.editor]
+
+    def __len__(self) -> int:
+        return len(self._runs)
+
+
+def stream(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) -> None:
+    """Simulate a scene and put its records into a queue, which is closed in the end whatever happens.
+
+    Of a scene that loops every cycle goes out while it settles, so that something moves at once; each frame takes the
+    place of the one of the cycle before.
+
+    Args:
+        scene: what to simulate.
+        frames: how many; of a loop, those of a cycle.
+        run: may be cancelled at any time from any thread.
+        queue: where the records go.
+    """
+    last = b""
+    try:
+        run.wait_for_turn()
+        try:
+            last = _streamed(scene, frames, run, queue)
+        finally:
+            run.turn.release()
+    except PhysAnimatorError as error:
+        last = record(ERROR, {"error": str(error)})
+    except Exception as error:
+        last = record(
+            ERROR, {"error": f"The preview has failed ({type(error).__name__}); the server's log tells more."}
+        )
+        raise
+    finally:
+        queue.close(last)
+
+
+def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) -> bytes:
+    """Put everything but the last record, which is returned."""
+    from .simulation import simulate
+
+    begun, largest = time.perf_counter(), 0.0
+    acting = scene if scene.loop is None else periodic(scene)
+    encoder = FrameEncoder(acting, frames=frames, first_frame=0 if scene.loop is None else first_frame(acting))
+    queue.put(record(HEADER, encoder.header(frames=frames)), run)
+
+    def send(number: int, positions: NDArray[np.float32]) -> None:
+        nonlocal largest
+        payload, displacement = encoder.frame(number, positions)
+        largest = max(largest, displacement)
+        queue.put(record(FRAME, payload), run)
+        run.check()
+
+    simulate(
+        scene, frames=None if scene.loop else frames, on_frame=send, progress=_checking(run), max_work=MAX_PREVIEW_WORK
+    )
+    seconds = time.perf_counter() - begun
+    return record(END, {"frames": frames, "seconds": seconds, "largest_displacement": largest})
+
+
+def _checking(run: PreviewRun) -> Callable[[int, int], None]:
+    return lambda _done, _total: run.check()
+
+
+def warm_up() -> None:
+    """Load the kernels and all that a first preview needs, which takes a second once in a process."""
+    from .mesh import TriangleMesh
+    from .rig import Circle, RigPoint
+    from .scene import Body
+    from .simulation import simulate
+    from .strokes import EnergyStroke
+
+    corners = np.array([[0.0, 0.0], [8.0, 0.0], [0.0, 8.0], [8.0, 8.0]])
+    mesh = TriangleMesh(corners, np.array([[0, 1, 2], [1, 3, 2]], dtype=np.int32), 8, 8)
+    stroke = EnergyStroke("wind", ((0.0, 4.0), (8.0, 4.0)), 4.0)
+    simulate(Scene((Body(mesh),), (stroke,), (RigPoint((0.0, 0.0), Circle(1.0)),)), frames=2)

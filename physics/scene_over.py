@@ -1,0 +1,35 @@
+"""A scene document laid over bodies that are at hand: what the document says of them counts, the rest stays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from .scene import Body, Scene
+from .scene_checking import check_document
+from .scene_json import scene_from_dict
+
+__all__ = ["scene_over"]
+
+
+def scene_over(document: object, bodies: Sequence[Body]) -> Scene:
+    """The scene that a document describes for given bodies.
+
+    Names, layers and materials that the document's bodies give replace those of the bodies in order; meshes in it are
+    passed over. A document for a picture of another size is scaled to that of the bodies.
+
+    Args:
+        document: a decoded scene document.
+        bodies: what moves, at least one.
+
+    Raises:
+        SceneError: a value is wrong; ``path`` says which.
+    """
+    checked = check_document(document)
+    entries = [{key: value for key, value in entry.items() if key != "mesh"} for entry in checked.get("bodies", [])]
+    scene = scene_from_dict({**checked, "bodies": entries}, meshes=[body.mesh for body in bodies])
+    named = [
+        replace(body, **{field: getattr(found, field) for field in entry})
+        for body, found, entry in zip(bodies, scene.bodies, entries, strict=False)
+    ]
+    return replace(scene, bodies=(*named, *bodies[len(named) :]))

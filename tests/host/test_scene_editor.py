@@ -1,0 +1,107 @@
+"""The scene editor and its routes in a real host."""
+
+from __future__ import annotations
+
+import json
+import struct
+import urllib.error
+import urllib.request
+from typing import Any
+
+import numpy as np
+import pytest
+
+SIZE = {"version": 2, "width": 1280, "height": 720}
+WIND = {"kind": "wind", "path": [[400, 100], [1000, 100]], "radius": 200, "speed": 1500, "strength": 3}
+PIN = {"position": [560, 100], "region": {"type": "circle", "radius": 60}}
+FRAME, END, ERROR = 1, 2, 3
+
+
+def core(node_type: str, /, **inputs: Any) -> dict[str, Any]:
+    return {"class_type": node_type, "inputs": inputs}
+
+
+def ours(node_type: str, /, **inputs: Any) -> dict[str, Any]:
+    return core(f"PhysAnimator_{node_type}", **inputs)
+
+
+def editor(document: dict[str, Any] | str) -> dict[str, Any]:
+    text = document if isinstance(document, str) else json.dumps(document)
+    return {
+        "example": ours("ExampleIllustration"),
+        "mesh": ours("MaskToMesh", mask=["example", 2], spacing=0.0, elements_across=3, mask_index=0),
+        "body": ours("Body", mesh=["mesh", 0], preset="ribbon", layer=0, attach="left"),
+        "editor": ours("SceneEditor", scene=text, bodies=["body", 0], image=["example", 0]),
+    }
+
+
+@pytest.fixture(scope="module")
+def info(host: Any) -> dict[str, Any]:
+    return host.run(editor(SIZE))["editor"]["physanimator_editor"][0]
+
+
+def ask(host: Any, body: Any, **headers: str) -> tuple[int, bytes]:
+    request = urllib.request.Request(
+        host.url + "/physanimator/preview", json.dumps(body).encode(), {"Content-Type": "application/json", **headers}
+    )
+    try:
+        with urllib.request.urlopen(request, timeout=60) as answer:
+            return answer.status, answer.read()
+    except urllib.error.HTTPError as error:
+        with error:
+            return error.code, error.read()
+
+
+def records(data: bytes) -> list[tuple[int, bytes]]:
+    found, at = [], 0
+    while at < len(data):
+        kind, length = struct.unpack_from("<B3xI", data, at)
+        found.append((kind, data[at + 8 : at + 8 + length]))
+        at += 8 + length + (-length % 4)
+    return found
+
+
+def test_an_empty_scene_runs_and_tells_the_editor_what_it_draws_on(host: Any, info: dict[str, Any]) -> None:
+    assert (info["width"], info["height"], info["plate"]) == (1280, 720, None)
+    assert host.view(info["image"]).startswith(b"\x89PNG")
+    data = host.read(f"/physanimator/mesh/{info['key']}")
+    length = struct.unpack_from("<I", data)[0]
+    header = json.loads(data[4 : 4 + length])
+    vertices, triangles, bodies = (array["shape"][0] for array in header["arrays"])
+    assert bodies == 1
+    assert len(data) == 4 + length + (-length % 4) + 8 * vertices + 12 * triangles + 8
+
+
+def test_a_preview_moves_as_the_queue_does(host: Any, info: dict[str, Any]) -> None:
+    document = SIZE | {"strokes": [WIND], "rig_points": [PIN]}
+    status, data = ask(host, {"editor": "a", "key": info["key"], "scene": document, "frames": 12})
+    assert status == 200
+    (_, header), *frames, (last, end) = records(data)
+    assert last == END
+    assert [struct.unpack_from("<I", payload)[0] for _, payload in frames] == list(range(12))
+    described = json.loads(header)
+    moved = np.frombuffer(frames[-1][1], "<i2", 2 * described["vertices"], 4) * described["unit"]
+    assert np.abs(moved).max() > 3
+    assert np.abs(moved).max() <= json.loads(end)["largest_displacement"] + described["unit"]
+    prompt = editor(document) | {
+        "simulate": ours("Simulate", scene=["editor", 0], frames=12),
+        "preview": ours("PreviewMotion", image=["example", 0], motion=["simulate", 0], longest_side=640, every=2),
+    }
+    assert host.run(prompt)["preview"]["images"]
+
+
+def test_what_is_wrong_comes_back_as_a_sentence(host: Any, info: dict[str, Any]) -> None:
+    wrong = SIZE | {"strokes": [{**WIND, "radius": -1}]}
+    status, data = ask(host, {"editor": "a", "key": info["key"], "scene": wrong, "frames": 12})
+    assert (status, json.loads(data)["error"]) == (422, "strokes[0].radius: must be above 0 px. Got: -1")
+    assert "strokes[0].radius" in host.error_of(editor(wrong))
+    assert "the scene is not JSON" in host.error_of(editor("{"))
+
+
+def test_only_the_host_s_own_pages_are_answered(host: Any, info: dict[str, Any]) -> None:
+    body = {"editor": "a", "key": info["key"], "scene": SIZE, "frames": 2}
+    assert ask(host, body, Origin=host.url)[0] == 200
+    assert ask(host, body, **{"Sec-Fetch-Site": "cross-site"})[0] == 403
+    assert ask(host, body, Origin="http://example.org")[0] == 403
+    assert ask(host, body | {"key": "../../etc/passwd"})[0] == 422
+    assert ask(host, body | {"key": "0" * 64})[0] == 404
