@@ -12,7 +12,14 @@ __all__ = ["EXECUTABLE", "Page", "opened"]
 
 EXECUTABLE = Path(os.environ.get("CHROMIUM", "/usr/bin/chromium"))
 
-_ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking"]
+# SwiftShader draws WebGL where there is no graphics card.
+_ARGUMENTS = [
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--enable-unsafe-swiftshader",
+]
 # What the frontends complain about by themselves: files that the host lacks, routes that are newer than the host, the
 # outside world.
 _HOST_NOISE = ("Failed to load resource", "[Jobs API]", "Fetch API cannot load", "Connecting to")

@@ -138,7 +138,7 @@ test("the pointer finds the topmost line, then the smallest area", () => {
 test("painted areas are found where they are painted", () => {
   const bitmap = emptyBitmap(1000, 500);
   brush(bitmap, [256, 128], [256, 128], 20, 1);
-  const document = scene({ painting: [{ property: "stiffness", region: regionOf(bitmap) }] });
-  assert.deepEqual(hitTest(document, [500, 250], 4, null)?.reference, { list: "painting", index: 0 });
+  const document = scene({ paint: [{ stiffness: 4, region: regionOf(bitmap) }] });
+  assert.deepEqual(hitTest(document, [500, 250], 4, null)?.reference, { list: "paint", index: 0 });
   assert.equal(hitTest(document, [600, 250], 4, null), null);
 });

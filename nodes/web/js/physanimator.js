@@ -14,9 +14,18 @@ const KINDS = {
 
 app.registerExtension({
   name: "PhysAnimator.Editor",
-  /** @param {any} node */
-  nodeCreated(node) {
-    const kind = KINDS[node.comfyClass];
-    if (kind) node.physanimatorEditor = attachEditor(app, api, node, kind);
+  /**
+   * @param {any} nodeType
+   * @param {any} nodeData
+   */
+  beforeRegisterNodeDef(nodeType, nodeData) {
+    const kind = KINDS[nodeData.name];
+    if (!kind) return;
+    const before = nodeType.prototype.onNodeCreated;
+    // Earlier than the hook for created nodes, which comes when the Vue canvas has taken the node's size already.
+    nodeType.prototype.onNodeCreated = function () {
+      before?.apply(this, arguments);
+      this.physanimatorEditor = attachEditor(app, api, this, kind);
+    };
   },
 });

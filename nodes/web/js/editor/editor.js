@@ -183,16 +183,19 @@ export class Editor {
    * @param {import("./live.js").Run} run
    */
   async setRun(run) {
-    const [picture, plate] = await Promise.all([loaded(run.image), run.plate ? loaded(run.plate) : null]);
-    this.wanted = null;
-    this.#take(picture);
-    await this.live.setRun(run, picture, plate);
+    const picture = run.image ? await loaded(run.image) : this.picture;
+    if (run.image) this.wanted = null;
+    if (picture) this.#take(picture);
+    await this.live.setRun(run, picture);
     this.simulate();
+    // Made when first asked for, which takes a moment; without one the picture itself is behind the bodies.
+    const plate = await loaded(run.plate).catch(() => null);
+    if (plate) this.live.setPlate(run, plate);
   }
 
   /** Nothing is known of the bodies any more, such as when another picture is chosen. */
   forgetRun() {
-    this.live.setRun(null, null, null);
+    this.live.setRun(null, null);
     this.#offerRun("");
     this.redraw();
   }
@@ -233,8 +236,9 @@ export class Editor {
   #fitTo(width, height) {
     const before = this.document;
     if (before.width === width && before.height === height) return;
-    const after = rescaled(before, width, height);
-    if (hasItems(before)) {
+    // Points from a plain list are pixels of the picture, whatever its size.
+    const after = before.sizeless ? { ...before, width, height, sizeless: undefined } : rescaled(before, width, height);
+    if (hasItems(before) && !before.sizeless) {
       this.commit(after, this.selection);
       this.say(`The picture is ${width} × ${height} px now; what is drawn has been scaled along from ${before.width} × ${before.height} px.`);
     } else this.store.load(after);
@@ -289,7 +293,7 @@ export class Editor {
   #trouble(error) {
     const gone = /** @type {any} */ (error)?.status === 404;
     this.notes.show("motion", error && !gone ? error.message : "", { kind: "error" });
-    if (gone) this.live.setRun(null, null, null);
+    if (gone) this.live.setRun(null, null);
     if (gone) this.#offerRun(/** @type {Error} */ (error).message);
   }
 
@@ -334,7 +338,7 @@ export class Editor {
       selection: this.selection,
       view: stage.view,
       background: live.shows ? null : this.picture,
-      mesh: this.shown.mesh || !live.player.ready ? live.mesh : null,
+      mesh: this.shown.mesh || !live.player.mesh ? live.mesh : null,
       frame: live.playback.shown,
       unit: live.unit,
       draft: this.tool.draft,

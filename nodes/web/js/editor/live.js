@@ -9,8 +9,8 @@
  * @property {string} key
  * @property {number} width  of the picture [px]
  * @property {number} height
- * @property {string} image  URL of the picture
- * @property {string | null} plate  URL of what is behind the bodies
+ * @property {string | null} image  URL of the picture; null where none is connected
+ * @property {string} plate  URL of what is behind the bodies
  *
  * @typedef {object} LiveListener
  * @property {() => void} redraw
@@ -45,24 +45,33 @@ export class Live {
   /**
    * @param {Run | null} run
    * @param {HTMLImageElement | null} picture
-   * @param {HTMLImageElement | null} plate
    */
-  async setRun(run, picture, plate) {
+  async setRun(run, picture) {
     this.client.cancel();
     this.playback.clear();
     this.player.unload();
     this.mesh = null;
     this.run = run;
-    if (!run || !picture) return;
+    if (!run) return;
     try {
       const mesh = await this.client.mesh(run.key);
       if (this.run !== run) return;
       this.mesh = mesh;
-      this.player.load(mesh, picture, plate ?? picture);
+      if (picture) this.player.load(mesh, picture, picture);
       this.listener.redraw();
     } catch (error) {
       if (this.run === run) this.#fail(/** @type {Error} */ (error));
     }
+  }
+
+  /**
+   * @param {Run} run
+   * @param {HTMLImageElement} plate
+   */
+  setPlate(run, plate) {
+    if (this.run !== run || !this.player.mesh) return;
+    this.player.load(this.player.mesh, /** @type {TexImageSource} */ (this.player.picture), plate);
+    this.listener.redraw();
   }
 
   /**
@@ -100,7 +109,7 @@ export class Live {
 
   /** Whether the moving mesh can be shown in place of the picture. */
   get shows() {
-    return Boolean(this.player.ready && this.mesh && this.playback.shown);
+    return Boolean(this.player.ready && this.player.mesh && this.playback.shown);
   }
 
   get unit() {

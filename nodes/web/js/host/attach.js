@@ -14,6 +14,8 @@ import { runNode } from "./queueing.js";
 import { upstreamImage, viewQuery } from "./upstream.js";
 
 const SHORTEST = 300;
+/** After this time a new node is on the canvas [ms]. */
+const SETTLED = 150;
 const OUTPUT = "physanimator_editor";
 
 /**
@@ -40,8 +42,30 @@ export function attachEditor(app, api, node, kind) {
   // A widget that is only shown must not be saved: it would shift the values of all that come after it.
   widget.serialize = false;
   follow(app, api, node, value, editor);
-  node.setSize?.([Math.max(node.size[0], kind.size[0]), Math.max(node.size[1], kind.size[1])]);
+  grow(node, kind.size, editor.root);
   return editor;
+}
+
+/**
+ * Give a new node its size; one that is opened with its workflow keeps what the user made of it.
+ *
+ * @param {any} node
+ * @param {[number, number]} size
+ * @param {HTMLElement} root
+ */
+function grow(node, size, root) {
+  let opened = false;
+  chain(node, "onConfigure", () => (opened = true));
+  node.setSize?.([Math.max(node.size[0], size[0]), Math.max(node.size[1], size[1])]);
+  // Older Vue canvases measure a new node once by themselves, and then only listen to the size of its box.
+  chain(node, "onAdded", () =>
+    setTimeout(() => {
+      const box = /** @type {HTMLElement | null} */ (root.closest("[data-node-id]"));
+      if (opened || !box || box.offsetWidth >= size[0] - 1) return;
+      box.style.setProperty("--node-width", `${size[0]}px`);
+      box.style.setProperty("--node-height", `${size[1]}px`);
+    }, SETTLED),
+  );
 }
 
 /** @param {any} value the widget whose text the editor shows */
@@ -116,7 +140,8 @@ function follow(app, api, node, value, editor) {
  */
 function runOf(api, { key, width, height, image, plate }) {
   const url = (/** @type {any} */ saved) => api.apiURL(`/view?${new URLSearchParams(saved)}`);
-  return { key, width, height, image: url(image), plate: plate ? url(plate) : null };
+  const behind = plate ? url(plate) : api.apiURL(`/physanimator/plate/${key}`);
+  return { key, width, height, image: image ? url(image) : null, plate: behind };
 }
 
 /**

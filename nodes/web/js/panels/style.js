@@ -8,7 +8,7 @@ export const STYLE = `
   --physanimator-rim: var(--border-color, #4e4e54);
   --physanimator-accent: var(--p-primary-color, #3b82f6);
   container-type: size;
-  box-sizing: border-box; width: 100%; height: 100%; min-height: 0;
+  box-sizing: border-box; width: 100%; height: 100%; min-height: max(300px, var(--node-height, 0px) - 140px);
   color: var(--physanimator-text); font: 12px/1.35 system-ui, sans-serif; text-align: left;
 }
 .physanimator-editor *, .physanimator-editor *::before { box-sizing: border-box; }

@@ -32,6 +32,10 @@ export class Player {
     /** @type {Mesh | null} */
     this.mesh = null;
     this.gl = canvas.getContext("webgl", { alpha: true, premultipliedAlpha: true, preserveDrawingBuffer: true });
+    /** @type {TexImageSource | null} */
+    this.picture = null;
+    /** @type {TexImageSource | null} */
+    this.plate = null;
     this.ready = false;
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
@@ -65,7 +69,7 @@ export class Player {
   #restore() {
     if (!this.gl) return;
     this.#prepare(this.gl);
-    if (this.mesh) this.load(this.mesh, /** @type {any} */ (this.picture), /** @type {any} */ (this.plate));
+    if (this.mesh && this.picture && this.plate) this.load(this.mesh, this.picture, this.plate);
   }
 
   /**
@@ -74,7 +78,9 @@ export class Player {
    * @param {TexImageSource} plate  what is behind the bodies
    */
   load(mesh, picture, plate) {
-    Object.assign(this, { mesh, picture, plate });
+    this.mesh = mesh;
+    this.picture = picture;
+    this.plate = plate;
     const { gl, buffers, textures } = this;
     if (!gl || !buffers || !textures) return;
     fill(gl, gl.ARRAY_BUFFER, buffers.rest, mesh.positions);

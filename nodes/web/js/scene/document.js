@@ -12,7 +12,7 @@
 export const VERSION = 2;
 
 /** The lists that hold items, from the lowest to the topmost on the picture. */
-export const LISTS = ["painting", "colliders", "strokes", "rig_points", "query_points"];
+export const LISTS = ["paint", "colliders", "strokes", "rig_points", "query_points"];
 
 /**
  * @param {number} width  [px]
@@ -137,6 +137,16 @@ export function withValue(holder, path, value) {
   else if (value === undefined) delete changed[key];
   else changed[key] = value;
   return changed;
+}
+
+/**
+ * Where an item is held: the position of a rig point, or a query point itself.
+ *
+ * @param {Item} item
+ * @returns {Point | undefined}
+ */
+export function anchorOf(item) {
+  return item.position ?? (Number.isFinite(item.x) ? [item.x, item.y] : undefined);
 }
 
 /** @param {SceneDocument} document whether anything has been drawn */

@@ -127,10 +127,20 @@ const NEW_MOTION = {
   squash: { type: "squash", times: [0, 0.5, 1], factors: [1, 1.2, 1] },
 };
 
+/**
+ * @param {string} path
+ * @param {string} title
+ * @param {string} hint
+ */
+function factor(path, title, hint) {
+  return number(path, title, "×", { default: 1, min: 0.001, max: 1000, step: 0.25, hint, schema: `paint.${path}` });
+}
+
 /** @type {Field[]} */
-const PAINTING = [
-  { path: "property", title: "Property", kind: "choice", default: "stiffness", choices: ["stiffness", "damping", "density"], hint: "What is painted.", schema: "paint.property" },
-  number("factor", "Factor", "", { default: 4, min: 0.001, max: 1000, step: 0.25, hint: "Above 1 stiffer (or sooner at rest, or heavier), below 1 softer.", schema: "paint.factor" }),
+const PAINT = [
+  factor("stiffness", "Stiffness", "Factor on the stiffness: above 1 stiffer, below 1 softer."),
+  factor("damping", "Damping", "Factor on the damping: above 1 it comes to rest sooner."),
+  factor("density", "Density", "Factor on the mass: above 1 heavier."),
   { path: "body", title: "Body", kind: "integer", optional: true, min: 0, max: 99, step: 1, hint: "Number of the only body that it changes, from 0. Empty: every body.", schema: "paint.body" },
 ];
 
@@ -165,7 +175,7 @@ export const CONTACT_FIELDS = [
  */
 export function fieldsOf(reference, item) {
   if (reference.list === "strokes") return STROKE;
-  if (reference.list === "painting") return PAINTING;
+  if (reference.list === "paint") return PAINT;
   if (reference.list !== "rig_points") return [];
   const kind = item.motion?.type ?? "pinned";
   const shown = RIG_POINT.filter((field) => field.path !== "region.radius" || item.region?.type !== "polygon");
@@ -189,4 +199,4 @@ export function newMotion(item, type) {
 }
 
 /** Every field there is, for the tests. */
-export const ALL_FIELDS = [...STROKE, ...RIG_POINT, ...Object.values(MOTION).flat(), ...PAINTING, ...SCENE_FIELDS, ...WIND_FIELDS, ...CONTACT_FIELDS];
+export const ALL_FIELDS = [...STROKE, ...RIG_POINT, ...Object.values(MOTION).flat(), ...PAINT, ...SCENE_FIELDS, ...WIND_FIELDS, ...CONTACT_FIELDS];

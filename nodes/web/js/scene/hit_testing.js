@@ -8,7 +8,7 @@
  * @typedef {{reference: Reference, part: "handle" | "vertex" | "body", id: string}} Hit
  */
 
-import { allItems, itemAt } from "./document.js";
+import { allItems, anchorOf, itemAt } from "./document.js";
 import { areaOf, distance, distanceToPath, isInside } from "./geometry.js";
 import { bitmapOf, measured } from "./masks.js";
 import { handlesOf, verticesOf } from "./shapes.js";
@@ -62,7 +62,8 @@ function nearest(places, point, tolerance) {
 export function lineDistance(reference, item, point) {
   const lines = [];
   if (item.path?.length) lines.push(distanceToPath(point, item.path));
-  if (item.position) lines.push(distance(point, item.position));
+  const anchor = anchorOf(item);
+  if (anchor) lines.push(distance(point, anchor));
   if (item.motion?.type === "path") lines.push(distanceToPath(point, item.motion.points));
   if (item.region?.type === "polygon") lines.push(distanceToPath(point, item.region.points, true));
   if (item.region?.type === "circle" && reference.list === "rig_points") {

@@ -146,7 +146,7 @@ export function titleOf(reference, item) {
   const number = reference.index + 1;
   if (reference.list === "strokes") return `${capital(item.kind ?? "wind")} stroke ${number}`;
   if (reference.list === "rig_points") return `${motionTitle(item.motion)} ${number}`;
-  if (reference.list === "painting") return `Painted ${item.property ?? "stiffness"} ${number}`;
+  if (reference.list === "paint") return `Painted material ${number}`;
   if (reference.list === "query_points") return `${item.positive === false ? "Point beside" : "Point on the part"} ${number}`;
   return `Collider ${number}`;
 }

@@ -23,8 +23,8 @@ export function rescaled(document, width, height) {
   const changed = { ...document, width, height };
   each(changed, "strokes", (stroke) => scaledStroke(stroke, scale));
   each(changed, "rig_points", (rigPoint) => scaledRigPoint(rigPoint, scale));
-  each(changed, "query_points", (point) => ({ ...point, position: scaledPoint(point.position, scale) }));
-  for (const list of ["painting", "colliders"]) {
+  each(changed, "query_points", (point) => ({ ...point, x: tenth(point.x * scale.x), y: tenth(point.y * scale.y) }));
+  for (const list of ["paint", "colliders"]) {
     each(changed, list, (area) => ({ ...area, region: scaledRegion(area.region, scale) }));
   }
   if (document.wind) changed.wind = scaledValues(document.wind, ["turbulence_size"], side, { turbulence_size: 200 });

@@ -8,6 +8,7 @@
  * @typedef {{id: string, at: Point, from?: Point, title: string}} Handle  from: where its line begins
  */
 
+import { anchorOf } from "./document.js";
 import { along, distance, rounded, tenth } from "./geometry.js";
 import { direction } from "./items.js";
 import { shifted } from "./masks.js";
@@ -33,7 +34,7 @@ function side(document) {
 export function verticesOf(reference, item) {
   if (reference.list === "strokes") return numbered("path", item.path ?? []);
   const corners = item.region?.type === "polygon" ? numbered("region.points", item.region.points) : [];
-  if (reference.list === "query_points") return [{ id: "position", at: item.position }];
+  if (reference.list === "query_points") return [{ id: "position", at: /** @type {Point} */ (anchorOf(item)) }];
   if (reference.list !== "rig_points") return corners;
   const keys = item.motion?.type === "path" ? numbered("motion.points", item.motion.points) : [];
   return [{ id: "position", at: item.position }, ...keys.slice(1), ...corners];
@@ -165,11 +166,22 @@ export function withVertex(item, id, to) {
  * @returns {Item}
  */
 function movedAnchor(item, to) {
+  if (!item.position) return withPlace(item, to);
   const moved = { ...item, position: rounded(to) };
   if (item.motion?.type !== "path") return moved;
   const by = [to[0] - item.position[0], to[1] - item.position[1]];
   const points = item.motion.points.map((/** @type {Point} */ [x, y]) => rounded([x + by[0], y + by[1]]));
   return { ...moved, motion: { ...item.motion, points } };
+}
+
+/**
+ * @param {Item} point  with x and y of its own
+ * @param {Point} to
+ * @returns {Item}
+ */
+function withPlace(point, to) {
+  const [x, y] = rounded(to);
+  return { ...point, x, y };
 }
 
 /**
@@ -226,6 +238,7 @@ export function moved(document, item, dx, dy) {
   const changed = { ...item };
   if (item.path) changed.path = item.path.map(shift);
   if (item.position) changed.position = shift(item.position);
+  else if (anchorOf(item)) Object.assign(changed, withPlace(item, [item.x + dx, item.y + dy]));
   if (item.region?.points) changed.region = { ...item.region, points: item.region.points.map(shift) };
   if (item.region?.runs) {
     const scale = [item.region.width / document.width, item.region.height / document.height];

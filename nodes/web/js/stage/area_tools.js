@@ -169,10 +169,10 @@ export class RegionBrushTool extends BrushTool {
 export class StiffnessTool extends BrushTool {
   target() {
     const { document, selection } = this.desk;
-    if (selection?.list === "painting" && itemAt(document, selection)?.region?.type === "mask") return selection;
-    const layers = document.painting ?? [];
-    const last = layers.findLastIndex((/** @type {Item} */ one) => one.property === "stiffness" && one.region?.type === "mask");
-    return last < 0 ? null : { list: "painting", index: last };
+    if (selection?.list === "paint" && itemAt(document, selection)?.region?.type === "mask") return selection;
+    const layers = document.paint ?? [];
+    const last = layers.findLastIndex((/** @type {Item} */ one) => one.region?.type === "mask");
+    return last < 0 ? null : { list: "paint", index: last };
   }
 
   /**
@@ -186,12 +186,12 @@ export class StiffnessTool extends BrushTool {
       this.desk.commit(withItem(this.desk.document, target, item), target);
       return;
     }
-    const layer = { property: "stiffness", factor: 4, region };
-    const { document, reference } = withAdded(this.desk.document, "painting", layer);
+    const layer = { region, stiffness: 4 };
+    const { document, reference } = withAdded(this.desk.document, "paint", layer);
     this.desk.commit(document, reference);
   }
 
   colour() {
-    return COLOURS.painting;
+    return COLOURS.paint;
   }
 }

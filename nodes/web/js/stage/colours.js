@@ -6,14 +6,12 @@ export const COLOURS = /** @type {Record<string, string>} */ ({
   pin: "#ff5c8a",
   path: "#3ddc97",
   wave: "#3ddc97",
-  painting: "#ffd43b",
+  paint: "#ffd43b",
   colliders: "#b8c0cc",
   positive: "#40d67b",
   negative: "#ff5252",
   edge: "rgba(10, 12, 16, 0.75)",
 });
-
-const PAINTED = /** @type {Record<string, string>} */ ({ stiffness: "#ffd43b", damping: "#5ce1e6", density: "#d0a98f" });
 
 /**
  * @param {string} list
@@ -22,7 +20,6 @@ const PAINTED = /** @type {Record<string, string>} */ ({ stiffness: "#ffd43b", d
 export function colourOf(list, item) {
   if (list === "strokes") return COLOURS[item.kind ?? "wind"];
   if (list === "query_points") return item.positive === false ? COLOURS.negative : COLOURS.positive;
-  if (list === "painting") return PAINTED[item.property ?? "stiffness"] ?? COLOURS.painting;
   if (list === "rig_points") return (item.motion?.type ?? "pinned") === "pinned" ? COLOURS.pin : COLOURS.path;
   return COLOURS[list];
 }

@@ -156,7 +156,8 @@ export class QueryTool extends Placing {
     const { width, height } = this.desk.document;
     /** @type {Point} */
     const inside = [Math.min(Math.max(point[0], 0), width), Math.min(Math.max(point[1], 0), height)];
-    return { position: rounded(inside), positive: this.id === "query-positive" };
+    const [x, y] = rounded(inside);
+    return { x, y, positive: this.id === "query-positive" };
   }
 }
 

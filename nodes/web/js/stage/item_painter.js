@@ -219,7 +219,7 @@ export class ItemPainter {
    * @param {boolean} selected
    */
   #query(item, colour, selected) {
-    const [x, y] = this.at(item.position);
+    const [x, y] = this.at([item.x, item.y]);
     this.painter.dot([x, y], selected ? 9 : 7.5, colour);
     const { context } = this;
     context.strokeStyle = "#fff";
