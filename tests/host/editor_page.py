@@ -1,0 +1,158 @@
+"""The scene editor in the host's page, used as a person does: by pointer and keyboard."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+__all__ = ["CANVASES", "EditorPage"]
+
+CANVASES = {"litegraph": False, "vue": True}
+
+_CANVAS = """
+async (vue) => {
+  const settings = app.extensionManager.setting;
+  if (settings.get('Comfy.VueNodes.Enabled') === vue) return;
+  await settings.set('Comfy.VueNodes.Enabled', vue);
+  await new Promise((done) => setTimeout(done, 500));
+}
+"""
+_BUILD = """
+async () => {
+  app.graph.clear();
+  const add = (type, x, y) => {
+    const node = LiteGraph.createNode(type);
+    app.graph.add(node);
+    node.pos = [x, y];
+    return node;
+  };
+  const link = (from, output, to, input) => from.connect(
+    from.outputs.findIndex((slot) => slot.name === output), to, to.inputs.findIndex((slot) => slot.name === input));
+  const example = add('PhysAnimator_ExampleIllustration', -1300, 0);
+  const mesh = add('PhysAnimator_MaskToMesh', -1300, 300);
+  const body = add('PhysAnimator_Body', -900, 0);
+  const editor = add('PhysAnimator_SceneEditor', 0, 0);
+  link(example, 'hair', mesh, 'mask');
+  link(mesh, 'mesh', body, 'mesh');
+  link(body, 'bodies', editor, 'bodies');
+  link(example, 'image', editor, 'image');
+  return editor.id;
+}
+"""
+_VIEW = """
+([x, y, scale]) => {
+  app.canvas.ds.scale = scale;
+  app.canvas.ds.offset = [60 / scale - x, 130 / scale - y];
+  app.canvas.setDirty(true, true);
+}
+"""
+_NODE = "app.graph.getNodeById(id) ?? app.graph.nodes.find((one) => one.id == id)"
+_PLACE = f"""
+([id, x, y]) => {{
+  const {{ stage }} = ({_NODE}).physanimatorEditor;
+  const box = stage.overlay.getBoundingClientRect();
+  const ratio = box.width / stage.across;
+  return [box.left + (x * stage.view.scale + stage.view.x) * ratio, box.top + (y * stage.view.scale + stage.view.y) * ratio];
+}}
+"""
+_ASK = "([id, expression]) => new Function('editor', 'node', `return ${expression}`)(%s.physanimatorEditor, %s)" % (
+    f"({_NODE})",
+    f"({_NODE})",
+)
+
+
+class EditorPage:
+    """One scene editor in a graph.
+
+    Attributes:
+        page: the host's page.
+        node: id of the editor's node.
+    """
+
+    def __init__(self, page: Any, node: Any) -> None:
+        self.page, self.node = page, node
+
+    @classmethod
+    def opened(cls, page: Any, canvas: str) -> EditorPage:
+        """A graph with the example's hair and an editor, in one of the two canvases."""
+        page.run(_CANVAS, CANVASES[canvas])
+        editor = cls(page, page.run(_BUILD))
+        editor.look()
+        return editor
+
+    def look(self, x: float = 0, y: float = 0, scale: float = 1.25) -> None:
+        """Bring a part of the graph into view, so that the editor is large enough to be worked with."""
+        self.page.run(_VIEW, [x, y, scale])
+        self.page.page.wait_for_timeout(700)
+
+    def ask(self, expression: str) -> Any:
+        """The value of an expression in ``editor`` and ``node``."""
+        return self.page.run(_ASK, [self.node, expression])
+
+    def value(self) -> dict[str, Any]:
+        """The scene document in the node."""
+        return json.loads(self.ask("node.widgets.find((one) => one.name === 'scene').value"))
+
+    def shown(self) -> dict[str, Any]:
+        """The scene document as the editor has it."""
+        return json.loads(self.ask("JSON.stringify(editor.document)"))
+
+    def queued(self) -> dict[str, Any]:
+        """The scene document as it would be queued."""
+        prompt = json.loads(self.page.run("async () => JSON.stringify((await app.graphToPrompt()).output)"))
+        return json.loads(prompt[str(self.node)]["inputs"]["scene"])
+
+    def pixel(self) -> float:
+        """A pixel of the screen, in pixels of the picture."""
+        left, right = self.place(0, 0), self.place(100, 0)
+        return 100 / (right[0] - left[0])
+
+    def place(self, x: float, y: float) -> tuple[float, float]:
+        """Where a pixel of the picture is on the screen."""
+        across, down = self.page.run(_PLACE, [self.node, x, y])
+        return across, down
+
+    def selector(self, inside: str) -> Any:
+        return self.page.page.locator(".physanimator-editor").nth(self._number()).locator(inside)
+
+    def _number(self) -> int:
+        return self.ask("[...document.querySelectorAll('.physanimator-editor')].indexOf(editor.root)")
+
+    def press(self, action: str) -> None:
+        """A button of the toolbar or the timeline."""
+        self.selector(f'[data-action="{action}"]').first.click()
+
+    def drag(self, *points: tuple[float, float], steps: int = 6, button: str = "left") -> None:
+        """Press at the first point of the picture, go through the others, release at the last."""
+        mouse = self.page.page.mouse
+        mouse.move(*self.place(*points[0]))
+        mouse.down(button=button)
+        for point in points[1:]:
+            mouse.move(*self.place(*point), steps=steps)
+        mouse.up(button=button)
+
+    def click(self, x: float, y: float) -> None:
+        self.page.page.mouse.click(*self.place(x, y))
+
+    def keys(self, *keys: str) -> None:
+        for key in keys:
+            self.page.page.keyboard.press(key)
+
+    def focus(self) -> None:
+        self.ask("editor.stage.overlay.focus()")
+
+    def type_into(self, path: str, text: str) -> None:
+        """A number into the field of the selected item."""
+        self.selector(f'[data-field="{path}"] input').first.fill(text)
+
+    def run_node(self) -> None:
+        """Press the editor's own button and wait until the bodies are known."""
+        self.press("run")
+        self.wait("editor.live.mesh !== null")
+
+    def wait(self, expression: str, timeout: float = 60_000) -> None:
+        script = f"([id]) => {{ const node = {_NODE}; const editor = node.physanimatorEditor; return {expression}; }}"
+        self.page.page.wait_for_function(script, arg=[self.node], timeout=timeout)
+
+    def screenshot(self, path: str) -> None:
+        self.selector(".physanimator-frame").screenshot(path=path)
