@@ -40,7 +40,8 @@ class SegmentByPoints(io.ComfyNode):
                     default="[[640, 360, 1]]",
                     multiline=True,
                     tooltip="Points in pixels as JSON: [[x, y, 1], ...] with 1 on the part and 0 beside it;"
-                    ' also [{"x": .., "y": ..}] and {"positive": [...], "negative": [...]} from point editors.',
+                    ' also [{"x": .., "y": ..}] and {"positive": [...], "negative": [...]} from point editors,'
+                    " and a scene document with query_points.",
                 ),
             ],
             outputs=[

@@ -12,7 +12,6 @@ import logging
 from collections.abc import Awaitable, Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
-from urllib.parse import urlsplit
 
 from aiohttp import web
 
@@ -21,7 +20,8 @@ from ..physics.preview_limits import MAX_EDITORS, MAX_REQUEST_BYTES
 from ..physics.preview_records import encode_mesh
 from ..physics.preview_requests import PreviewRequest, is_key, preview_scene, read_request
 from ..physics.preview_session import PreviewRun, PreviewRuns, RecordQueue, stream
-from ..physics.preview_store import PreviewStore
+from ..physics.preview_store import PreviewBodies, PreviewStore
+from .preview_plates import Plates
 
 __all__ = ["PreviewRoutes"]
 
@@ -36,32 +36,49 @@ _KEEP_NOTHING = {"Cache-Control": "no-store", "X-Content-Type-Options": "nosniff
 
 
 class PreviewRoutes:
-    """The routes over one store of bodies."""
+    """The routes over one store of bodies.
+
+    Attributes:
+        store: the bodies that previews can be made of.
+        runs: the simulations that are under way.
+        threads: on which requests are checked and simulated.
+    """
 
     def __init__(self, store: PreviewStore) -> None:
-        """
-        Args:
-            store: the bodies that previews can be made of.
-        """
         self.store = store
         self.runs = PreviewRuns()
         self._under_way = 0
+        self._plates = Plates()
         # One thread for each editor's simulation and one for the one that it supersedes, and two for checking.
-        self._threads = ThreadPoolExecutor(2 * MAX_EDITORS + 2, thread_name_prefix="physanimator-preview")
+        self.threads = ThreadPoolExecutor(2 * MAX_EDITORS + 2, thread_name_prefix="physanimator-preview")
 
     def register(self, routes: web.RouteTableDef) -> None:
         """Add the routes to a table such as the host's."""
         routes.get("/physanimator/mesh/{key}")(self._guarded(self.mesh))
+        routes.get("/physanimator/plate/{key}")(self._guarded(self.plate))
         routes.post("/physanimator/preview")(self._guarded(self.preview))
+
+    def close(self) -> None:
+        """Let the threads end once they have nothing to do."""
+        self.threads.shutdown(wait=False)
+        self._plates.close()
 
     async def mesh(self, request: web.Request) -> web.StreamResponse:
         """The rest shape of the bodies of a key, as ``physics.preview_records`` describes it."""
-        key = request.match_info["key"]
-        stored = self.store.get(key) if is_key(key) else None
+        stored = self._stored(request)
         if stored is None:
             return _refused(404, _FORGOTTEN)
         body = await self._on_a_thread(encode_mesh, stored)
         return web.Response(body=body, content_type="application/octet-stream", headers=_KEEP_NOTHING)
+
+    async def plate(self, request: web.Request) -> web.StreamResponse:
+        """The picture of a key without its bodies, as PNG."""
+        stored = self._stored(request)
+        if stored is None:
+            return _refused(404, _FORGOTTEN)
+        if stored.picture is None:
+            return _refused(409, "Connect the illustration to image: a clean plate is made from it.")
+        return web.Response(body=await self._plates.png(stored), content_type="image/png", headers=_KEEP_NOTHING)
 
     async def preview(self, request: web.Request) -> web.StreamResponse:
         """A scene over the bodies of a key, simulated and streamed frame by frame."""
@@ -84,6 +101,10 @@ class PreviewRoutes:
             run.cancel("The editor is gone.")
             self.runs.leave(run)
 
+    def _stored(self, request: web.Request) -> PreviewBodies | None:
+        key = request.match_info["key"]
+        return self.store.get(key) if is_key(key) else None
+
     async def _streamed(
         self, request: web.Request, run: PreviewRun, simulate: Callable[[RecordQueue], None]
     ) -> web.StreamResponse:
@@ -92,7 +113,7 @@ class PreviewRoutes:
         await response.prepare(request)
         loop, filled = asyncio.get_running_loop(), asyncio.Event()
         queue = RecordQueue(lambda: _wake(loop, filled))
-        simulating = loop.run_in_executor(self._threads, simulate, queue)
+        simulating = loop.run_in_executor(self.threads, simulate, queue)
         closed = False
         while not closed and not _is_gone(request):
             filled.clear()
@@ -130,7 +151,7 @@ class PreviewRoutes:
         return answer
 
     async def _on_a_thread(self, call: Callable[..., Any], *arguments: Any) -> Any:
-        return await asyncio.get_running_loop().run_in_executor(self._threads, functools.partial(call, *arguments))
+        return await asyncio.get_running_loop().run_in_executor(self.threads, functools.partial(call, *arguments))
 
 
 async def _ended(simulating: asyncio.Future[None]) -> None:
@@ -181,10 +202,12 @@ def _is_gone(request: web.Request) -> bool:
 
 def _is_own_page(request: web.Request) -> bool:
     """Whether a request comes from a page of this server, or from no page at all."""
-    if request.headers.get("Sec-Fetch-Site", "none") not in ("same-origin", "none"):
-        return False
+    site = request.headers.get("Sec-Fetch-Site")
+    if site is not None:  # the browser's own word, which holds behind a proxy too that changes the Host
+        return site in ("same-origin", "none")
     origin = request.headers.get("Origin")
-    return origin is None or urlsplit(origin).netloc.lower() == request.headers.get("Host", "").lower() != ""
+    host = request.headers.get("Host", "").lower()
+    return origin is None or origin.lower() in (f"http://{host}", f"https://{host}")
 
 
 def _refused(status: int, sentence: str) -> web.Response:

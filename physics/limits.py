@@ -9,9 +9,11 @@ __all__ = [
     "MAX_DOCUMENT_BYTES",
     "MAX_LOOP",
     "MAX_MASK_PIXELS",
+    "MAX_PAINT",
     "MAX_PARTICLES",
     "MAX_PARTICLES_OF_STROKE",
     "MAX_POINTS",
+    "MAX_QUERY_POINTS",
     "MAX_RIG_POINTS",
     "MAX_SIDE",
     "MAX_STROKES",
@@ -30,6 +32,8 @@ MAX_BODIES = 100
 MAX_COLLIDERS = 100
 MAX_STROKES = 1_000
 MAX_RIG_POINTS = 1_000
+MAX_PAINT = 200
+MAX_QUERY_POINTS = 1_000
 
 MAX_POINTS = 10_000
 """Points of one stroke, polygon or keyed path."""

@@ -9,7 +9,9 @@ __all__ = [
     "MAX_FRAMES",
     "MAX_NESTING",
     "MAX_OBJECTS",
+    "MAX_PREVIEW_MASK_PIXELS",
     "MAX_PREVIEW_POINTS",
+    "MAX_PREVIEW_REGION_WORK",
     "MAX_PREVIEW_RIG_POINTS",
     "MAX_PREVIEW_STROKES",
     "MAX_PREVIEW_TRIANGLES",
@@ -42,6 +44,12 @@ MAX_PREVIEW_STROKES = 400
 MAX_PREVIEW_RIG_POINTS = 200
 MAX_PREVIEW_POINTS = 40_000
 """Points of all strokes, polygons and keyed paths together."""
+
+MAX_PREVIEW_MASK_PIXELS = 2**25
+"""Pixels of all painted masks together."""
+
+MAX_PREVIEW_REGION_WORK = 2e8
+"""Corners of all polygons times vertices: each vertex is compared with each."""
 
 MAX_PREVIEW_TRIANGLES = 60_000
 MAX_FRAMES = 1_200

@@ -16,13 +16,16 @@ from .preview_limits import (
     MAX_FRAMES,
     MAX_NESTING,
     MAX_OBJECTS,
+    MAX_PREVIEW_MASK_PIXELS,
     MAX_PREVIEW_POINTS,
+    MAX_PREVIEW_REGION_WORK,
     MAX_PREVIEW_RIG_POINTS,
     MAX_PREVIEW_STROKES,
     MAX_PREVIEW_TRIANGLES,
     MAX_REQUEST_BYTES,
     MAX_VALUES,
 )
+from .rig import Polygon
 from .scene import Body, Scene
 
 __all__ = ["PreviewRequest", "is_key", "preview_scene", "read_request"]
@@ -74,8 +77,9 @@ def read_request(body: bytes) -> PreviewRequest:
     require("frames", _shown(frames), counted, f"a whole number from 1 to {MAX_FRAMES}")
     _require_few(document, "strokes", MAX_PREVIEW_STROKES)
     _require_few(document, "rig_points", MAX_PREVIEW_RIG_POINTS)
-    points = _count_points(document)
-    require("scene", f"{points} points", points <= MAX_PREVIEW_POINTS, f"of at most {MAX_PREVIEW_POINTS} points")
+    points, pixels = _count_points(document)
+    _require_preview("points", points, MAX_PREVIEW_POINTS, "draw with fewer of them")
+    _require_preview("pixels of painted masks", pixels, MAX_PREVIEW_MASK_PIXELS, "paint on a coarser mask")
     return PreviewRequest(editor, key, document, frames)
 
 
@@ -95,6 +99,12 @@ def preview_scene(request: PreviewRequest, bodies: Sequence[Body]) -> tuple[Scen
     _require_preview("frames", frames, MAX_FRAMES, "shorten the loop")
     vertices = sum(len(body.mesh.vertices) for body in bodies)
     _require_preview("bytes", 4 * vertices * frames, MAX_ANSWER_BYTES, "show fewer frames, or mesh more coarsely")
+    corners = sum(len(point.region.points) for point in scene.rig_points if isinstance(point.region, Polygon))
+    if corners * vertices > MAX_PREVIEW_REGION_WORK:
+        raise InvalidInputError(
+            f"The polygons of all rig points have too many corners for a live preview of {vertices:,} vertices; draw"
+            f" them with fewer, or mesh more coarsely. Got: {corners:,}"
+        )
     return scene, frames
 
 
@@ -122,17 +132,19 @@ def _require_small(data: object) -> None:
         level = [each for entry in level for each in (entry.values() if isinstance(entry, dict) else entry)]
 
 
-def _count_points(data: object) -> int:
-    """Entries of all lists of points, times and keys."""
-    count, pending = 0, [data]
+def _count_points(data: object) -> tuple[int, int]:
+    """Entries of all lists of points, times and keys; and pixels of all masks, which stand there as run lengths."""
+    count, pixels, pending = 0, 0, [data]
     while pending:
         entry = pending.pop()
         if isinstance(entry, dict):
             count += sum(len(entry[name]) for name in _POINT_LISTS if isinstance(entry.get(name), list))
+            if "runs" in entry and type(entry.get("width")) is type(entry.get("height")) is int:
+                pixels += entry["width"] * entry["height"]
             pending += [each for each in entry.values() if isinstance(each, dict | list)]
         elif isinstance(entry, list):
             pending += [each for each in entry if isinstance(each, dict)]
-    return count
+    return count, pixels
 
 
 def _shown(value: object) -> str:

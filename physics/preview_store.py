@@ -42,6 +42,13 @@ class PreviewBodies:
         for body in self.bodies:
             described = [body.mesh.content_hash, body.name, body.layer, encode(body.material)]
             digest.update(json.dumps(described).encode())
+        digest.update(self.picture_key.encode())
+        return digest.hexdigest()
+
+    @cached_property
+    def picture_key(self) -> str:
+        """The same for the picture and its hole alone."""
+        digest = hashlib.sha256()
         for image in self._images:
             digest.update(repr(image.shape).encode())
             digest.update(np.ascontiguousarray(image))

@@ -6,9 +6,21 @@ from dataclasses import dataclass, field, replace
 
 from .collision import Collider, Contact
 from .errors import InvalidInputError, require
-from .limits import LARGEST, MAX_BODIES, MAX_COLLIDERS, MAX_LOOP, MAX_PARTICLES, MAX_RIG_POINTS, MAX_STROKES
+from .limits import (
+    LARGEST,
+    MAX_BODIES,
+    MAX_COLLIDERS,
+    MAX_LOOP,
+    MAX_PAINT,
+    MAX_PARTICLES,
+    MAX_QUERY_POINTS,
+    MAX_RIG_POINTS,
+    MAX_STROKES,
+)
 from .material import SCALES, Material
 from .mesh import TriangleMesh
+from .paint import Paint
+from .query_points import QueryPoint
 from .rig import RigPoint
 from .strokes import EnergyStroke
 from .wind import Wind
@@ -59,6 +71,8 @@ class Scene:
         sag: gravity instead acts on the drawing as on an undeformed shape, which sags from the first frame on.
         contact: how bodies keep out of each other and of colliders; None: they pass through.
         colliders: still shapes that bodies keep out of where there is contact.
+        paint: where bodies are stiffer, heavier or more damped than their materials say.
+        query_points: where somebody clicked to say which part of the picture is meant; they move nothing.
     """
 
     bodies: tuple[Body, ...]
@@ -71,6 +85,8 @@ class Scene:
     sag: bool = False
     contact: Contact | None = None
     colliders: tuple[Collider, ...] = ()
+    paint: tuple[Paint, ...] = ()
+    query_points: tuple[QueryPoint, ...] = ()
 
     def __post_init__(self) -> None:
         for name, most in (
@@ -78,6 +94,8 @@ class Scene:
             ("strokes", MAX_STROKES),
             ("rig_points", MAX_RIG_POINTS),
             ("colliders", MAX_COLLIDERS),
+            ("paint", MAX_PAINT),
+            ("query_points", MAX_QUERY_POINTS),
         ):
             entries = tuple(getattr(self, name))
             require(name, f"{len(entries)} entries", len(entries) <= most, f"at most {most} entries")
@@ -98,6 +116,9 @@ class Scene:
         for number, rig_point in enumerate(self.rig_points):
             known = rig_point.body is None or rig_point.body < count
             require(f"rig_points[{number}].body", rig_point.body, known, f"below the number of bodies ({count})")
+        for number, entry in enumerate(self.paint):
+            known = entry.body is None or entry.body < count
+            require(f"paint[{number}].body", entry.body, known, f"below the number of bodies ({count})")
         self._require_few_particles()
 
     @property
@@ -124,6 +145,8 @@ class Scene:
             wind=self.wind and self.wind.rescaled(scale),
             contact=self.contact and self.contact.rescaled(scale),
             colliders=tuple(collider.rescaled(scale) for collider in self.colliders),
+            paint=tuple(entry.rescaled(scale) for entry in self.paint),
+            query_points=tuple(point.rescaled(scale) for point in self.query_points),
         )
 
     def _require_few_particles(self) -> None:

@@ -9,6 +9,8 @@ import numpy as np
 
 from .collision import Collider, Contact
 from .material import Material
+from .paint import Paint
+from .query_points import QueryPoint
 from .rig import Circle, Combined, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
 from .rig_turns import Pulse, Rotation, Squash, Swing
 from .run_lengths import runs_of
@@ -56,7 +58,11 @@ def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
         "strokes": encode(scene.strokes),
         "rig_points": encode(scene.rig_points),
         **({"contact": encode(scene.contact)} if scene.contact is not None else {}),
-        **({"colliders": encode(scene.colliders)} if scene.colliders else {}),
+        **{
+            name: encode(getattr(scene, name))
+            for name in ("colliders", "paint", "query_points")
+            if getattr(scene, name)
+        },
     }
 
 
@@ -78,7 +84,7 @@ def encode(value: Any) -> Any:
     if isinstance(value, MaskRegion):
         height, width = value.mask.shape
         return {**tag, "width": width, "height": height, "runs": runs_of(value.mask)}
-    plain = Material | EnergyStroke | RigPoint | Wind | Contact | Collider
+    plain = Material | EnergyStroke | RigPoint | Wind | Contact | Collider | Paint | QueryPoint
     if type(value) not in _TYPE_NAMES and not isinstance(value, plain):
         raise TypeError(f"a scene holds no {type(value).__name__}")
     entries = {field.name: encode(getattr(value, field.name)) for field in fields(value)}

@@ -19,7 +19,9 @@ from .json_text import read_json, write_json
 from .limits import MAX_MASK_PIXELS
 from .material import Material, preset
 from .mesh import TriangleMesh
+from .paint import Paint
 from .points import Scale
+from .query_points import QueryPoint
 from .rig import Combined, MaskRegion, RigPoint
 from .run_lengths import mask_of
 from .scene import Body, Scene
@@ -30,10 +32,10 @@ from .scene_schema import scene_schema
 from .strokes import EnergyStroke
 from .wind import Wind
 
-__all__ = ["SCENE_VERSION", "dumps", "loads", "scene_from_dict", "scene_schema", "scene_to_dict"]
+__all__ = ["SCENE_VERSION", "dumps", "loads", "query_points_of", "scene_from_dict", "scene_schema", "scene_to_dict"]
 
 T = TypeVar("T")
-S = TypeVar("S", EnergyStroke, RigPoint, Contact, Collider)
+S = TypeVar("S", EnergyStroke, RigPoint, Contact, Collider, Paint, QueryPoint)
 
 _NAMED = re.compile(r"([a-z_]+(?:\[\d+\])?(?:\.[a-z_]+)?) (must .*)", re.DOTALL)  # as `require` words it
 
@@ -85,11 +87,14 @@ def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = Non
     _require_small_masks(document)
     rig_points = _each("rig_points", document, _read_rig_point)
     contact, colliders = _read_contact(document.get("contact")), _each("colliders", document, _read_collider)
+    paint, query_points = _each("paint", document, _read_paint), query_points_of(document)
     if target != size:
         scale = (target[0] / size[0], target[1] / size[1], max(target) / max(size))
         strokes = _rescaled("strokes", strokes, scale)
         rig_points = _rescaled("rig_points", rig_points, scale)
         colliders = _rescaled("colliders", colliders, scale)
+        paint = _rescaled("paint", paint, scale)
+        query_points = _rescaled("query_points", query_points, scale)
         contact = contact and _rescaled("contact", [contact], scale)[0]
     options = _floats({name: value for name, value in document.items() if name in ("gravity", "frame_rate", "loop")})
     wind = _read_wind(document.get("wind"), max(target) / max(size))
@@ -102,6 +107,8 @@ def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = Non
             sag=document.get("sag", False),
             contact=contact,
             colliders=tuple(colliders),
+            paint=tuple(paint),
+            query_points=tuple(query_points),
             **options,
         )
 
@@ -186,10 +193,27 @@ def _read_collider(entry: dict[str, Any], path: str) -> Collider:
         return Collider(region)
 
 
+def _read_paint(entry: dict[str, Any], path: str) -> Paint:
+    values = _floats({name: value for name, value in entry.items() if name not in ("region", "body")})
+    region = _read_typed(entry["region"], COLLIDER_TYPES, f"{path}.region")
+    body = None if entry.get("body") is None else int(entry["body"])
+    with _located(path):
+        return Paint(region, body=body, **values)
+
+
+def query_points_of(document: dict[str, Any]) -> list[QueryPoint]:
+    """The query points of a checked document, in pixels of its own size."""
+    return _each("query_points", document, lambda entry, _path: QueryPoint(**_floats(entry)))
+
+
 def _require_small_masks(document: dict[str, Any]) -> None:
     """Refuse before unpacking: a few characters can ask for any number of pixels."""
     total = 0
-    named = [(name, index, entry) for name in ("rig_points", "colliders") for index, entry in _numbered(document, name)]
+    named = [
+        (name, index, entry)
+        for name in ("rig_points", "colliders", "paint")
+        for index, entry in _numbered(document, name)
+    ]
     for name, index, entry in named:
         region = entry.get("region", {})
         total += int(region["width"] * region["height"]) if region.get("type") == "mask" else 0

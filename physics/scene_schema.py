@@ -12,7 +12,9 @@ from .limits import (
     MAX_COLLIDERS,
     MAX_LOOP,
     MAX_MASK_PIXELS,
+    MAX_PAINT,
     MAX_POINTS,
+    MAX_QUERY_POINTS,
     MAX_RIG_POINTS,
     MAX_SIDE,
     MAX_STROKES,
@@ -21,6 +23,7 @@ from .limits import (
     STIFFEST,
 )
 from .material import PRESETS, Material
+from .paint_schema import paint_definitions
 from .rig_schema import rig_definitions
 from .rig_turns import MOST_DEGREES, MOST_STRETCH
 from .scene import Body, Scene
@@ -75,6 +78,7 @@ def scene_schema() -> Schema:
             "wind": {**object_of(Wind, "Wind", wind_properties()), "type": ["object", "null"]},
             **rig_definitions(),
             **contact_definitions(),
+            **paint_definitions(),
             **_entries(),
         },
     }
@@ -138,6 +142,18 @@ def _document() -> dict[str, Schema]:
             "Still shapes that bodies keep out of where there is contact, such as a shoulder under hair.",
             "collider",
             MAX_COLLIDERS,
+        ),
+        "paint": list_of(
+            "Paint",
+            "Where bodies are stiffer, heavier or more damped than their materials say; entries that overlap multiply.",
+            "paint",
+            MAX_PAINT,
+        ),
+        "query_points": list_of(
+            "Query points",
+            "Where somebody clicked to say which part of the illustration is meant: for segmentation, not for motion.",
+            "query_point",
+            MAX_QUERY_POINTS,
         ),
     }
 

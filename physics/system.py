@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from .elasticity import RestShape, lame_parameters, lumped_masses, stiffness_matrix
 from .falloff import grips_of
 from .modes import highest_eigenvalue
+from .paint import with_paint
 from .rigging import leaders_of
 from .scene import Body, Scene
 from .stepping import frequency_limits, substeps, vertex_frequencies
@@ -116,7 +117,7 @@ class System:
 
 def assemble(scene: Scene) -> System:
     """Put the bodies of a scene together and settle how stiff and heavy each of their parts is."""
-    bodies, side = scene.bodies, scene.bodies[0].mesh.longest_side
+    bodies, side = with_paint(scene.bodies, scene.paint), scene.bodies[0].mesh.longest_side
     leaders = [leaders_of(scene.rig_points, body.mesh, body=number) for number, body in enumerate(bodies)]
     stiffness = [
         resolve_stiffness(body, held >= 0, number)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ..physics.errors import InvalidInputError, require
+from ..physics.query_points import QueryPoint
 
 __all__ = ["QueryPoint", "parse_points", "parse_polyline"]
 
@@ -18,27 +18,13 @@ _POINT_FORMS = '{"x": .., "y": ..}, [x, y] or [x, y, label]'
 _LABELS = {1: True, 0: False, "1": True, "0": False, "positive": True, "negative": False}
 
 
-@dataclass(frozen=True)
-class QueryPoint:
-    """A clicked point of a segmentation.
-
-    Attributes:
-        x: pixels from the left edge.
-        y: pixels from the top edge.
-        positive: true for a point on the wanted object, false for one beside it.
-    """
-
-    x: float
-    y: float
-    positive: bool = True
-
-
 def parse_points(points: str | Sequence[Any] | Mapping[str, Any], *, width: int, height: int) -> list[QueryPoint]:
     """Query points from text or from already decoded JSON, in pixels.
 
     Understood are JSON lists of ``{"x", "y"}`` with an optional ``"label"`` (1 on the object, 0 beside it), of
     ``[x, y]`` or ``[x, y, label]``, an object ``{"positive": [...], "negative": [...]}``, and plain text with one
-    ``x,y`` or ``x,y,label`` a line. A point without a label is positive.
+    ``x,y`` or ``x,y,label`` a line. A point without a label is positive. A scene document gives its ``query_points``,
+    scaled to the picture.
 
     Args:
         points: the text, or the decoded list or object.
@@ -49,7 +35,9 @@ def parse_points(points: str | Sequence[Any] | Mapping[str, Any], *, width: int,
         InvalidInputError: the text is neither, a point is incomplete, or one lies outside the picture.
     """
     data = _decode(points, "points")
-    if isinstance(data, Mapping) and not {"x", "y"} <= data.keys():
+    if isinstance(data, Mapping) and {"version", "query_points"} & data.keys():
+        found = _from_document(data, width, height)
+    elif isinstance(data, Mapping) and not {"x", "y"} <= data.keys():
         found = _from_groups(data)
     else:
         items = [data] if isinstance(data, Mapping) else data
@@ -142,6 +130,15 @@ def _from_groups(data: Mapping[str, Any]) -> list[QueryPoint]:
             x, y = _coordinates(item, f"{group}[{index}]")
             found.append(QueryPoint(x, y, positive))
     return found
+
+
+def _from_document(data: Mapping[str, Any], width: int, height: int) -> list[QueryPoint]:
+    from ..physics.scene_checking import check_document
+    from ..physics.scene_json import query_points_of
+
+    document = check_document(dict(data))
+    scale = (width / document["width"], height / document["height"], 1.0)
+    return [point.rescaled(scale) for point in query_points_of(document)]
 
 
 def _query_point(item: Any, name: str) -> QueryPoint:

@@ -1,0 +1,54 @@
+"""Clean plates for the scene editor, made when first asked for: it takes seconds, for which no queue should wait."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import OrderedDict
+from concurrent.futures import ThreadPoolExecutor
+
+from ..physics.preview_store import PreviewBodies
+
+__all__ = ["Plates"]
+
+_MOST = 16
+
+
+class Plates:
+    """The last plates as PNG files; one is made at a time, and each only once however many ask."""
+
+    def __init__(self) -> None:
+        self._made: OrderedDict[str, asyncio.Task[bytes]] = OrderedDict()
+        self._thread = ThreadPoolExecutor(1, thread_name_prefix="physanimator-plate")
+
+    async def png(self, stored: PreviewBodies) -> bytes:
+        """The plate of bodies that have a picture, as a PNG file.
+
+        Raises:
+            InvalidInputError: the bodies leave too little of the picture to fill the rest with.
+        """
+        task = self._made.get(stored.picture_key)
+        if task is None or (task.done() and (task.cancelled() or task.exception() is not None)):
+            task = asyncio.ensure_future(self._make(stored))
+            self._made[stored.picture_key] = task
+        self._made.move_to_end(stored.picture_key)
+        while len(self._made) > _MOST:
+            self._made.popitem(last=False)
+        return await asyncio.shield(task)  # whoever goes away must not stop it for the others
+
+    def close(self) -> None:
+        """Let the thread end once it has nothing to do."""
+        self._thread.shutdown(wait=False)
+
+    async def _make(self, stored: PreviewBodies) -> bytes:
+        return await asyncio.get_running_loop().run_in_executor(self._thread, _png_of, stored)
+
+
+def _png_of(stored: PreviewBodies) -> bytes:
+    import cv2
+
+    from ..rendering.clean_plate import clean_plate
+
+    assert stored.picture is not None
+    assert stored.hole is not None
+    plate = clean_plate(stored.picture, stored.hole)
+    return bytes(cv2.imencode(".png", plate[..., ::-1], [cv2.IMWRITE_PNG_COMPRESSION, 1])[1])

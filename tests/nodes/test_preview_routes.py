@@ -1,0 +1,390 @@
+"""The routes of the scene editor behind a web server like the host's, with well-meant and hostile requests."""
+
+from __future__ import annotations
+
+import asyncio
+import io
+import json
+import random
+import struct
+import threading
+import time
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import asynccontextmanager
+from typing import Any
+
+import numpy as np
+import pytest
+from aiohttp import ClientResponse, web
+from aiohttp.test_utils import TestClient, TestServer
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from physanimator.nodes import preview_routes
+from physanimator.nodes.preview_routes import PreviewRoutes
+from physanimator.physics.material import Material
+from physanimator.physics.mesh import TriangleMesh
+from physanimator.physics.preview_limits import MAX_EDITORS, MAX_REQUEST_BYTES
+from physanimator.physics.preview_records import END, ERROR, FRAME, HEADER, split_records
+from physanimator.physics.preview_store import PreviewBodies, PreviewStore
+from physanimator.physics.scene import Body
+from PIL import Image
+
+PATIENCE = 60.0
+SCENE: dict[str, Any] = {
+    "version": 2,
+    "width": 100,
+    "height": 80,
+    "strokes": [{"path": [[0, 30], [100, 50]], "radius": 60, "speed": 200, "strength": 4}],
+    "rig_points": [{"position": [20, 30], "region": {"type": "circle", "radius": 15}}],
+}
+
+
+def bodies(*, picture: bool = False, columns: int = 5, rows: int = 3) -> PreviewBodies:
+    x, y = np.meshgrid(np.linspace(20, 60, columns), np.linspace(20, 40, rows))
+    cell = np.array([[0, 1, columns], [1, columns + 1, columns]])
+    cells = [cell + columns * row + column for row in range(rows - 1) for column in range(columns - 1)]
+    triangles = np.concatenate(cells)
+    mesh = TriangleMesh(np.column_stack([x.ravel(), y.ravel()]), triangles, 100, 80)
+    of_body = (Body(mesh, Material(youngs_modulus=10.0, damping=4.0)),)
+    if not picture:
+        return PreviewBodies(of_body)
+    drawn = np.full((80, 100, 3), (40, 90, 200), np.uint8)
+    hole = np.zeros((80, 100), np.uint8)
+    drawn[20:40, 20:60], hole[20:40, 20:60] = (200, 20, 20), 255
+    return PreviewBodies(of_body, drawn, hole)
+
+
+class Served:
+    """The routes on a server of their own.
+
+    Attributes:
+        routes: the routes.
+        client: asks them.
+        key: of bodies that they hold.
+    """
+
+    def __init__(self, routes: PreviewRoutes, client: TestClient[Any, Any], key: str) -> None:
+        self.routes, self.client, self.key = routes, client, key
+
+    def body(self, **changes: Any) -> dict[str, Any]:
+        return {"editor": "one", "key": self.key, "scene": SCENE, "frames": 5} | changes
+
+    async def ask(self, **changes: Any) -> ClientResponse:
+        return await self.client.post("/physanimator/preview", json=self.body(**changes))
+
+    async def stream(self, **changes: Any) -> list[tuple[int, bytes]]:
+        answer = await self.ask(**changes)
+        assert answer.status == 200, await answer.text()
+        return split_records(await answer.read())
+
+    async def idle(self) -> None:
+        """Wait until nothing simulates any more: no run is left, and no thread of the pool has work."""
+        end = time.monotonic() + PATIENCE
+        while len(self.routes.runs):
+            assert time.monotonic() < end
+            await asyncio.sleep(0.01)
+        loop, gate = asyncio.get_running_loop(), threading.Barrier(self.routes.threads._max_workers)
+        waits = [loop.run_in_executor(self.routes.threads, gate.wait, PATIENCE) for _ in range(gate.parties)]
+        await asyncio.gather(*waits)
+
+
+@asynccontextmanager
+async def served(stored: PreviewBodies | None = None) -> AsyncIterator[Served]:
+    store = PreviewStore()
+    key = store.put(stored or bodies())
+    routes, table, app = PreviewRoutes(store), web.RouteTableDef(), web.Application()
+    routes.register(table)
+    app.add_routes(table)
+    async with TestClient(TestServer(app)) as client:
+        yield Served(routes, client, key)
+    routes.close()
+
+
+def in_a_server(test: Callable[[Served], Awaitable[None]], stored: PreviewBodies | None = None) -> None:
+    async def run() -> None:
+        async with served(stored) as server:
+            await test(server)
+            await server.idle()
+
+    asyncio.run(run())
+
+
+def test_a_scene_comes_back_frame_by_frame() -> None:
+    async def test(server: Served) -> None:
+        records = await server.stream(frames=30)
+        assert [kind for kind, _ in records] == [HEADER, *[FRAME] * 30, END]
+        assert json.loads(records[-1][1])["largest_displacement"] > 1
+        mesh = await server.client.get(f"/physanimator/mesh/{server.key}")
+        assert mesh.status == 200
+        assert struct.unpack_from("<I", await mesh.read())[0] > 100
+
+    in_a_server(test)
+
+
+@pytest.mark.parametrize("path", ["mesh", "plate"])
+@pytest.mark.parametrize("key", ["0" * 64, "x", "..%2f..%2fetc%2fpasswd", "A" * 64])
+def test_unknown_keys(path: str, key: str) -> None:
+    async def test(server: Served) -> None:
+        answer = await server.client.get(f"/physanimator/{path}/{key}")
+        assert answer.status == 404
+        assert "run the graph once" in (await answer.json())["error"]
+
+    in_a_server(test)
+
+
+def test_the_plate_is_made_once_and_has_lost_the_body() -> None:
+    async def test(server: Served) -> None:
+        path = f"/physanimator/plate/{server.key}"
+        answers = await asyncio.gather(*(server.client.get(path) for _ in range(5)))
+        files = {await answer.read() for answer in answers}
+        assert [answer.content_type for answer in answers] == ["image/png"] * 5
+        assert len(files) == 1
+        picture = np.asarray(Image.open(io.BytesIO(files.pop())))
+        np.testing.assert_allclose(picture[30, 40], (40, 90, 200), atol=12)
+        np.testing.assert_array_equal(picture[70, 90], (40, 90, 200))
+
+    in_a_server(test, bodies(picture=True))
+
+
+def test_without_a_picture_there_is_no_plate() -> None:
+    async def test(server: Served) -> None:
+        answer = await server.client.get(f"/physanimator/plate/{server.key}")
+        assert answer.status == 409
+        assert "Connect the illustration" in (await answer.json())["error"]
+
+    in_a_server(test)
+
+
+@pytest.mark.parametrize(
+    ("changes", "status", "words"),
+    [
+        ({"scene": {**SCENE, "strokes": [{"radius": -1}]}}, 422, "strokes[0].radius: must be above 0 px. Got: -1"),
+        ({"frames": 10**6}, 422, "frames must be a whole number from 1 to 1200"),
+        ({"key": "0" * 64}, 404, "run the graph once"),
+        ({"path": "/etc/passwd"}, 422, "an object with editor, frames, key, scene"),
+    ],
+)
+def test_wrong_requests_are_answered_with_a_sentence(changes: dict[str, Any], status: int, words: str) -> None:
+    async def test(server: Served) -> None:
+        answer = await server.ask(**changes)
+        assert answer.status == status
+        assert words in (await answer.json())["error"]
+
+    in_a_server(test)
+
+
+OWN = "http://127.0.0.1:8188"
+
+
+@pytest.mark.parametrize(
+    ("headers", "status"),
+    [
+        ({}, 200),
+        ({"Host": "127.0.0.1:8188", "Origin": OWN}, 200),
+        ({"Host": "127.0.0.1:8188", "Origin": OWN, "Sec-Fetch-Site": "same-origin"}, 200),
+        ({"Sec-Fetch-Site": "none"}, 200),
+        ({"Sec-Fetch-Site": "same-site"}, 403),
+        ({"Sec-Fetch-Site": "cross-site"}, 403),
+        ({"Host": "127.0.0.1:8188", "Origin": "http://127.0.0.1:8000"}, 403),
+        ({"Host": "127.0.0.1:8188", "Origin": "http://localhost:8188"}, 403),
+        ({"Origin": "http://example.org"}, 403),
+        ({"Origin": "https://proxied.example.org", "Sec-Fetch-Site": "same-origin"}, 200),
+        ({"Origin": "null"}, 403),
+        ({"Origin": ""}, 403),
+        ({"Origin": "http://[::1"}, 403),
+        ({"Content-Type": "text/plain"}, 415),
+        ({"Content-Type": "application/x-www-form-urlencoded"}, 415),
+    ],
+)
+def test_only_the_host_s_own_pages_are_answered(headers: dict[str, str], status: int) -> None:
+    async def test(server: Served) -> None:
+        content = {"Content-Type": "application/json"} | headers
+        answer = await server.client.post("/physanimator/preview", data=json.dumps(server.body()), headers=content)
+        await answer.read()
+        assert answer.status == status
+        mesh = await server.client.get(f"/physanimator/mesh/{server.key}", headers=headers)
+        assert mesh.status == (200 if status == 415 else status)
+
+    in_a_server(test)
+
+
+@pytest.mark.parametrize("announced", [True, False])
+def test_a_body_is_read_no_further_than_its_limit(announced: bool) -> None:
+    sent = 0
+
+    async def parts() -> AsyncIterator[bytes]:
+        nonlocal sent
+        while sent < 20 * MAX_REQUEST_BYTES:
+            sent += 2**16
+            yield b" " * 2**16
+
+    async def test(server: Served) -> None:
+        nonlocal sent
+        data = io.BytesIO(b" " * (MAX_REQUEST_BYTES + 1)) if announced else parts()
+        headers = {"Content-Type": "application/json"}
+        answer = await server.client.post("/physanimator/preview", data=data, headers=headers)
+        assert answer.status == 413
+        assert "at most 4 MB" in (await answer.json())["error"]
+
+    in_a_server(test)
+    assert sent < 19 * MAX_REQUEST_BYTES
+
+
+def test_a_body_that_never_ends_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(preview_routes, "_BODY_SECONDS", 0.1)
+
+    async def parts() -> AsyncIterator[bytes]:
+        while True:
+            yield b" "
+            await asyncio.sleep(0.02)
+
+    async def test(server: Served) -> None:
+        headers = {"Content-Type": "application/json"}
+        answer = await server.client.post("/physanimator/preview", data=parts(), headers=headers)
+        assert answer.status == 413
+
+    in_a_server(test)
+
+
+def test_the_latest_request_of_an_editor_wins() -> None:
+    async def test(server: Served) -> None:
+        first = await server.ask(frames=1200, scene={**SCENE, "frame_rate": 1})
+        head = await first.content.readexactly(8)
+        records = await server.stream()
+        assert records[-1][0] == END
+        kind, payload = split_records(head + await first.read())[-1]
+        assert (kind, json.loads(payload)) == (ERROR, {"error": "superseded"})
+
+    in_a_server(test)
+
+
+def test_a_client_that_goes_away_stops_its_simulation() -> None:
+    async def test(server: Served) -> None:
+        answer = await server.ask(frames=1200, scene={**SCENE, "frame_rate": 1})
+        await answer.content.readexactly(8)
+        assert len(server.routes.runs) == 1
+        answer.close()
+        await server.idle()
+
+    in_a_server(test)
+
+
+def test_more_editors_than_may_simulate_are_told_to_wait() -> None:
+    async def test(server: Served) -> None:
+        slow = {**SCENE, "frame_rate": 1}
+        answers = [await server.ask(editor=str(k), frames=1200, scene=slow) for k in range(MAX_EDITORS)]
+        late = await server.ask(editor="late")
+        assert late.status == 429
+        assert "busy" in (await late.json())["error"]
+        for answer in answers:
+            answer.close()
+        await server.idle()
+        assert (await server.stream(editor="late"))[-1][0] == END
+
+    in_a_server(test)
+
+
+def test_a_client_that_does_not_read_holds_the_simulation_back() -> None:
+    async def test(server: Served) -> None:
+        shown = 0
+        encode = preview_routes.RecordQueue.put
+
+        def counted(queue: Any, data: bytes, run: Any) -> None:
+            nonlocal shown
+            shown += len(data)
+            encode(queue, data, run)
+
+        preview_routes.RecordQueue.put = counted  # type: ignore[method-assign]
+        try:
+            answer = await server.ask(frames=1200, scene={**SCENE, "frame_rate": 240})
+            before = -1
+            while before != shown:
+                before = shown
+                await asyncio.sleep(0.3)
+            assert shown < 14e6, "of 20 million bytes"
+            assert len(server.routes.runs) == 1
+            answer.close()
+        finally:
+            preview_routes.RecordQueue.put = encode  # type: ignore[method-assign]
+
+    in_a_server(test, bodies(columns=84, rows=50))
+
+
+def test_the_server_answers_while_it_simulates() -> None:
+    async def test(server: Served) -> None:
+        answer = await server.ask(frames=1200, scene={**SCENE, "frame_rate": 1})
+        for _ in range(20):
+            mesh = await server.client.get(f"/physanimator/mesh/{server.key}")
+            assert mesh.status == 200
+        assert len(server.routes.runs) == 1
+        answer.close()
+
+    in_a_server(test)
+
+
+def test_a_failure_is_answered_without_its_secrets(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(_: bytes) -> None:
+        raise ZeroDivisionError("/home/secret")
+
+    monkeypatch.setattr(preview_routes, "read_request", fail)
+
+    async def test(server: Served) -> None:
+        answer = await server.ask()
+        assert answer.status == 500
+        assert "secret" not in await answer.text()
+        assert "log" in (await answer.json())["error"]
+
+    in_a_server(test)
+
+
+numbers = st.integers() | st.floats() | st.sampled_from([0, -1, 1e308, float("nan"), float("inf"), 2**70])
+anything = st.recursive(
+    st.none() | st.booleans() | numbers | st.text(max_size=5),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=5), inner, max_size=4),
+    max_leaves=10,
+)
+mangled = st.dictionaries(st.sampled_from(["editor", "key", "frames", "scene", "extra"]), anything, max_size=2)
+scenes = st.dictionaries(
+    st.sampled_from(["strokes", "rig_points", "loop", "gravity", "paint", "contact", "wind", "frame_rate", "version"]),
+    anything | numbers,
+    max_size=2,
+)
+strokes = st.fixed_dictionaries(
+    {"path": st.lists(st.lists(numbers, min_size=2, max_size=2), max_size=4)},
+    optional={name: numbers for name in ("radius", "speed", "strength", "start", "end", "interval", "repeat")},
+)
+well_formed = st.fixed_dictionaries({"strokes": st.lists(strokes, max_size=3), "loop": st.none() | st.floats(0.1, 1)})
+hostile = st.builds(lambda extra, scene: {"scene": SCENE | scene} | extra, mangled, scenes | well_formed)
+
+
+@settings(deadline=None, max_examples=25, suppress_health_check=list(HealthCheck))
+@given(requests=st.lists(hostile, min_size=1, max_size=12), seed=st.integers(0, 2**32))
+def test_whatever_comes_at_once_is_answered_and_leaves_nothing_behind(
+    requests: list[dict[str, Any]], seed: int
+) -> None:
+    """Some editors, some of whom go away at any time, and every answer complete or a sentence."""
+    chance = random.Random(seed)
+
+    async def one(server: Served, changes: dict[str, Any]) -> None:
+        await asyncio.sleep(chance.random() * 0.05)
+        body = {**server.body(editor=str(chance.randrange(6)), frames=chance.randrange(1, 40)), **changes}
+        headers = {"Content-Type": "application/json"}
+        answer = await server.client.post("/physanimator/preview", data=json.dumps(body), headers=headers)
+        if chance.random() < 0.3:
+            answer.close()
+            return
+        data = await answer.read()
+        if answer.status == 200:
+            records = split_records(data)
+            assert records[0][0] in (HEADER, ERROR)
+            assert records[-1][0] in (END, ERROR)
+        else:
+            assert answer.status in (404, 422, 429)
+            assert json.loads(data)["error"]
+
+    async def test(server: Served) -> None:
+        await asyncio.wait_for(asyncio.gather(*(one(server, changes) for changes in requests)), PATIENCE)
+        await server.idle()
+        assert len(server.routes.store) == 1
+
+    in_a_server(test)
