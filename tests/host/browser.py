@@ -59,6 +59,15 @@ class Page:
         self.run("() => app.extensionManager.command.execute('Comfy.Canvas.FitView')")
         self.page.wait_for_timeout(1000)
 
+    def reload(self) -> None:
+        """The page anew, as after pressing F5."""
+        self.page.reload()
+        self.wait_until_ready()
+
+    def wait_until_ready(self) -> None:
+        self.page.wait_for_function(_READY, timeout=120_000)
+        self.page.wait_for_timeout(1000)
+
     def screenshot(self, path: str) -> None:
         self.page.screenshot(path=path)
 
@@ -74,7 +83,6 @@ def opened(url: str) -> Iterator[Page]:
         page = Page(tab)
         tab.request.post(f"{url}/settings/Comfy.TutorialCompleted", data="true")
         tab.goto(url)
-        tab.wait_for_function(_READY, timeout=120_000)
-        tab.wait_for_timeout(1000)
+        page.wait_until_ready()
         yield page
         chromium.close()

@@ -12,14 +12,15 @@ CANVASES = {"litegraph": False, "vue": True}
 _CANVAS = """
 async (vue) => {
   const settings = app.extensionManager.setting;
-  if (settings.get('Comfy.VueNodes.Enabled') === vue) return;
+  if (settings.get('Comfy.VueNodes.Enabled') === vue) return false;
   await settings.set('Comfy.VueNodes.Enabled', vue);
-  await new Promise((done) => setTimeout(done, 500));
+  return true;
 }
 """
 _BUILD = """
 async () => {
   app.graph.clear();
+  app.nodeOutputs = {};
   const add = (type, x, y) => {
     const node = LiteGraph.createNode(type);
     app.graph.add(node);
@@ -75,7 +76,8 @@ class EditorPage:
     @classmethod
     def opened(cls, page: Any, canvas: str) -> EditorPage:
         """A graph with the example's hair and an editor, in one of the two canvases."""
-        page.run(_CANVAS, CANVASES[canvas])
+        if page.run(_CANVAS, CANVASES[canvas]):
+            page.reload()
         editor = cls(page, page.run(_BUILD))
         editor.look()
         return editor
@@ -84,6 +86,7 @@ class EditorPage:
         """Bring a part of the graph into view, so that the editor is large enough to be worked with."""
         self.page.run(_VIEW, [x, y, scale])
         self.page.page.wait_for_timeout(700)
+        self.wait("editor.stage.across > 0 && editor.stage.down > 0", timeout=10_000)
 
     def ask(self, expression: str) -> Any:
         """The value of an expression in ``editor`` and ``node``."""
@@ -139,7 +142,7 @@ class EditorPage:
             self.page.page.keyboard.press(key)
 
     def focus(self) -> None:
-        self.ask("editor.stage.overlay.focus()")
+        self.ask("editor.stage.focus()")
 
     def type_into(self, path: str, text: str) -> None:
         """A number into the field of the selected item."""

@@ -114,7 +114,7 @@ export class Commands {
     editor.dialog.append(editor.frame);
     editor.dialog.showModal();
     editor.stage.fit();
-    editor.stage.overlay.focus({ preventScroll: true });
+    editor.stage.focus();
     editor.show();
   }
 

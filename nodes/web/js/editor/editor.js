@@ -19,9 +19,10 @@ import { Timeline } from "../panels/timeline.js";
 import { Toolbar } from "../panels/toolbar.js";
 import { element } from "../panels/elements.js";
 import { STYLE } from "../panels/style.js";
-import { emptyDocument, hasItems, withValue } from "../scene/document.js";
+import { emptyDocument, hasItems, itemAt, withValue } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
 import { rescaled } from "../scene/rescaling.js";
+import { handlesOf } from "../scene/shapes.js";
 import { drawOverlay } from "../stage/overlay.js";
 import { Scheduler } from "../stage/scheduler.js";
 import { Stage } from "../stage/stage.js";
@@ -109,6 +110,12 @@ export class Editor {
 
   get pixel() {
     return 1 / this.stage.view.scale;
+  }
+
+  /** Handles of the selected item. */
+  get handles() {
+    const item = itemAt(this.document, this.selection);
+    return item && this.selection ? handlesOf(this.document, this.selection, item) : [];
   }
 
   /**

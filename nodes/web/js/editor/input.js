@@ -8,7 +8,7 @@ import { itemAt } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
 import { moved } from "../scene/shapes.js";
 import { copied, pasted } from "./clipboard.js";
-import { actionOf, isTyping, staysInside } from "./keys.js";
+import { actionOf, hostUndoes, isTyping, staysInside } from "./keys.js";
 import { mayHoldPicture, pictureIn } from "./pictures.js";
 
 const POINTER_EVENTS = ["pointerdown", "pointermove", "pointerup", "mousedown", "mousemove", "click", "dblclick", "contextmenu", "wheel"];
@@ -27,7 +27,7 @@ export function listenTo(editor) {
   root.addEventListener("drop", (/** @type {DragEvent} */ event) => usePicture(editor, pictureIn(event.dataTransfer), event));
   editor.toolbar.root.addEventListener("click", (/** @type {MouseEvent} */ event) => {
     // After a click of the mouse the keys belong to the picture; who goes by keyboard stays where they are.
-    if (event.detail) editor.stage.overlay.focus({ preventScroll: true });
+    if (event.detail) editor.stage.focus();
   });
 }
 
@@ -45,6 +45,7 @@ function onKeyDown(editor, event) {
   if (staysInside(event)) event.stopPropagation();
   const action = actionOf(event);
   const typing = isTyping(event.target);
+  if ((action === "undo" || action === "redo") && hostUndoes(event.target)) return;
   if (typing && action !== "undo" && action !== "redo" && event.key !== "Escape") return;
   const onButton = /** @type {any} */ (event.target)?.tagName === "BUTTON";
   if (event.key === " " && !onButton) {
@@ -53,7 +54,7 @@ function onKeyDown(editor, event) {
     return;
   }
   if (typing && event.key === "Escape") {
-    editor.stage.overlay.focus({ preventScroll: true });
+    editor.stage.focus();
     take(event);
   } else if (action && !(onButton && action === "finish") && editor.commands.run(action, event.shiftKey)) take(event);
 }

@@ -43,9 +43,19 @@ export function staysInside(event) {
   return !(event.ctrlKey || event.metaKey) || GUARDED.has(event.key.toLowerCase());
 }
 
+/**
+ * Whether the host undoes by itself where the focus is; then it must not be undone twice.
+ *
+ * @param {EventTarget | null} target
+ */
+export function hostUndoes(target) {
+  return !["INPUT", "TEXTAREA"].includes(/** @type {any} */ (target)?.tagName);
+}
+
 /** @param {EventTarget | null} target whether somebody types there */
 export function isTyping(target) {
   const tag = /** @type {any} */ (target)?.tagName;
   const type = /** @type {any} */ (target)?.type;
-  return tag === "TEXTAREA" || tag === "SELECT" || (tag === "INPUT" && type !== "checkbox" && type !== "range");
+  const writable = type !== "checkbox" && type !== "range" && !(/** @type {any} */ (target)?.readOnly);
+  return tag === "TEXTAREA" || tag === "SELECT" || (tag === "INPUT" && writable);
 }

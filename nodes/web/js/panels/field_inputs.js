@@ -138,8 +138,12 @@ function keysRow(field, item, change) {
   });
   const add = () => put([...rows, nextKey(rows, field)], "");
   const more = numbered ? [] : [element("button", { type: "button", title: "Add a key", onclick: add }, ["+ key"])];
-  const note = element("span", { className: "physanimator-caption" }, [`${field.title} (${columns.join(", ")})`]);
-  return element("div", { className: "physanimator-field physanimator-keys", title: field.hint, "data-field": field.path }, [note, ...body, ...more]);
+  const named = rows.length ? `${field.title}: ${columns.join(", ")}` : field.title;
+  const note = element("span", { className: "physanimator-caption" }, [named]);
+  return element("div", { className: "physanimator-field physanimator-table", title: field.hint, "data-field": field.path }, [
+    element("div", { className: "physanimator-key physanimator-keyhead" }, [note, ...more]),
+    ...body,
+  ]);
 }
 
 /**

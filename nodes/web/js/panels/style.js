@@ -33,6 +33,8 @@ export const STYLE = `
 .physanimator-stage { grid-area: stage; position: relative; min-width: 0; min-height: 0; overflow: hidden;
   background: repeating-conic-gradient(rgba(128, 128, 128, 0.16) 0% 25%, transparent 0% 50%) 0 0 / 20px 20px, var(--physanimator-field); }
 .physanimator-stage canvas { position: absolute; inset: 0; width: 100%; height: 100%; touch-action: none; outline: none; }
+.physanimator-editor input.physanimator-keys { position: absolute; left: 0; bottom: 0; width: 1px; height: 1px; padding: 0; border: 0; opacity: 0; pointer-events: none; }
+.physanimator-stage:focus-within { box-shadow: inset 0 0 0 1px var(--physanimator-accent); }
 .physanimator-film { pointer-events: none; }
 .physanimator-notes { position: absolute; inset: auto 8px 8px; display: flex; flex-direction: column; align-items: flex-start; gap: 4px; pointer-events: none; }
 .physanimator-note { max-width: 100%; padding: 4px 8px; border-radius: 5px; color: #fff; background: rgba(16, 18, 24, 0.86); pointer-events: auto; overflow-wrap: anywhere; }
@@ -54,14 +56,16 @@ export const STYLE = `
 .physanimator-editor input[aria-invalid] { border-color: #f44; }
 .physanimator-inputs input[type="number"] + input[type="number"] { margin-left: 0; }
 .physanimator-field[data-field="gravity"] input, .physanimator-field[data-field="motion.direction"] input { width: 44px; }
-.physanimator-keys { display: block; padding: 4px 0; }
+.physanimator-table { display: block; padding: 1px 0; }
 .physanimator-key { display: flex; align-items: center; gap: 4px; margin-top: 2px; }
+.physanimator-keyhead { justify-content: space-between; }
+.physanimator-table button { height: 22px; white-space: nowrap; background: var(--physanimator-field); }
 .physanimator-timeline { grid-area: timeline; border-top: 1px solid var(--physanimator-rim); }
 .physanimator-bar { display: flex; align-items: center; gap: 4px; padding: 2px 6px; }
 .physanimator-slider { flex: 1; min-width: 40px; margin: 0; accent-color: var(--physanimator-accent); }
 .physanimator-readout { min-width: 84px; text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .physanimator-editor input.physanimator-length { width: 48px; }
-.physanimator-lanes { position: relative; max-height: 58px; margin: 0 6px 4px; overflow-y: auto; scrollbar-width: thin; }
+.physanimator-lanes { position: relative; height: 40px; margin: 0 6px 4px; overflow-y: auto; scrollbar-width: thin; }
 .physanimator-lane { position: relative; height: 8px; margin-top: 1px; border-radius: 2px; background: rgba(128, 128, 128, 0.16); cursor: pointer; }
 .physanimator-lane[data-selected="true"] { outline: 1px solid var(--physanimator-text); outline-offset: -1px; }
 .physanimator-span { position: absolute; inset: 2px auto 2px 0; border-radius: 2px; background: var(--physanimator-colour); opacity: 0.75; }
@@ -70,7 +74,7 @@ export const STYLE = `
 .physanimator-dialog { width: 100vw; height: 100vh; max-width: none; max-height: none; margin: 0; padding: 10px; border: 0; background: rgba(0, 0, 0, 0.7); }
 .physanimator-dialog .physanimator-frame { grid-template-columns: minmax(0, 1fr) 252px; }
 .physanimator-dialog .physanimator-frame[data-panel="false"] { grid-template-columns: minmax(0, 1fr) 0; }
-.physanimator-dialog .physanimator-lanes { max-height: 140px; }
+.physanimator-dialog .physanimator-lanes { height: 120px; }
 .physanimator-dialog .physanimator-lane { height: 11px; }
 @container (max-width: 519px) {
   .physanimator-frame, .physanimator-frame[data-panel="false"] {

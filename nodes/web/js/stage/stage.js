@@ -34,8 +34,12 @@ export class Stage {
     this.listener = listener;
     this.film = canvas("physanimator-film");
     this.overlay = canvas("physanimator-overlay");
-    this.overlay.tabIndex = 0;
-    root.append(this.film, this.overlay);
+    // The keys go to an input, because every host leaves the keys of inputs alone: Delete would take the node, and
+    // Ctrl+Z the last change of the graph.
+    this.keys = document.createElement("input");
+    Object.assign(this.keys, { className: "physanimator-keys", readOnly: true, inputMode: "none" });
+    this.keys.setAttribute("aria-label", "Picture");
+    root.append(this.keys, this.film, this.overlay);
     /** @type {View} */
     this.view = { scale: 1, x: 0, y: 0 };
     this.fitted = true;
@@ -56,6 +60,10 @@ export class Stage {
 
   get down() {
     return this.root.clientHeight;
+  }
+
+  focus() {
+    this.keys.focus({ preventScroll: true });
   }
 
   /** @param {{width: number, height: number}} size */
@@ -130,7 +138,7 @@ export class Stage {
   /** @param {PointerEvent} event */
   #down(event) {
     event.preventDefault();
-    this.overlay.focus({ preventScroll: true });
+    this.focus();
     try {
       this.overlay.setPointerCapture(event.pointerId);
     } catch {
