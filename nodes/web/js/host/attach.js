@@ -103,6 +103,7 @@ function follow(app, api, node, value, editor) {
   let file = /** @type {string | null | undefined} */ (undefined);
   const look = () => {
     if (!node.graph) return;
+    takePlace(node, editor.root);
     editor.load(String(value.value ?? ""));
     const found = upstreamImage(node, app.rootGraph ?? app.graph);
     if (found === file) return;
@@ -122,6 +123,7 @@ function follow(app, api, node, value, editor) {
   chain(node, "onDrawForeground", look);
   editor.root.addEventListener("pointerenter", look);
   const remains = setInterval(look, 1000);
+  chain(node, "onAdded", () => setTimeout(look, SETTLED));
   chain(node, "onRemoved", () => {
     clearInterval(remains);
     editor.release();
@@ -131,6 +133,18 @@ function follow(app, api, node, value, editor) {
     editor.load(String(value.value ?? ""));
     ran(app.nodeOutputs?.[String(node.id)]);
   });
+}
+
+/**
+ * An older Vue canvas keeps showing what belonged to the node that had this id before, such as before undoing.
+ *
+ * @param {any} node
+ * @param {HTMLElement} root
+ */
+function takePlace(node, root) {
+  if (root.isConnected) return;
+  const left = document.querySelector(`[data-node-id="${CSS.escape(String(node.id))}"] .physanimator-editor[data-released]`);
+  left?.replaceWith(root);
 }
 
 /**
