@@ -23,8 +23,8 @@ async () => {
   app.nodeOutputs = {};
   const add = (type, x, y) => {
     const node = LiteGraph.createNode(type);
-    app.graph.add(node);
     node.pos = [x, y];
+    app.graph.add(node);
     return node;
   };
   const link = (from, output, to, input) => from.connect(

@@ -300,8 +300,8 @@ def test_two_editors_do_not_disturb_each_other(editor: EditorPage) -> None:
     other = EditorPage(editor.page, editor.page.run("""([id]) => {
         const first = app.graph.getNodeById(id);
         const node = LiteGraph.createNode('PhysAnimator_SceneEditor');
-        app.graph.add(node);
         node.pos = [0, 700];
+        app.graph.add(node);
         for (const slot of [0, 1]) {
           const link = app.graph.links.get?.(first.inputs[slot].link) ?? app.graph.links[first.inputs[slot].link];
           app.graph.getNodeById(link.origin_id).connect(link.origin_slot, node, slot);

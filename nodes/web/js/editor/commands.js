@@ -52,8 +52,8 @@ export class Commands {
       expand: () => (editor.dialog.open ? editor.dialog.close() : this.expand()),
       "brush-smaller": () => this.setBrush(editor.brushRadius / BRUSH),
       "brush-larger": () => this.setBrush(editor.brushRadius * BRUSH),
-      "frame-back": () => this.seek(live.playback.position - 1),
-      "frame-on": () => this.seek(live.playback.position + 1),
+      "frame-back": () => this.seek(Math.floor(live.playback.position) - 1),
+      "frame-on": () => this.seek(Math.floor(live.playback.position) + 1),
       play: () => this.#play(),
       loop: () => {
         live.playback.looping = !live.playback.looping;

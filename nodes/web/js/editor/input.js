@@ -113,7 +113,7 @@ function onPaste(editor, event) {
 function usePicture(editor, file, event) {
   if (!file) return;
   take(event);
-  editor.forgetRun();
-  editor.setPicture(URL.createObjectURL(file));
+  editor.backdrop.forgetRun();
+  editor.backdrop.setPicture(URL.createObjectURL(file));
   editor.say("This picture is only drawn on. Connect a Load Image node to animate it.");
 }

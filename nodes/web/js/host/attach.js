@@ -109,12 +109,12 @@ function follow(app, api, node, value, editor) {
     if (found === file) return;
     const first = file === undefined;
     file = found;
-    if (!first) editor.forgetRun();
-    if (found) editor.setPicture(api.apiURL(`/view?${viewQuery(found)}`));
+    if (!first) editor.backdrop.forgetRun();
+    if (found) editor.backdrop.setPicture(api.apiURL(`/view?${viewQuery(found)}`));
   };
   const ran = (/** @type {any} */ output) => {
     const [info] = output?.[OUTPUT] ?? [];
-    if (info) editor.setRun(runOf(api, info)).catch((error) => editor.say(error.message));
+    if (info) editor.backdrop.setRun(runOf(api, info)).catch((error) => editor.say(error.message));
   };
   chain(node, "onConfigure", () => queueMicrotask(look));
   chain(node, "onConnectionsChange", () => queueMicrotask(look));

@@ -9,6 +9,8 @@
 import { meshOf, RecordReader } from "./records.js";
 
 const SUPERSEDED = "superseded";
+/** Changes that follow within this time belong together [ms]. */
+const PAUSE = 300;
 
 /** An answer of the server that is a sentence for the user. */
 export class Refusal extends Error {
@@ -31,7 +33,7 @@ export class PreviewClient {
    * @param {(error: Error) => void} options.onError
    * @param {number} [options.delay]  [ms]
    */
-  constructor({ fetch, editor, onRecord, onError, delay = 40 }) {
+  constructor({ fetch, editor, onRecord, onError, delay = 80 }) {
     this.fetch = fetch;
     this.editor = editor;
     this.onRecord = onRecord;
@@ -41,6 +43,7 @@ export class PreviewClient {
     this.running = null;
     /** @type {any} */
     this.timer = 0;
+    this.asked = -Infinity;
   }
 
   /**
@@ -50,7 +53,11 @@ export class PreviewClient {
    */
   request(key, scene, frames) {
     this.cancel();
-    this.timer = setTimeout(() => this.#start(key, scene, frames), this.delay);
+    // A single change is shown at once; only where one follows the other is the last one waited for.
+    const now = performance.now();
+    const wait = now - this.asked < PAUSE ? this.delay : 0;
+    this.asked = now;
+    this.timer = setTimeout(() => this.#start(key, scene, frames), wait);
   }
 
   cancel() {

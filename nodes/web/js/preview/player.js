@@ -60,8 +60,8 @@ export class Player {
     gl.enableVertexAttribArray(this.places.rest);
     gl.enableVertexAttribArray(this.places.displacement);
     gl.getExtension("OES_element_index_uint");
-    this.buffers = { rest: gl.createBuffer(), displacement: gl.createBuffer(), triangles: gl.createBuffer() };
-    this.buffers.plate = { rest: gl.createBuffer(), displacement: gl.createBuffer() };
+    const plate = { rest: gl.createBuffer(), displacement: gl.createBuffer() };
+    this.buffers = { rest: gl.createBuffer(), displacement: gl.createBuffer(), triangles: gl.createBuffer(), plate };
     this.textures = { picture: texture(gl), plate: texture(gl) };
     this.ready = true;
   }

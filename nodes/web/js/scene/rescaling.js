@@ -20,6 +20,7 @@ export function rescaled(document, width, height) {
   if (document.width === width && document.height === height) return document;
   const side = Math.max(width, height) / Math.max(document.width, document.height);
   const scale = { x: width / document.width, y: height / document.height, side };
+  /** @type {SceneDocument} */
   const changed = { ...document, width, height };
   each(changed, "strokes", (stroke) => scaledStroke(stroke, scale));
   each(changed, "rig_points", (rigPoint) => scaledRigPoint(rigPoint, scale));

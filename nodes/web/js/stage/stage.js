@@ -25,12 +25,12 @@ const MOST_PIXELS = 4096;
 export class Stage {
   /**
    * @param {HTMLElement} root
-   * @param {{width: number, height: number}} size  of the picture [px]
+   * @param {import("../scene/document.js").SceneDocument} document  whose size the picture has
    * @param {StageListener} listener
    */
-  constructor(root, size, listener) {
+  constructor(root, { width, height }, listener) {
     this.root = root;
-    this.size = size;
+    this.size = { width, height };
     this.listener = listener;
     this.film = canvas("physanimator-film");
     this.overlay = canvas("physanimator-overlay");
@@ -66,11 +66,15 @@ export class Stage {
     this.keys.focus({ preventScroll: true });
   }
 
-  /** @param {{width: number, height: number}} size */
-  setSize(size) {
-    if (size.width === this.size.width && size.height === this.size.height) return;
-    this.size = { width: size.width, height: size.height };
+  /**
+   * @param {import("../scene/document.js").SceneDocument} size
+   * @returns {boolean} whether it is another one
+   */
+  setSize({ width, height }) {
+    if (width === this.size.width && height === this.size.height) return false;
+    this.size = { width, height };
     this.fit();
+    return true;
   }
 
   fit() {
