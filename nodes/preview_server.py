@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import sys
 import threading
 
 from ..physics.preview_store import PreviewStore
@@ -18,11 +19,8 @@ _warmed = threading.Event()
 
 def register_routes() -> None:
     """Add the routes to the host's server; without one, as in a test or another host, do nothing."""
-    try:
-        from server import PromptServer
-    except ImportError:
-        return
-    server = getattr(PromptServer, "instance", None)
+    running = sys.modules.get("server")  # importing it would start the host's machinery where none runs
+    server = getattr(getattr(running, "PromptServer", None), "instance", None)
     if server is None or _registered.is_set():
         return
     _registered.set()

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import InvalidInputError, require
+from .limits import MAX_BODIES
 from .painting import painted
 from .points import Scale
 from .rig import MaskRegion, Polygon
@@ -50,7 +51,12 @@ class Paint:
         for name in QUANTITIES:
             factor = getattr(self, name)
             require(name, factor, LEAST_FACTOR <= factor <= MOST_FACTOR, f"{LEAST_FACTOR} to {MOST_FACTOR}")
-        require("body", self.body, self.body is None or self.body >= 0, "a body's number from 0")
+        require(
+            "body",
+            self.body,
+            self.body is None or 0 <= self.body <= MAX_BODIES - 1,
+            f"a body's number, 0 to {MAX_BODIES - 1}",
+        )
 
     def rescaled(self, scale: Scale) -> Paint:
         """The same over the picture at another size."""
@@ -79,7 +85,7 @@ def with_paint(bodies: Sequence[Body], paint: Sequence[Paint]) -> tuple[Body, ..
 
 
 def _mask(region: Polygon | MaskRegion, mesh: TriangleMesh) -> NDArray[np.bool_]:
-    """The region as a mask to be stretched over the picture."""
+    """The region as a mask to be stretched over the picture; pixels on the edge of a polygon belong to it."""
     if isinstance(region, MaskRegion):
         return region.mask
     scale = min(1.0, _LARGEST_MASK / mesh.longest_side)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 import time
-from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -13,65 +12,18 @@ from numpy.typing import NDArray
 
 from .errors import Cancelled, PhysAnimatorError
 from .loop import first_frame, periodic
+from .preparation import Preparations, Prepare
 from .preview_limits import MAX_EDITORS, MAX_PREVIEW_WORK
+from .preview_queue import RecordQueue
 from .preview_records import END, ERROR, FRAME, HEADER, FrameEncoder, record
 from .scene import Scene
 
-__all__ = ["SUPERSEDED", "PreviewRun", "PreviewRuns", "RecordQueue", "stream", "warm_up"]
+__all__ = ["SUPERSEDED", "PreviewRun", "PreviewRuns", "stream", "warm_up"]
 
 SUPERSEDED = "superseded"
 """Why a run was cancelled when its editor has asked for another."""
 
-_QUEUE_BYTES = 2 * 2**20
 _POLL_SECONDS = 0.02
-
-
-class RecordQueue:
-    """Records on their way from the simulating thread to the one that sends them; it never holds many."""
-
-    def __init__(self, wake: Callable[[], None], *, max_bytes: int = _QUEUE_BYTES) -> None:
-        """
-        Args:
-            wake: called, from the simulating thread, when there is something to take.
-            max_bytes: above which ``put`` waits.
-        """
-        self._wake, self._max_bytes = wake, max_bytes
-        self._records: deque[bytes] = deque()
-        self._bytes, self._closed = 0, False
-        self._changed = threading.Condition()
-
-    def put(self, data: bytes, run: PreviewRun) -> None:
-        """Add a record; waits while the queue is full.
-
-        Raises:
-            Cancelled: the run was cancelled meanwhile.
-        """
-        with self._changed:
-            while self._bytes and self._bytes + len(data) > self._max_bytes:
-                run.check()
-                self._changed.wait(_POLL_SECONDS)
-            self._append(data)
-        self._wake()
-
-    def close(self, last: bytes = b"") -> None:
-        """Add a last record, whether there is room or not; no more will come."""
-        with self._changed:
-            self._append(last)
-            self._closed = True
-        self._wake()
-
-    def take(self) -> tuple[bytes, bool]:
-        """Everything that waits, and whether that was the last; never waits itself."""
-        with self._changed:
-            data, closed = b"".join(self._records), self._closed
-            self._records.clear()
-            self._bytes = 0
-            self._changed.notify_all()
-        return data, closed
-
-    def _append(self, data: bytes) -> None:
-        self._records.append(data)
-        self._bytes += len(data)
 
 
 @dataclass(eq=False)
@@ -80,11 +32,15 @@ class PreviewRun:
 
     Attributes:
         editor: whose it is.
+        order: later requests have higher numbers.
+        prepare: keeps what simulations need before their first step.
         turn: held by whichever run of that editor simulates; the others wait for it.
         reason: why it was cancelled; empty while it was not.
     """
 
     editor: str
+    order: int
+    prepare: Prepare
     turn: threading.Lock
     reason: str = ""
     _cancelled: threading.Event = field(default_factory=threading.Event)
@@ -122,19 +78,28 @@ class PreviewRuns:
             most: editors that may have a run at once.
         """
         self._most = most
+        self._prepare = Preparations(most=2 * most)
         self._runs: dict[str, PreviewRun] = {}
         self._lock = threading.Lock()
 
-    def enter(self, editor: str) -> PreviewRun | None:
-        """A new run, for which the editor's earlier one is cancelled; None when too many editors have one."""
+    def enter(self, editor: str, order: int) -> PreviewRun | None:
+        """A new run, for which the editor's earlier one is cancelled; None when too many editors have one.
+
+        Args:
+            editor: whose it is.
+            order: rises with each request. One that was overtaken by a later request is cancelled from the start.
+        """
         with self._lock:
             before = self._runs.get(editor)
             if before is None and len(self._runs) >= self._most:
                 return None
-            run = PreviewRun(editor, before.turn if before else threading.Lock())
-            self._runs[editor] = run
-        if before is not None:
-            before.cancel(SUPERSEDED)
+            run = PreviewRun(editor, order, self._prepare, before.turn if before else threading.Lock())
+            overtaken = before is not None and before.order > order
+            if not overtaken:
+                self._runs[editor] = run
+        stale = run if overtaken else before
+        if stale is not None:
+            stale.cancel(SUPERSEDED)
         return run
 
     def leave(self, run: PreviewRun) -> None:
@@ -184,17 +149,22 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) ->
     begun, largest = time.perf_counter(), 0.0
     acting = scene if scene.loop is None else periodic(scene)
     encoder = FrameEncoder(acting, frames=frames, first_frame=0 if scene.loop is None else first_frame(acting))
-    queue.put(record(HEADER, encoder.header(frames=frames)), run)
+    queue.put(record(HEADER, encoder.header(frames=frames)), run.check)
 
     def send(number: int, positions: NDArray[np.float32]) -> None:
         nonlocal largest
         payload, displacement = encoder.frame(number, positions)
         largest = max(largest, displacement)
-        queue.put(record(FRAME, payload), run)
+        queue.put(record(FRAME, payload), run.check)
         run.check()
 
     simulate(
-        scene, frames=None if scene.loop else frames, on_frame=send, progress=_checking(run), max_work=MAX_PREVIEW_WORK
+        scene,
+        frames=None if scene.loop else frames,
+        on_frame=send,
+        progress=_checking(run),
+        max_work=MAX_PREVIEW_WORK,
+        prepare=run.prepare,
     )
     seconds = time.perf_counter() - begun
     return record(END, {"frames": frames, "seconds": seconds, "largest_displacement": largest})

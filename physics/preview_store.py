@@ -51,7 +51,7 @@ class PreviewBodies:
         digest = hashlib.sha256()
         for image in self._images:
             digest.update(repr(image.shape).encode())
-            digest.update(np.ascontiguousarray(image))
+            digest.update(image.tobytes())
         return digest.hexdigest()
 
     @cached_property

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from functools import partial
 from itertools import count
 
@@ -17,19 +16,18 @@ from numpy.typing import NDArray
 
 from .contact_stepping import TouchingBodies
 from .drive import drive
-from .elasticity import RestShape
 from .errors import SimulationError, require
 from .kernel_functions import REACH
 from .loop import MOST_CYCLES, first_frame, loop_frames, periodic, settled
 from .motion import Motion
 from .plan import MAX_WORK, SimulationPlan, check_work, plan, plan_system
-from .prestress import unsagged
+from .preparation import AtRest, Prepare, Prepared
 from .progress import Progress
 from .rig import Pinned
 from .scene import Scene
 from .solver import Solid, State, advance
 from .stepping import TICK, squared_frequencies
-from .system import System, assemble
+from .system import System
 
 __all__ = ["OnFrame", "SimulationPlan", "plan", "simulate"]
 
@@ -47,6 +45,7 @@ def simulate(
     progress: Progress | None = None,
     max_work: float = MAX_WORK,
     on_frame: OnFrame | None = None,
+    prepare: Prepare = Prepared,
 ) -> Motion:
     """Where every vertex is in every frame (paper, Appendix A; semi-implicit Euler).
 
@@ -63,6 +62,7 @@ def simulate(
         on_frame: is shown each frame as soon as it is known; may raise to stop. Of a loop it is shown every cycle while
             the motion settles, and at the end the one that closes: a frame takes the place of an earlier one with its
             number.
+        prepare: gives what is needed before the first step; ``Preparations`` keep it from one simulation to the next.
 
     Raises:
         InvalidInputError: ``frames`` is below 1.
@@ -70,16 +70,17 @@ def simulate(
             loop does not.
     """
     if scene.loop is not None:
-        return _looped(periodic(scene), frames=frames, progress=progress, max_work=max_work, on_frame=on_frame)
+        cyclic = periodic(scene)
+        return _looped(cyclic, prepare(cyclic), frames=frames, progress=progress, max_work=max_work, on_frame=on_frame)
     require("frames", frames, frames is not None, "a number where the scene has no loop")
     assert frames is not None
-    system = assemble(scene)
-    planned = plan_system(scene, system, frames=frames)
+    prepared = prepare(scene)
+    planned = plan_system(scene, prepared.system, frames=frames)
     check_work(scene, planned, max_work=max_work)
-    side, order = scene.bodies[0].mesh.longest_side, system.order
-    rest, system, start = _at_rest(scene, system)
+    side, order, at_rest = scene.bodies[0].mesh.longest_side, prepared.system.order, prepared.at_rest
+    rest = at_rest.rest
     positions = np.empty((frames, len(rest), 2), dtype=np.float32)
-    for frame, displacement in zip(range(frames), _displacements(scene, system, planned, start), strict=False):
+    for frame, displacement in zip(range(frames), _displacements(scene, at_rest, planned), strict=False):
         positions[frame, order] = rest + displacement.astype(np.float64) * side
         if not np.isfinite(positions[frame]).all():
             raise SimulationError(
@@ -93,18 +94,23 @@ def simulate(
 
 
 def _looped(
-    scene: Scene, *, frames: int | None, progress: Progress | None, max_work: float, on_frame: OnFrame | None
+    scene: Scene,
+    prepared: Prepared,
+    *,
+    frames: int | None,
+    progress: Progress | None,
+    max_work: float,
+    on_frame: OnFrame | None,
 ) -> Motion:
     """One cycle of a periodic scene, again and again for as many frames as are wanted."""
     length = loop_frames(scene)
     require("frames", frames, frames is None or frames >= 1, "at least 1")
-    system = assemble(scene)
-    planned = plan_system(scene, system, frames=length + 1)
+    planned = plan_system(scene, prepared.system, frames=length + 1)
     check_work(scene, planned, max_work=max_work)
     most = int(min(MOST_CYCLES, max(2.0, max_work / max(planned.work, 1.0))))
-    side, order = scene.bodies[0].mesh.longest_side, system.order
-    rest, system, start = _at_rest(scene, system)
-    endless = _displacements(scene, system, planned, start, first=first_frame(scene))
+    side, order, at_rest = scene.bodies[0].mesh.longest_side, prepared.system.order, prepared.at_rest
+    rest = at_rest.rest
+    endless = _displacements(scene, at_rest, planned, first=first_frame(scene))
     if on_frame is not None:
         endless = _shown(endless, on_frame, length=length, rest=rest, order=order, side=side)
     cycle, report = settled(scene, endless, most_cycles=most, progress=progress)
@@ -133,30 +139,16 @@ def _shown(
         yield displacement
 
 
-def _at_rest(scene: Scene, system: System) -> tuple[NDArray[np.float64], System, NDArray[np.float32]]:
-    """Rest positions [px], the system with these, and the displacement of the drawing from them [side].
-
-    The drawing is at rest, unless gravity acts on it: then the rest shape is what gravity deforms into the drawing.
-    """
-    side = scene.bodies[0].mesh.longest_side
-    drawn = np.concatenate([body.mesh.vertices for body in scene.bodies])[system.order]
-    if scene.sag or not any(scene.gravity):
-        return drawn, system, np.zeros(drawn.shape, dtype=np.float32)
-    start = unsagged(scene, system)
-    offset = start.astype(np.float64)
-    rest = RestShape(system.rest.positions - offset, system.rest.triangles)
-    return drawn - offset * side, replace(system, rest=rest), start
-
-
 def _displacements(
-    scene: Scene, system: System, planned: SimulationPlan, start: NDArray[np.float32], *, first: int = 0
+    scene: Scene, at_rest: AtRest, planned: SimulationPlan, *, first: int = 0
 ) -> Iterator[NDArray[np.float32]]:
     """Displacement of every vertex of the system in frame after frame, without end [side], shape [v, 2].
 
     Args:
-        start: displacement to begin with, without velocity [side], shape [v, 2].
+        at_rest: the bodies; it begins with them as drawn, without velocity.
         first: number of the frame with which to begin.
     """
+    system, start = at_rest.system, at_rest.start
     solid, size = _solid(scene, system), len(system.masses)
     done, _ = _ticks(first, scene.frame_rate)
     ticks = max(1.0, (planned.frames - 1) / (planned.frame_rate * TICK))

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import io
 import json
+import socket
 import struct
 import urllib.error
 import urllib.request
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
+
+EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example"
 
 SIZE = {"version": 2, "width": 1280, "height": 720}
 WIND = {"kind": "wind", "path": [[400, 100], [1000, 100]], "radius": 200, "speed": 1500, "strength": 3}
@@ -105,3 +111,61 @@ def test_only_the_host_s_own_pages_are_answered(host: Any, info: dict[str, Any])
     assert ask(host, body, Origin="http://example.org")[0] == 403
     assert ask(host, body | {"key": "../../etc/passwd"})[0] == 422
     assert ask(host, body | {"key": "0" * 64})[0] == 404
+
+
+def test_the_plate_is_made_when_asked_for(host: Any, info: dict[str, Any]) -> None:
+    file = host.read(f"/physanimator/plate/{info['key']}")
+    plate = np.asarray(Image.open(io.BytesIO(file)).convert("RGB")).astype(int)
+    picture = np.asarray(Image.open(io.BytesIO(host.view(info["image"]))).convert("RGB")).astype(int)
+    changed = np.abs(plate - picture).max(axis=2) > 8
+    mask = np.asarray(Image.open(EXAMPLE / "mask_ribbon.png").convert("L")) > 0
+    assert changed[mask].mean() > 0.5
+    assert not changed[~mask].any()
+
+
+def test_a_connected_plate_is_saved_and_must_fit(host: Any) -> None:
+    prompt = editor(SIZE)
+    prompt["editor"]["inputs"]["plate"] = ["example", 0]
+    assert host.view(host.run(prompt)["editor"]["physanimator_editor"][0]["plate"]).startswith(b"\x89PNG")
+    scaled = {"upscale_method": "area", "width": 640, "height": 360, "crop": "disabled"}
+    prompt["small"] = core("ImageScale", image=["example", 0], **scaled)
+    prompt["editor"]["inputs"]["plate"] = ["small", 0]
+    assert "plate must be of the bodies' size, 1280 x 720 px. Got: 640 x 360 px" in host.error_of(prompt)
+
+
+def test_a_client_that_goes_away_leaves_the_server_free(host: Any, info: dict[str, Any]) -> None:
+    body = {"editor": "gone", "key": info["key"], "scene": SIZE | {"strokes": [WIND], "frame_rate": 1}, "frames": 1200}
+    data = json.dumps(body).encode()
+    lines = ["POST /physanimator/preview HTTP/1.1", "Host: x", "Content-Type: application/json"]
+    head = "\r\n".join([*lines, f"Content-Length: {len(data)}", "", ""])
+    for _ in range(12):
+        with socket.create_connection(("127.0.0.1", host.port)) as client:
+            client.sendall(head.encode() + data)
+            assert client.recv(64)
+    answered = [ask(host, {**body, "editor": str(k), "frames": 2})[0] for k in range(6)]
+    assert answered == [200] * 6
+
+
+def test_query_points_of_a_document_cut_the_part_out(host: Any) -> None:
+    points = {"version": 2, "width": 640, "height": 360, "query_points": [{"x": 150, "y": 210}]}
+    listed = [[300, 420, 1]]
+
+    def cut(value: Any) -> np.ndarray:
+        prompt = {
+            "example": ours("ExampleIllustration"),
+            "cut": ours("SegmentByPoints", image=["example", 0], points=json.dumps(value)),
+            "shown": core("MaskPreview", mask=["cut", 0]),
+        }
+        file = host.view(host.run(prompt)["shown"]["images"][0])
+        return np.asarray(Image.open(io.BytesIO(file)).convert("L"))
+
+    mask = cut(points)
+    assert 0 < mask.mean() < 255
+    np.testing.assert_array_equal(mask, cut(listed))
+    without = {**points, "query_points": []}
+    prompt = {
+        "example": ours("ExampleIllustration"),
+        "cut": ours("SegmentByPoints", image=["example", 0], points=json.dumps(without)),
+        "shown": core("PreviewImage", images=["cut", 1]),
+    }
+    assert "points must be at least one positive point" in host.error_of(prompt)

@@ -19,7 +19,7 @@ from aiohttp import ClientResponse, web
 from aiohttp.test_utils import TestClient, TestServer
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from physanimator.nodes import preview_routes
+from physanimator.nodes import preview_guard, preview_routes
 from physanimator.nodes.preview_routes import PreviewRoutes
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
@@ -231,7 +231,7 @@ def test_a_body_is_read_no_further_than_its_limit(announced: bool) -> None:
 
 
 def test_a_body_that_never_ends_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(preview_routes, "_BODY_SECONDS", 0.1)
+    monkeypatch.setattr(preview_guard, "_BODY_SECONDS", 0.1)
 
     async def parts() -> AsyncIterator[bytes]:
         while True:
@@ -258,13 +258,17 @@ def test_the_latest_request_of_an_editor_wins() -> None:
     in_a_server(test)
 
 
-def test_a_client_that_goes_away_stops_its_simulation() -> None:
+def test_a_client_that_goes_away_stops_its_simulation(monkeypatch: pytest.MonkeyPatch) -> None:
+    ends: list[bytes] = []
+    monkeypatch.setattr(preview_routes.RecordQueue, "close", lambda _, last=b"": ends.append(last))
+
     async def test(server: Served) -> None:
         answer = await server.ask(frames=1200, scene={**SCENE, "frame_rate": 1})
         await answer.content.readexactly(8)
         assert len(server.routes.runs) == 1
         answer.close()
         await server.idle()
+        assert [json.loads(payload)["error"] for _, payload in split_records(ends[0])] == ["The editor is gone."]
 
     in_a_server(test)
 
@@ -289,10 +293,10 @@ def test_a_client_that_does_not_read_holds_the_simulation_back() -> None:
         shown = 0
         encode = preview_routes.RecordQueue.put
 
-        def counted(queue: Any, data: bytes, run: Any) -> None:
+        def counted(queue: Any, data: bytes, check: Callable[[], None]) -> None:
             nonlocal shown
             shown += len(data)
-            encode(queue, data, run)
+            encode(queue, data, check)
 
         preview_routes.RecordQueue.put = counted  # type: ignore[method-assign]
         try:
@@ -308,6 +312,42 @@ def test_a_client_that_does_not_read_holds_the_simulation_back() -> None:
             preview_routes.RecordQueue.put = encode  # type: ignore[method-assign]
 
     in_a_server(test, bodies(columns=84, rows=50))
+
+
+def test_a_client_that_never_reads_loses_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(preview_routes, "_WRITE_SECONDS", 0.2)
+
+    async def test(server: Served) -> None:
+        answer = await server.ask(frames=1200, scene={**SCENE, "frame_rate": 240})
+        await server.idle()
+        answer.close()
+
+    in_a_server(test, bodies(columns=84, rows=50))
+
+
+def test_a_request_that_was_overtaken_gives_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The one that came first is checked for so long that the next one begins before it."""
+    check, held = preview_routes.preview_scene, threading.Event()
+
+    def slow(request: Any, of: Any) -> Any:
+        if request.frames == 7:
+            assert held.wait(PATIENCE)
+        return check(request, of)
+
+    monkeypatch.setattr(preview_routes, "preview_scene", slow)
+
+    async def test(server: Served) -> None:
+        first = asyncio.ensure_future(server.ask(frames=7))
+        await asyncio.sleep(0.2)
+        second = await server.ask(frames=1200, scene={**SCENE, "frame_rate": 1})
+        await second.content.readexactly(8)
+        held.set()
+        records = split_records(await (await first).read())
+        assert [json.loads(payload)["error"] for _, payload in records] == ["superseded"]
+        assert len(server.routes.runs) == 1
+        second.close()
+
+    in_a_server(test)
 
 
 def test_the_server_answers_while_it_simulates() -> None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import struct
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,15 +16,19 @@ import pytest
 from physanimator.physics.errors import Cancelled
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
+from physanimator.physics.paint import Paint
+from physanimator.physics.preparation import Preparations
+from physanimator.physics.preview_queue import RecordQueue
 from physanimator.physics.preview_records import END, ERROR, FRAME, HEADER, record, split_records
-from physanimator.physics.preview_session import PreviewRun, PreviewRuns, RecordQueue, stream
+from physanimator.physics.preview_session import PreviewRun, PreviewRuns, stream
 from physanimator.physics.preview_store import PreviewBodies, PreviewStore
-from physanimator.physics.rig import Circle, RigPoint
+from physanimator.physics.rig import Circle, Polygon, RigPoint, Wave
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.simulation import simulate
 from physanimator.physics.strokes import EnergyStroke
 
 PATIENCE = 60.0
+ORDER = itertools.count()
 
 
 def scene(**changes: Any) -> Scene:
@@ -36,7 +42,7 @@ def scene(**changes: Any) -> Scene:
 
 
 def run_of(runs: PreviewRuns, editor: str = "one") -> PreviewRun:
-    run = runs.enter(editor)
+    run = runs.enter(editor, next(ORDER))
     assert run is not None
     return run
 
@@ -141,12 +147,12 @@ def test_a_run_that_was_superseded_before_its_turn_never_simulates(monkeypatch: 
 def test_editors_do_not_disturb_each_other_and_have_a_limit() -> None:
     runs = PreviewRuns(most=2)
     one, two = run_of(runs, "one"), run_of(runs, "two")
-    assert runs.enter("three") is None
+    assert runs.enter("three", next(ORDER)) is None
     one.check()
     two.check()
-    assert runs.enter("two") is not None, "an editor may replace its own"
+    assert runs.enter("two", next(ORDER)) is not None, "an editor may replace its own"
     runs.leave(one)
-    assert runs.enter("three") is not None
+    assert runs.enter("three", next(ORDER)) is not None
 
 
 def test_a_full_queue_holds_the_simulation_back() -> None:
@@ -156,7 +162,7 @@ def test_a_full_queue_holds_the_simulation_back() -> None:
 
     def put() -> None:
         for number in range(10):
-            queue.put(record(FRAME, bytes(40)), run)
+            queue.put(record(FRAME, bytes(40)), run.check)
             done.append(number)
 
     thread = threading.Thread(target=put)
@@ -174,10 +180,50 @@ def test_a_full_queue_holds_the_simulation_back() -> None:
 
 def test_cancelling_frees_who_waits_for_room() -> None:
     queue, run = RecordQueue(lambda: None, max_bytes=10), run_of(PreviewRuns())
-    queue.put(bytes(100), run)
+    queue.put(bytes(100), run.check)
     threading.Timer(0.05, run.cancel, ["gone"]).start()
     with pytest.raises(Cancelled, match="gone"):
-        queue.put(bytes(100), run)
+        queue.put(bytes(100), run.check)
+
+
+def test_preparing_is_shared_where_only_strokes_and_motions_differ() -> None:
+    preparations, base = Preparations(most=3), scene(gravity=(0.0, 0.3))
+    prepared = preparations(base)
+    stroke = replace(base.strokes[0], strength=9.0)
+    led = replace(base.rig_points[0], motion=Wave(5.0, 1.0))
+    assert preparations(replace(base, strokes=(stroke,), rig_points=(led,), frame_rate=12.0)) is prepared
+    stiffer = replace(base.bodies[0], material=Material(youngs_modulus=11.0, damping=4.0))
+    region = Polygon(((30.0, 20.0), (60.0, 20.0), (60.0, 40.0)))
+    others = {
+        "gravity": (0.0, 0.31),
+        "sag": True,
+        "rig_points": (replace(led, region=Circle(25.0)),),
+        "bodies": (stiffer,),
+        "paint": (Paint(region, stiffness=3.0),),
+    }
+    changed = [replace(base, **{name: value}) for name, value in others.items()]  # type: ignore[arg-type]
+    changed.append(replace(base, paint=(Paint(region, stiffness=2.0),)))
+    changed.append(replace(base, rig_points=(replace(led, falloff=8.0),)))
+    preparations = Preparations(most=9)
+    assert len({id(preparations(each)) for each in [base, *changed]}) == 8
+
+
+def test_a_shared_preparation_moves_as_one_of_its_own() -> None:
+    preparations, base = Preparations(most=1), scene(gravity=(0.0, 0.2))
+    preparations(base)
+    led = replace(base.rig_points[0], motion=Wave(5.0, 1.0))
+    changed = replace(base, rig_points=(led,), strokes=())
+    assert preparations(changed).scene is base
+    shared = simulate(changed, frames=10, prepare=preparations).positions
+    np.testing.assert_array_equal(shared, simulate(changed, frames=10).positions)
+    assert np.abs(shared[-1] - shared[0]).max() > 1
+
+
+def test_of_preparations_the_last_are_kept() -> None:
+    preparations = Preparations(most=1)
+    first = preparations(scene())
+    preparations(scene(gravity=(0.0, 1.0)))
+    assert preparations(scene()) is not first
 
 
 def kept(seed: int, *, pixels: int = 0) -> PreviewBodies:

@@ -18,7 +18,9 @@ from physanimator.physics import limits
 from physanimator.physics.errors import InvalidInputError, SceneError
 from physanimator.physics.material import PRESETS, Material
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
+from physanimator.physics.paint import Paint
+from physanimator.physics.query_points import QueryPoint
+from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, RigRegion, Wave
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.scene_json import dumps, loads, scene_from_dict, scene_schema, scene_to_dict
 from physanimator.physics.strokes import STROKE_KINDS, EnergyStroke
@@ -103,12 +105,19 @@ def scenes(draw: st.DrawFn) -> Scene:
     rig_point = st.builds(
         RigPoint, points, regions, st.just(Pinned()) | paths() | waves, st.none() | st.integers(0, len(of_scene) - 1)
     )
+    of_body = st.none() | st.integers(0, len(of_scene) - 1)
+    factors = st.floats(0.001, 1000)
+    paint = st.builds(
+        Paint, regions.filter(lambda region: not isinstance(region, Circle)), factors, factors, factors, of_body
+    )
     return Scene(
         tuple(of_scene),
         tuple(draw(st.lists(strokes(), max_size=3))),
         tuple(draw(st.lists(rig_point, max_size=3))),
         gravity=draw(points),
         frame_rate=draw(st.floats(1, 240)),
+        paint=tuple(draw(st.lists(paint, max_size=2))),
+        query_points=tuple(draw(st.lists(st.builds(QueryPoint, numbers, numbers, st.booleans()), max_size=3))),
     )
 
 
@@ -120,12 +129,21 @@ def assert_same(one: Scene, other: Scene) -> None:
         assert mine.mesh.content_hash == yours.mesh.content_hash
         for field in fields(Material):
             np.testing.assert_array_equal(getattr(mine.material, field.name), getattr(yours.material, field.name))
+    assert one.query_points == other.query_points
     for mine, yours in zip(one.rig_points, other.rig_points, strict=True):
         assert (mine.position, mine.motion, mine.body) == (yours.position, yours.motion, yours.body)
-        if isinstance(mine.region, MaskRegion):
-            np.testing.assert_array_equal(mine.region.mask, yours.region.mask)
-        else:
-            assert mine.region == yours.region
+        assert_same_region(mine.region, yours.region)
+    for mine, yours in zip(one.paint, other.paint, strict=True):
+        for field in ("stiffness", "damping", "density", "body"):
+            assert getattr(mine, field) == getattr(yours, field)
+        assert_same_region(mine.region, yours.region)
+
+
+def assert_same_region(one: RigRegion, other: RigRegion) -> None:
+    if isinstance(one, MaskRegion):
+        np.testing.assert_array_equal(one.mask, other.mask)
+    else:
+        assert one == other
 
 
 @settings(deadline=None, max_examples=60)
@@ -163,7 +181,8 @@ def test_schema_has_the_fields_and_defaults_of_the_dataclasses() -> None:
     definitions = scene_schema()["$defs"]
     classes = {
         "material": Material, "stroke": EnergyStroke, "rig_point": RigPoint, "body": Body, "circle": Circle,
-        "polygon": Polygon, "pinned": Pinned, "path": KeyedPath, "wave": Wave,
+        "polygon": Polygon, "pinned": Pinned, "path": KeyedPath, "wave": Wave, "paint": Paint,
+        "query_point": QueryPoint,
     }  # fmt: skip
     for name, kind in classes.items():
         properties = definitions[name]["properties"]
@@ -188,13 +207,15 @@ def test_every_value_is_explained() -> None:
 
 def test_bounds_of_the_schema_are_those_of_the_dataclasses() -> None:
     """A value at a bound is accepted by the dataclass, and the next one beyond it refused."""
-    classes = {"material": Material, "stroke": EnergyStroke, "circle": Circle, "wave": Wave}
-    classes["wind"] = Wind
+    classes = {"material": Material, "stroke": EnergyStroke, "circle": Circle, "wave": Wave, "paint": Paint}
+    classes |= {"wind": Wind, "query_point": QueryPoint}
     beside = {
         "wind": {},
         "repeat": {"end": 0.005},
         "stroke": {"interval": 1e6, "start": 0.0},
         "wave": {},
+        "paint": {"region": Polygon(((0, 0), (1, 0), (0, 1)))},
+        "query_point": {"x": 0.0, "y": 0.0},
         "circle": {"radius": 1.0},
         "material": {},
     }
@@ -418,6 +439,15 @@ WRONG = [
     (REGION, {**MASK, "runs": [5, -1]}, "rig_points[0].region.runs[1]", "must be at least 0"),
     (REGION, {**MASK, "width": 0}, "rig_points[0].region.width", "must be at least 1 px"),
     (REGION, {**MASK, "width": 50_000, "height": 50_000}, "rig_points[0].region", "at most 268435456 pixels"),
+    (["paint"], [{}], "paint[0].region", "is missing"),
+    (["paint"], [{"region": {"type": "circle", "radius": 3}}], "paint[0].region.type", "must be one of polygon, mask"),
+    (["paint"], [{"region": MASK, "stiffness": 0}], "paint[0].stiffness", "must be at least 0.001. Got: 0"),
+    (["paint"], [{"region": MASK, "body": 1}], "paint[0].body", "below the number of bodies (1). Got: 1"),
+    (["paint"], [{"region": {**MASK, "width": 50_000, "height": 50_000}}], "paint[0].region", "at most 268435456"),
+    (["query_points"], [{"x": 1}], "query_points[0].y", "is missing"),
+    (["query_points"], [{"x": 1, "y": math.nan}], "query_points[0].y", "finite"),
+    (["query_points"], [{"x": 1, "y": 2, "positive": 1}], "query_points[0].positive", "must be true or false"),
+    (["query_points"], [[1, 2]], "query_points[0]", "must be an object"),
     (MOTION, {"type": "waev"}, "rig_points[0].motion.type", "did you mean 'wave'?"),
     (MOTION, {"type": "pinned", "radius": 1}, "rig_points[0].motion.radius", "is not known here; known are type"),
     (MOTION, {"type": "wave", "period": 0}, "rig_points[0].motion.period", "must be at least 0.01 s"),

@@ -94,3 +94,33 @@ def test_every_format_of_a_path_and_points_outside_the_picture(path: object) -> 
 def test_bad_paths(path: str, message: str) -> None:
     with pytest.raises(InvalidInputError, match=message):
         parse_polyline(path, name="stroke")
+
+
+def document(**changes: object) -> dict[str, object]:
+    points = [{"x": 5, "y": 10}, {"x": 15.25, "y": 20, "positive": False}]
+    return {"version": 2, "width": 50, "height": 25, "query_points": points} | changes
+
+
+@pytest.mark.parametrize("written", [document(), json.dumps(document()), json.dumps(json.dumps(document()))])
+def test_a_scene_document_gives_its_query_points_scaled_to_the_picture(written: object) -> None:
+    assert parse_points(written, width=100, height=50) == EXPECTED
+    assert parse_points(document(query_points=[]), width=100, height=50) == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"query_points": [{"x": 51, "y": 3}]}, r"points\[0\] must lie inside the picture of 100 x 50 px"),
+        ({"query_points": [{"x": 5}]}, r"query_points\[0\].y: is missing"),
+        ({"width": 0}, "width: must be at least 1 px"),
+        ({"version": 3}, "made by a newer PhysAnimator"),
+    ],
+)
+def test_a_wrong_document_of_query_points(changes: dict[str, object], words: str) -> None:
+    with pytest.raises(InvalidInputError, match=words):
+        parse_points(document(**changes), width=100, height=50)
+
+
+def test_a_document_without_a_version_is_no_list_of_points() -> None:
+    with pytest.raises(InvalidInputError, match="version: is missing"):
+        parse_points({"query_points": []}, width=10, height=10)

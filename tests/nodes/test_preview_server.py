@@ -1,0 +1,33 @@
+"""The routes find the host's server where there is one, once, and nothing happens where there is none."""
+
+from __future__ import annotations
+
+import sys
+from types import SimpleNamespace
+
+import pytest
+from aiohttp import web
+from physanimator.nodes import preview_server
+
+
+@pytest.fixture(autouse=True)
+def unregistered() -> None:
+    preview_server._registered.clear()
+
+
+@pytest.mark.parametrize("module", [None, SimpleNamespace(), SimpleNamespace(PromptServer=SimpleNamespace())])
+def test_without_a_host_nothing_happens(module: object, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "server", module)
+    preview_server.register_routes()
+    assert not preview_server._registered.is_set()
+
+
+def test_a_host_gets_the_routes_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    table = web.RouteTableDef()
+    host = SimpleNamespace(PromptServer=SimpleNamespace(instance=SimpleNamespace(routes=table)))
+    monkeypatch.setitem(sys.modules, "server", host)
+    for _ in range(2):
+        preview_server.register_routes()
+    paths = [(route.method, route.path) for route in table if isinstance(route, web.RouteDef)]
+    below = "/physanimator"
+    assert paths == [("GET", f"{below}/mesh/{{key}}"), ("GET", f"{below}/plate/{{key}}"), ("POST", f"{below}/preview")]
