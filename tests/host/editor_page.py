@@ -53,13 +53,16 @@ _PLACE = f"""
   const {{ stage }} = ({_NODE}).physanimatorEditor;
   const box = stage.overlay.getBoundingClientRect();
   const ratio = box.width / stage.across;
-  return [box.left + (x * stage.view.scale + stage.view.x) * ratio, box.top + (y * stage.view.scale + stage.view.y) * ratio];
+  const {{ view }} = stage;
+  return [box.left + (x * view.scale + view.x) * ratio, box.top + (y * view.scale + view.y) * ratio];
 }}
 """
-_ASK = "([id, expression]) => new Function('editor', 'node', `return ${expression}`)(%s.physanimatorEditor, %s)" % (
-    f"({_NODE})",
-    f"({_NODE})",
-)
+_ASK = f"""
+([id, expression]) => {{
+  const node = {_NODE};
+  return new Function('editor', 'node', `return ${{expression}}`)(node.physanimatorEditor, node);
+}}
+"""
 
 
 class EditorPage:

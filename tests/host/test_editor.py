@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from editor_page import CANVASES, EditorPage
 
+
 @pytest.fixture(scope="module", params=sorted(CANVASES))
 def canvas(request: pytest.FixtureRequest) -> str:
     return request.param
@@ -61,7 +62,9 @@ def test_rig_points_are_where_they_were_drawn(editor: EditorPage) -> None:
     assert near(wave["position"], (300, 300), slack)
     assert near(wave["motion"]["amplitude"], 80, 2 * slack)
     assert near(wave["motion"]["direction"], (0, 1), 0.03)
-    assert [near(a, b, slack) for a, b in zip(led["motion"]["points"], [(700, 200), (900, 200), (900, 400)], strict=True)]
+    assert [
+        near(a, b, slack) for a, b in zip(led["motion"]["points"], [(700, 200), (900, 200), (900, 400)], strict=True)
+    ]
     times = led["motion"]["times"]
     assert times[0] == 0
     assert times == sorted(times)
@@ -111,7 +114,13 @@ def test_numbers_change_the_selected_item(editor: EditorPage) -> None:
     for name, text in {"strength": "3.5", "radius": "222", "speed": "450", "start": "0.25", "end": "2"}.items():
         editor.type_into(name, text)
     stroke = assert_drawn(editor, strokes=1)["strokes"][0]
-    assert (stroke["strength"], stroke["radius"], stroke["speed"], stroke["start"], stroke["end"]) == (3.5, 222, 450, 0.25, 2)
+    assert (stroke["strength"], stroke["radius"], stroke["speed"], stroke["start"], stroke["end"]) == (
+        3.5,
+        222,
+        450,
+        0.25,
+        2,
+    )
     editor.type_into("radius", "-4")
     assert editor.value()["strokes"][0]["radius"] == 222
     editor.type_into("end", "")
@@ -181,6 +190,8 @@ def test_zoom_and_pan_keep_what_is_drawn_in_place(editor: EditorPage) -> None:
     page = editor.page.page
     scale = editor.page.run("() => app.canvas.ds.scale")
     page.mouse.move(*editor.place(500, 300))
+    # The Vue canvas gives the wheel to what has the focus.
+    editor.focus()
     before = editor.place(500, 300)
     for _ in range(4):
         page.mouse.wheel(0, -200)
@@ -229,21 +240,30 @@ def test_saved_reloaded_and_pasted_nodes_keep_the_scene(editor: EditorPage) -> N
     assert editor.value() == editor.shown() == editor.queued() == document
     # The Vue canvas enlarges every node of a workflow that was made in the other one, by a fifth.
     assert all(now <= 1.2 * before + 40 for now, before in zip(editor.ask("[...node.size]"), size, strict=True))
-    pasted = editor.page.run("""([id]) => {
+    pasted = editor.page.run(
+        """([id]) => {
         const node = app.graph.getNodeById(id);
         app.canvas.selectItems ? app.canvas.selectItems([node]) : app.canvas.selectNodes([node]);
         app.canvas.copyToClipboard([node]);
         app.canvas.pasteFromClipboard();
         return app.graph.nodes.map((one) => one.id);
-    }""", [editor.node])
+    }""",
+        [editor.node],
+    )
     editor.page.page.wait_for_timeout(600)
-    (new,) = set(editor.page.run("() => app.graph.nodes.filter((n) => n.comfyClass === 'PhysAnimator_SceneEditor').map((n) => n.id)")) - {editor.node}
+    (new,) = set(
+        editor.page.run(
+            "() => app.graph.nodes.filter((n) => n.comfyClass === 'PhysAnimator_SceneEditor').map((n) => n.id)"
+        )
+    ) - {editor.node}
     assert len(pasted) == 5
     copy = EditorPage(editor.page, new)
     assert copy.shown() == document
     editor.focus()
     editor.keys("Control+z")
-    editor.ask("editor.commands.run('select'), editor.select({list: 'strokes', index: 0}), editor.commands.run('delete')")
+    editor.ask(
+        "editor.commands.run('select'), editor.select({list: 'strokes', index: 0}), editor.commands.run('delete')"
+    )
     assert len(editor.value()["strokes"]) == 0
     assert copy.value() == document
     assert editor.page.problems == []
@@ -269,7 +289,9 @@ def test_it_moves_live_once_the_node_has_run(editor: EditorPage) -> None:
     editor.wait("editor.live.measured.largest > 1")
     editor.wait("editor.live.shows && editor.live.playback.position > 2")
     before = editor.ask("editor.live.measured.largest")
-    films = [editor.ask("editor.stage.film.toDataURL()") for _ in range(2) if not editor.page.page.wait_for_timeout(400)]
+    films = [
+        editor.ask("editor.stage.film.toDataURL()") for _ in range(2) if not editor.page.page.wait_for_timeout(400)
+    ]
     assert films[0] != films[1]
     editor.type_into("strength", "8")
     editor.wait(f"editor.live.measured.largest > {before * 1.5}")
@@ -297,7 +319,10 @@ def test_what_the_server_refuses_is_said_in_the_editor(editor: EditorPage) -> No
 
 
 def test_two_editors_do_not_disturb_each_other(editor: EditorPage) -> None:
-    other = EditorPage(editor.page, editor.page.run("""([id]) => {
+    other = EditorPage(
+        editor.page,
+        editor.page.run(
+            """([id]) => {
         const first = app.graph.getNodeById(id);
         const node = LiteGraph.createNode('PhysAnimator_SceneEditor');
         node.pos = [0, 700];
@@ -307,7 +332,10 @@ def test_two_editors_do_not_disturb_each_other(editor: EditorPage) -> None:
           app.graph.getNodeById(link.origin_id).connect(link.origin_slot, node, slot);
         }
         return node.id;
-    }""", [editor.node]))
+    }""",
+            [editor.node],
+        ),
+    )
     editor.look(scale=0.75)
     editor.run_node()
     other.run_node()
