@@ -79,11 +79,15 @@ class EditorPage:
     @classmethod
     def opened(cls, page: Any, canvas: str) -> EditorPage:
         """A graph with the example's hair and an editor, in one of the two canvases."""
-        if page.run(_CANVAS, CANVASES[canvas]):
-            page.reload()
+        cls.choose_canvas(page, canvas)
         editor = cls(page, page.run(_BUILD))
         editor.look()
         return editor
+
+    @staticmethod
+    def choose_canvas(page: Any, canvas: str) -> None:
+        if page.run(_CANVAS, CANVASES[canvas]):
+            page.reload()
 
     def look(self, x: float = 0, y: float = 0, scale: float = 1.25) -> None:
         """Bring a part of the graph into view, so that the editor is large enough to be worked with."""
