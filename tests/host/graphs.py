@@ -247,7 +247,7 @@ def every_step() -> tuple[Group, ...]:
         strokes="hand.strokes",
         rig_points="shoulder.rig_points",
     )
-    segment = ours("segment", "SegmentByPoints", 440, values={"points": CAPE_POINTS}, image="example.image")
+    segment = ours("segment", "SegmentByPoints", 720, values={"points": CAPE_POINTS}, image="example.image")
     interpolate = ours("interpolate", "Interpolate", images="render.frames", motion="simulate.motion")
     return (
         _illustration(340, core("note", "MarkdownNote", 450, "Every step", {"": STEPS_NOTE}), segment),

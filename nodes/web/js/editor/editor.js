@@ -48,7 +48,7 @@ export class Editor {
     this.shown = { mesh: false, items: true, panel: options.moves };
     this.store = new Store(emptyDocument(1280, 720), () => this.show(), () => this.#keep());
     this.notes = new Notes();
-    this.scheduler = new Scheduler((now) => this.#draw(now));
+    this.scheduler = new Scheduler((now, asked) => this.#draw(now, asked));
     this.backdrop = new Backdrop(this);
     this.commands = new Commands(this);
     this.tools = toolsOf(this, options.groups.flat());
@@ -222,10 +222,16 @@ export class Editor {
     this.simulate();
   }
 
-  /** @param {number} now */
-  #draw(now) {
+  /**
+   * @param {number} now  [ms]
+   * @param {boolean} asked  whether something besides the time has changed
+   */
+  #draw(now, asked) {
     const { stage, live } = this;
-    const more = live.playback.advance(now);
+    const frame = live.playback.shown;
+    // An editor out of sight rests; it is drawn again when it gets its size back.
+    const more = live.playback.advance(now) && stage.across > 0;
+    if (!asked && frame === live.playback.shown) return more;
     const context = stage.sharpen();
     live.draw(stage.view, stage.across, stage.down);
     const brushing = BRUSHES.includes(this.tool.id) && this.pointer;
