@@ -47,7 +47,8 @@ _VIEW = """
   app.canvas.setDirty(true, true);
 }
 """
-_NODE = "app.graph.getNodeById(id) ?? app.graph.nodes.find((one) => one.id == id)"
+# In the graph that is open, which may be a subgraph.
+_NODE = "app.canvas.graph.getNodeById(id)"
 _PLACE = f"""
 ([id, x, y]) => {{
   const {{ stage }} = ({_NODE}).physanimatorEditor;

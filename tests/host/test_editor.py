@@ -204,6 +204,7 @@ def test_zoom_and_pan_keep_what_is_drawn_in_place(editor: EditorPage) -> None:
     editor.press("pin")
     editor.click(520, 310)
     editor.drag((520, 310), (540, 330), button="middle")
+    editor.focus()
     editor.keys("w")
     page.keyboard.down("Space")
     editor.drag((500, 300), (490, 280))
@@ -352,6 +353,29 @@ def test_two_editors_do_not_disturb_each_other(editor: EditorPage) -> None:
     assert [stroke["kind"] for stroke in assert_drawn(editor, strokes=1, rig_points=1)["strokes"]] == ["wind"]
     assert [stroke["kind"] for stroke in assert_drawn(other, strokes=1, rig_points=1)["strokes"]] == ["attract"]
     assert editor.ask("editor.live.client.editor") != other.ask("editor.live.client.editor")
+
+
+def test_an_editor_in_a_subgraph_draws_runs_and_queues(editor: EditorPage) -> None:
+    made = """([id]) => {
+        const node = app.graph.getNodeById(id);
+        const { subgraph, node: holder } = app.graph.convertToSubgraph(new Set([node]));
+        app.canvas.setGraph(subgraph);
+        const inner = subgraph.nodes.find((one) => one.comfyClass === 'PhysAnimator_SceneEditor');
+        return [holder.id, inner.id, [...inner.pos]];
+    }"""
+    holder, inner, (x, y) = editor.page.run(made, [editor.node])
+    nested = EditorPage(editor.page, inner)
+    nested.look(x, y)
+    nested.press("wind")
+    nested.drag((300, 200), (900, 300))
+    (stroke,) = nested.value()["strokes"]
+    assert near(stroke["path"][0], (300, 200), nested.pixel())
+    prompt = json.loads(editor.page.run("async () => JSON.stringify((await app.graphToPrompt()).output)"))
+    assert json.loads(prompt[f"{holder}:{inner}"]["inputs"]["scene"]) == nested.value()
+    nested.run_node()
+    nested.wait("editor.live.measured.frames > 1")
+    editor.page.run("() => app.canvas.setGraph(app.rootGraph ?? app.graph)")
+    assert editor.page.problems == []
 
 
 def test_two_hundred_strokes_are_drawn_once_a_frame(editor: EditorPage) -> None:

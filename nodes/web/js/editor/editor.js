@@ -240,7 +240,7 @@ export class Editor {
       selection: this.selection,
       view: stage.view,
       background: live.shows ? null : this.backdrop.picture,
-      mesh: this.shown.mesh || !live.player.mesh ? live.mesh : null,
+      mesh: this.shown.mesh || !live.player.ready ? live.mesh : null,
       frame: live.playback.shown,
       unit: live.unit,
       draft: this.tool.draft,

@@ -16,6 +16,8 @@ import { upstreamImage, viewQuery } from "./upstream.js";
 const SHORTEST = 300;
 /** After this time a new node is on the canvas [ms]. */
 const SETTLED = 150;
+/** Time from one look at the graph to the next [ms]. */
+const LOOKS = 500;
 const OUTPUT = "physanimator_editor";
 
 /**
@@ -119,11 +121,15 @@ function follow(app, api, node, value, editor) {
   chain(node, "onConfigure", () => queueMicrotask(look));
   chain(node, "onConnectionsChange", () => queueMicrotask(look));
   chain(node, "onExecuted", ran);
-  // The graph does not tell when a node upstream changes: look while the node is drawn or the pointer comes near.
-  chain(node, "onDrawForeground", look);
+  // The graph does not tell when a node upstream changes.
   editor.root.addEventListener("pointerenter", look);
-  const remains = setInterval(look, 1000);
-  chain(node, "onAdded", () => setTimeout(look, SETTLED));
+  /** @type {any} */
+  let remains = 0;
+  chain(node, "onAdded", () => {
+    clearInterval(remains);
+    remains = setInterval(look, LOOKS);
+    setTimeout(look, SETTLED);
+  });
   chain(node, "onRemoved", () => {
     clearInterval(remains);
     editor.release();

@@ -31,7 +31,8 @@ export class Player {
     this.canvas = canvas;
     /** @type {Mesh | null} */
     this.mesh = null;
-    this.gl = canvas.getContext("webgl", { alpha: true, premultipliedAlpha: true, preserveDrawingBuffer: true });
+    /** @type {WebGLRenderingContext | null} */
+    this.gl = null;
     /** @type {TexImageSource | null} */
     this.picture = null;
     /** @type {TexImageSource | null} */
@@ -42,6 +43,12 @@ export class Player {
       this.ready = false;
     });
     canvas.addEventListener("webglcontextrestored", () => this.#restore());
+  }
+
+  /** A page has only a few contexts: each editor takes one when there is something to play. */
+  #open() {
+    if (this.gl) return;
+    this.gl = this.canvas.getContext("webgl", { alpha: true, premultipliedAlpha: true, preserveDrawingBuffer: true });
     if (this.gl) this.#prepare(this.gl);
   }
 
@@ -78,6 +85,7 @@ export class Player {
    * @param {TexImageSource} plate  what is behind the bodies
    */
   load(mesh, picture, plate) {
+    this.#open();
     this.mesh = mesh;
     this.picture = picture;
     this.plate = plate;
@@ -141,7 +149,7 @@ export class Player {
     gl.vertexAttribPointer(places.displacement, 2, gl.SHORT, false, 0, 0);
   }
 
-  /** Give the context back: a page has only a few. */
+  /** Give the context back. */
   release() {
     this.ready = false;
     this.gl?.getExtension("WEBGL_lose_context")?.loseContext();
