@@ -163,7 +163,7 @@ class EditorPage:
 
     def wait(self, expression: str, timeout: float = 60_000) -> None:
         script = f"([id]) => {{ const node = {_NODE}; const editor = node.physanimatorEditor; return {expression}; }}"
-        self.page.page.wait_for_function(script, arg=[self.node], timeout=timeout)
+        self.page.page.wait_for_function(script, arg=[self.node], timeout=timeout, polling=100)
 
     def screenshot(self, path: str) -> None:
         self.selector(".physanimator-frame").screenshot(path=path)
