@@ -52,7 +52,7 @@ export const STYLE = `
   width: 62px; height: 22px; margin: 0; padding: 0 4px; color: var(--physanimator-text); background: var(--physanimator-field);
   border: 1px solid var(--physanimator-rim); border-radius: 4px; font: inherit; appearance: textfield;
 }
-.physanimator-editor select { width: 104px; padding: 0; appearance: auto; }
+.physanimator-editor .physanimator-inputs select { width: 96px; padding: 0; appearance: auto; }
 .physanimator-editor input[aria-invalid] { border-color: #f44; }
 .physanimator-inputs input[type="number"] + input[type="number"] { margin-left: 0; }
 .physanimator-field[data-field="gravity"] input, .physanimator-field[data-field="motion.direction"] input { width: 44px; }
