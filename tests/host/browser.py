@@ -12,7 +12,14 @@ __all__ = ["EXECUTABLE", "Page", "opened"]
 
 EXECUTABLE = Path(os.environ.get("CHROMIUM", "/usr/bin/chromium"))
 
-_ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking"]
+# SwiftShader draws WebGL where there is no graphics card.
+_ARGUMENTS = [
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--enable-unsafe-swiftshader",
+]
 # What the frontends complain about by themselves: files that the host lacks, routes that are newer than the host, the
 # outside world.
 _HOST_NOISE = ("Failed to load resource", "[Jobs API]", "Fetch API cannot load", "Connecting to")
@@ -52,6 +59,15 @@ class Page:
         self.run("() => app.extensionManager.command.execute('Comfy.Canvas.FitView')")
         self.page.wait_for_timeout(1000)
 
+    def reload(self) -> None:
+        """The page anew, as after pressing F5."""
+        self.page.reload()
+        self.wait_until_ready()
+
+    def wait_until_ready(self) -> None:
+        self.page.wait_for_function(_READY, timeout=120_000)
+        self.page.wait_for_timeout(1000)
+
     def screenshot(self, path: str) -> None:
         self.page.screenshot(path=path)
 
@@ -67,7 +83,6 @@ def opened(url: str) -> Iterator[Page]:
         page = Page(tab)
         tab.request.post(f"{url}/settings/Comfy.TutorialCompleted", data="true")
         tab.goto(url)
-        tab.wait_for_function(_READY, timeout=120_000)
-        tab.wait_for_timeout(1000)
+        page.wait_until_ready()
         yield page
         chromium.close()

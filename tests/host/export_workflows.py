@@ -1,9 +1,9 @@
 """Writes the workflows in both formats and their thumbnails from a real ComfyUI, and the nodes' schemas for the tests.
 
-    COMFYUI_PATH=/path/to/ComfyUI /path/to/its/python tests/host/export_workflows.py
+    COMFYUI_PATH=/path/to/ComfyUI /path/to/its/python tests/host/export_workflows.py [workflow ...]
 
-The graphs are described in graphs.py. The frontend itself builds and serialises them, so that the files are what it
-would save; the API files are what it would post.
+Without names, all of them. The graphs are described in graphs.py. The frontend itself builds and serialises them, so
+that the files are what it would save; the API files are what it would post.
 """
 
 from __future__ import annotations
@@ -149,8 +149,8 @@ def main() -> None:
             host.wait_until_ready()
             _write(SCHEMAS, schemas(host))
             with opened(host.url) as page:
-                for name, build in WORKFLOWS.items():
-                    ui, api = export(page, name, build())
+                for name in sys.argv[1:] or WORKFLOWS:
+                    ui, api = export(page, name, WORKFLOWS[name]())
                     _write(ROOT / "workflows" / f"{name}.json", ui)
                     _write(ROOT / "workflows" / "api" / f"{name}.json", api)
                     thumbnail(host, api, ROOT / "workflows" / f"{name}.jpg")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from typing import Any
 
@@ -120,6 +121,81 @@ LOOP_NOTE = """\
 The *Rig Point* swings and turns the bow itself; the ribbons follow, overlap and settle.
 """
 
+EDITOR_NOTE = """\
+## Draw what moves it
+
+Press **Run** once: the *Scene Editor* then knows the bodies and plays every change at once.
+
+**Wind** blows along a drawn line, **repel** and **attract** push and pull. **Pin** holds a spot, **lead** drags it \
+along as fast as you draw, **wave** swings it. **Stiffness** paints what bends less.
+
+The button at the right end of the tools opens the editor in the whole window. Select an item to type its numbers.
+
+All that is drawn is one text in the node: it is saved with the workflow and runs without a browser too.
+"""
+
+DRAWN = {
+    "version": 2,
+    "width": 1280,
+    "height": 720,
+    "strokes": [
+        {
+            "kind": "wind",
+            "path": [[430, 250], [560, 290], [690, 190], [820, 300], [950, 190], [1080, 280]],
+            "radius": 190,
+            "speed": 720,
+            "strength": 2,
+            "interval": 0.75,
+        },
+        {
+            "kind": "wind",
+            "path": [[470, 540], [590, 470], [700, 580], [820, 490], [900, 560]],
+            "radius": 160,
+            "speed": 560,
+            "strength": 1.8,
+            "start": 0.1,
+            "interval": 1,
+        },
+        {
+            "kind": "repel",
+            "path": [[960, 420], [800, 330]],
+            "radius": 110,
+            "speed": 160,
+            "strength": 1.5,
+            "interval": 2,
+        },
+    ],
+    "rig_points": [
+        {
+            "position": [545, 250],
+            "region": {
+                "type": "polygon",
+                "points": [[480, 90], [600, 90], [606, 300], [600, 372], [636, 436], [620, 470], [480, 360]],
+            },
+            "motion": {"type": "pinned"},
+            "body": 1,
+        },
+        {
+            "position": [612, 480],
+            "region": {
+                "type": "polygon",
+                "points": [[560, 380], [640, 390], [642, 466], [622, 488], [620, 530], [598, 580], [560, 580]],
+            },
+            "motion": {"type": "pinned"},
+            "body": 0,
+        },
+        {
+            "position": [543, 100],
+            "region": {
+                "type": "polygon",
+                "points": [[440, 10], [545, 40], [600, 70], [640, 64], [650, 160], [440, 160]],
+            },
+            "motion": {"type": "wave", "amplitude": 6, "period": 1.5, "direction": [0, 1]},
+            "body": 2,
+        },
+    ],
+}
+
 HEAD = {
     "position": "[[470, 130]]",
     "region": "polygon",
@@ -171,7 +247,7 @@ def every_step() -> tuple[Group, ...]:
         strokes="hand.strokes",
         rig_points="shoulder.rig_points",
     )
-    segment = ours("segment", "SegmentByPoints", 440, values={"points": CAPE_POINTS}, image="example.image")
+    segment = ours("segment", "SegmentByPoints", 720, values={"points": CAPE_POINTS}, image="example.image")
     interpolate = ours("interpolate", "Interpolate", images="render.frames", motion="simulate.motion")
     return (
         _illustration(340, core("note", "MarkdownNote", 450, "Every step", {"": STEPS_NOTE}), segment),
@@ -218,6 +294,30 @@ def contact() -> tuple[Group, ...]:
         _bodies(("hair", "hair", "left"), ("plant", "leaf", "auto")),
         Group("3 · Contact and simulation", ORANGE, (Column(330, (gale, touch)), _simulated(420, scene))),
         _video("contact", 520, "render.frames"),
+    )
+
+
+def scene_editor() -> tuple[Group, ...]:
+    """Wind, a push, pins and a swinging bow, drawn in the editor on the picture itself."""
+    inputs = {"bodies": "body_2.bodies", "image": "example.image"}
+    drawn = {"scene": json.dumps(DRAWN, separators=(",", ":"))}
+    return (
+        _illustration(380, core("note", "MarkdownNote", 440, "Scene editor", {"": EDITOR_NOTE})),
+        _bodies(("cape", "cloth", "top"), ("hair", "hair", "left"), ("ribbon", "ribbon", "left")),
+        Group(
+            "3 · Draw what moves them",
+            ORANGE,
+            (
+                Column(
+                    900,
+                    (
+                        ours("scene", "SceneEditor", 680, values=drawn, **inputs),
+                        ours("simulate", "Simulate", scene="scene.scene"),
+                    ),
+                ),
+            ),
+        ),
+        _video("scene_editor", 520, "render.frames"),
     )
 
 
@@ -357,4 +457,5 @@ WORKFLOWS = {
     "wind_and_pins": wind_and_pins,
     "contact": contact,
     "seamless_loop": seamless_loop,
+    "scene_editor": scene_editor,
 }

@@ -1,0 +1,102 @@
+/**
+ * What the scene is drawn on: a picture from the graph or from a run, and the bodies that the run has left.
+ *
+ * @typedef {import("./editor.js").Editor} Editor
+ * @typedef {import("./live.js").Run} Run
+ */
+
+import { hasItems } from "../scene/document.js";
+import { rescaled } from "../scene/rescaling.js";
+import { loaded } from "./pictures.js";
+
+export class Backdrop {
+  /** @param {Editor} editor */
+  constructor(editor) {
+    this.editor = editor;
+    /** @type {HTMLImageElement | null} */
+    this.picture = null;
+    /** @type {string | null} */
+    this.wanted = null;
+  }
+
+  /** @param {string} url of a picture to draw on */
+  async setPicture(url) {
+    this.wanted = url;
+    try {
+      const picture = await loaded(url);
+      if (this.wanted === url) this.#take(picture);
+    } catch (error) {
+      if (this.wanted === url) this.editor.say(/** @type {Error} */ (error).message);
+    }
+  }
+
+  /** @param {Run} run */
+  async setRun(run) {
+    const { editor } = this;
+    const picture = run.image ? await loaded(run.image) : this.picture;
+    if (run.image) this.wanted = null;
+    if (picture) this.#take(picture);
+    else this.fitTo(run.width, run.height);
+    await editor.live.setRun(run, picture);
+    editor.simulate();
+    // Made when first asked for, which takes a moment; until then the picture itself is behind the bodies.
+    const plate = await loaded(run.plate).catch(() => null);
+    if (plate) editor.live.setPlate(run, plate);
+  }
+
+  /** Nothing is known of the bodies any more, such as when another picture is chosen. */
+  forgetRun() {
+    this.editor.live.setRun(null, null);
+    this.offerRun();
+    this.editor.redraw();
+  }
+
+  /** @param {string} reason why nothing moves */
+  offerRun(reason = "Nothing moves yet: the bodies are known once this node has run.") {
+    const { notes, options } = this.editor;
+    if (options.moves) notes.show("run", reason, { button: ["Run this node", options.onRun] });
+  }
+
+  /** @param {Error | null} error of the preview */
+  trouble(error) {
+    const gone = /** @type {any} */ (error)?.status === 404;
+    this.editor.notes.show("motion", error && !gone ? error.message : "", { kind: "error" });
+    if (!gone) return;
+    this.editor.live.setRun(null, null);
+    this.offerRun(/** @type {Error} */ (error).message);
+  }
+
+  /** Fit a scene that has just been read to the picture that is there. */
+  refit() {
+    if (this.picture) this.fitTo(this.picture.naturalWidth, this.picture.naturalHeight);
+  }
+
+  /**
+   * The scene over a picture of another size: what is drawn is scaled along, once.
+   *
+   * @param {number} width  [px]
+   * @param {number} height
+   */
+  fitTo(width, height) {
+    const { editor } = this;
+    const before = editor.document;
+    if (before.width === width && before.height === height) return;
+    // Points from a plain list are pixels of the picture, whatever its size.
+    const after = before.sizeless ? { ...before, width, height, sizeless: undefined } : rescaled(before, width, height);
+    if (hasItems(before) && !before.sizeless) {
+      editor.commit(after, editor.selection);
+      editor.say(
+        `The picture is ${width} × ${height} px now; what is drawn has been scaled along` +
+          ` from ${before.width} × ${before.height} px.`,
+      );
+    } else editor.store.load(after);
+    editor.resize(after);
+  }
+
+  /** @param {HTMLImageElement} picture */
+  #take(picture) {
+    this.picture = picture;
+    this.refit();
+    this.editor.redraw();
+  }
+}

@@ -1,0 +1,193 @@
+/**
+ * What buttons and keys do.
+ *
+ * @typedef {import("./editor.js").Editor} Editor
+ */
+
+import { itemAt, withAdded, withItem, withoutItems } from "../scene/document.js";
+import { sideOf } from "../scene/items.js";
+import { moved } from "../scene/shapes.js";
+import { BRUSHES } from "./toolbox.js";
+
+const ZOOM = 1.25;
+const BRUSH = 1.2;
+/** @type {Record<string, [number, number]>} */
+const NUDGES = { left: [-1, 0], right: [1, 0], up: [0, -1], down: [0, 1] };
+
+export class Commands {
+  /** @param {Editor} editor */
+  constructor(editor) {
+    this.editor = editor;
+  }
+
+  /**
+   * @param {string} id
+   * @param {boolean} broad  with Shift: in larger steps
+   * @returns {boolean} whether there is such an action here
+   */
+  run(id, broad = false) {
+    const { editor } = this;
+    if (editor.tools.has(id)) this.choose(id);
+    else if (id in NUDGES) return this.#nudge(NUDGES[id], broad ? 10 : 1);
+    else if (id in this.#table) this.#table[id]();
+    else return false;
+    return true;
+  }
+
+  /** @type {Record<string, () => void>} */
+  get #table() {
+    const { editor } = this;
+    const { store, stage, live } = editor;
+    return {
+      undo: () => this.#settled(() => store.undo()),
+      redo: () => this.#settled(() => store.redo()),
+      duplicate: () => this.#duplicate(),
+      delete: () => this.#delete(),
+      fit: () => stage.fit(),
+      "zoom-in": () => stage.zoom(ZOOM),
+      "zoom-out": () => stage.zoom(1 / ZOOM),
+      mesh: () => this.#flip("mesh"),
+      items: () => this.#flip("items"),
+      panel: () => this.#flip("panel"),
+      expand: () => (editor.dialog.open ? editor.dialog.close() : this.expand()),
+      "brush-smaller": () => this.setBrush(editor.brushRadius / BRUSH),
+      "brush-larger": () => this.setBrush(editor.brushRadius * BRUSH),
+      "frame-back": () => this.seek(Math.floor(live.playback.position) - 1),
+      "frame-on": () => this.seek(Math.floor(live.playback.position) + 1),
+      play: () => this.#play(),
+      loop: () => {
+        live.playback.looping = !live.playback.looping;
+        editor.redraw();
+      },
+      finish: () => editor.tool.finish(),
+      cancel: () => this.#cancel(),
+    };
+  }
+
+  /** @param {string} id of a tool */
+  choose(id) {
+    const { editor } = this;
+    editor.tool.cancel();
+    editor.replacing = null;
+    editor.tool = /** @type {import("../stage/tool.js").Tool} */ (editor.tools.get(id));
+    editor.stage.overlay.style.cursor = editor.tool.cursor;
+    // A brush chosen anew begins a new area, unless what is selected was painted.
+    if (BRUSHES.includes(id) && itemAt(editor.document, editor.selection)?.region?.type !== "mask") editor.select(null);
+    editor.show();
+  }
+
+  /** @param {"circle" | "polygon" | "brush"} kind of the region that the selected rig point is to have */
+  redrawRegion(kind) {
+    const { editor } = this;
+    const waiting = editor.selection;
+    const id = `region-${kind}`;
+    editor.tool.cancel();
+    editor.tool = /** @type {import("../stage/tool.js").Tool} */ (editor.tools.get(id));
+    editor.replacing = waiting;
+    editor.say(kind === "brush" ? "Paint the region." : "Draw the region.");
+    editor.show();
+  }
+
+  /** @param {number} radius [px] */
+  setBrush(radius) {
+    const { editor } = this;
+    editor.brushRadius = Math.min(Math.max(Math.round(radius), 1), sideOf(editor.document));
+    editor.show();
+  }
+
+  /** @param {number} frame */
+  seek(frame) {
+    this.editor.live.playback.seek(frame);
+    this.editor.redraw();
+  }
+
+  /** @param {number} frames of the preview */
+  setLength(frames) {
+    const { editor } = this;
+    editor.frames = frames;
+    editor.show();
+    editor.simulate();
+  }
+
+  expand() {
+    const { editor } = this;
+    editor.dialog.append(editor.frame);
+    editor.dialog.showModal();
+    editor.stage.fit();
+    editor.stage.focus();
+    editor.show();
+  }
+
+  shrink() {
+    const { editor } = this;
+    editor.dialog.before(editor.frame);
+    editor.stage.fit();
+    editor.show();
+  }
+
+  #play() {
+    const { live } = this.editor;
+    live.playback.toggle();
+    live.playback.moment = performance.now();
+    this.editor.redraw();
+  }
+
+  /** @param {"mesh" | "items" | "panel"} name */
+  #flip(name) {
+    this.editor.shown[name] = !this.editor.shown[name];
+    this.editor.show();
+  }
+
+  /** @param {() => void} step */
+  #settled(step) {
+    this.editor.tool.cancel();
+    this.editor.replacing = null;
+    step();
+  }
+
+  #cancel() {
+    const { editor } = this;
+    const drawing = editor.tool.draft || editor.replacing;
+    editor.tool.cancel();
+    if (drawing) editor.replacing = null;
+    else if (editor.selection) editor.select(null);
+    else if (editor.dialog.open) editor.dialog.close();
+    editor.show();
+  }
+
+  #delete() {
+    const { editor } = this;
+    if (editor.selection) editor.commit(withoutItems(editor.document, [editor.selection]), null);
+  }
+
+  #duplicate() {
+    const { editor } = this;
+    const item = itemAt(editor.document, editor.selection);
+    if (!item || !editor.selection) return;
+    const step = Math.round(sideOf(editor.document) * 0.02);
+    this.add(editor.selection.list, moved(editor.document, item, step, step));
+  }
+
+  /**
+   * @param {string} list
+   * @param {import("../scene/document.js").Item} item
+   */
+  add(list, item) {
+    const { document, reference } = withAdded(this.editor.document, list, item);
+    this.editor.commit(document, reference);
+  }
+
+  /**
+   * @param {[number, number]} direction
+   * @param {number} step  [px]
+   */
+  #nudge([dx, dy], step) {
+    const { editor } = this;
+    const item = itemAt(editor.document, editor.selection);
+    if (!item || !editor.selection) return false;
+    const there = moved(editor.document, item, dx * step, dy * step);
+    const { list, index } = editor.selection;
+    editor.commit(withItem(editor.document, editor.selection, there), editor.selection, `nudge ${list} ${index}`);
+    return true;
+  }
+}

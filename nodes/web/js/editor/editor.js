@@ -1,0 +1,253 @@
+/**
+ * The editor: puts the parts together. It knows nothing of the host; what it needs of it is handed in.
+ *
+ * @typedef {import("../scene/document.js").Point} Point
+ * @typedef {import("../scene/document.js").Reference} Reference
+ * @typedef {import("../scene/document.js").SceneDocument} SceneDocument
+ *
+ * @typedef {object} EditorOptions
+ * @property {{read: (text: string) => SceneDocument, write: (document: SceneDocument) => string}} format  of the value
+ * @property {string[][]} groups  of buttons
+ * @property {boolean} moves  whether there is time and motion
+ * @property {import("../preview/client.js").Fetch} fetch
+ * @property {(text: string) => void} onChange  a new value
+ * @property {() => void} onRun  the user wants this node to run
+ */
+
+import { emptyDocument, itemAt, withItem, withValue } from "../scene/document.js";
+import { sideOf } from "../scene/items.js";
+import { handlesOf } from "../scene/shapes.js";
+import { drawOverlay } from "../stage/overlay.js";
+import { Scheduler } from "../stage/scheduler.js";
+import { Backdrop } from "./backdrop.js";
+import { Commands } from "./commands.js";
+import { listenTo } from "./input.js";
+import { layout } from "./layout.js";
+import { Live } from "./live.js";
+import { Notes } from "./notes.js";
+import { Store } from "./store.js";
+import { BRUSHES, toolsOf } from "./toolbox.js";
+
+/** Length of a preview [s], where the scene is no loop. */
+const PREVIEW = 3;
+/** Radius of the brush to begin with, in longest sides of the picture. */
+const BRUSH = 0.02;
+
+export class Editor {
+  /** @param {EditorOptions} options */
+  constructor(options) {
+    this.options = options;
+    this.text = "";
+    /** Length of the preview [frames]; 0 follows the scene. */
+    this.frames = 0;
+    this.brushRadius = 20;
+    /** @type {Reference | null} rig point whose region is to be drawn anew */
+    this.replacing = null;
+    /** @type {Point | null} */
+    this.pointer = null;
+    this.shown = { mesh: false, items: true, panel: options.moves };
+    this.store = new Store(emptyDocument(1280, 720), () => this.show(), () => this.#keep());
+    this.notes = new Notes();
+    this.scheduler = new Scheduler((now, asked) => this.#draw(now, asked));
+    this.backdrop = new Backdrop(this);
+    this.commands = new Commands(this);
+    this.tools = toolsOf(this, options.groups.flat());
+    this.tool = /** @type {import("../stage/tool.js").Tool} */ (this.tools.get(options.groups[0][0]));
+    const parts = layout(this);
+    this.root = parts.root;
+    this.frame = parts.frame;
+    this.dialog = parts.dialog;
+    this.stage = parts.stage;
+    this.toolbar = parts.toolbar;
+    this.inspector = parts.inspector;
+    this.timeline = parts.timeline;
+    this.live = new Live(this.stage.film, options.fetch, {
+      redraw: () => this.redraw(),
+      trouble: (error) => this.backdrop.trouble(error),
+      started: () => this.notes.show("run", ""),
+    });
+    listenTo(this);
+    this.show();
+  }
+
+  // What the tools use.
+
+  get document() {
+    return this.store.document;
+  }
+
+  get selection() {
+    return this.store.selection;
+  }
+
+  get pixel() {
+    return 1 / this.stage.view.scale;
+  }
+
+  /** Handles of the selected item. */
+  get handles() {
+    const item = itemAt(this.document, this.selection);
+    return item && this.selection ? handlesOf(this.document, this.selection, item) : [];
+  }
+
+  /**
+   * @param {SceneDocument} document
+   * @param {Reference | null} [selection]
+   * @param {string} [key]
+   */
+  commit(document, selection, key) {
+    this.replacing = null;
+    this.store.commit(document, selection, key);
+  }
+
+  /** @param {SceneDocument} document */
+  propose(document) {
+    this.store.propose(document);
+  }
+
+  /** @param {Reference | null} reference */
+  select(reference) {
+    this.replacing = null;
+    this.store.select(reference);
+  }
+
+  /** @param {string} sentence */
+  say(sentence) {
+    this.notes.say(sentence);
+  }
+
+  redraw() {
+    this.scheduler.request();
+  }
+
+  // What the host uses.
+
+  /** @param {string} text the value of the node */
+  load(text) {
+    if (text === this.text) return;
+    this.text = text;
+    try {
+      const document = this.options.format.read(text);
+      this.notes.show("value", "");
+      this.store.load(document);
+      this.resize(document);
+    } catch (error) {
+      const anew = () => this.commit(emptyDocument(this.document.width, this.document.height), null);
+      const { message } = /** @type {Error} */ (error);
+      this.notes.show("value", message, { kind: "error", button: ["Start anew", anew] });
+    }
+    this.backdrop.refit();
+    this.simulate();
+  }
+
+  simulate() {
+    if (!this.options.moves) return;
+    if (this.live.run) this.live.request(this.document, this.frameCount);
+    else this.backdrop.offerRun();
+  }
+
+  get frameCount() {
+    const rate = this.document.frame_rate ?? 24;
+    return this.frames || Math.max(2, Math.round((this.document.loop ?? PREVIEW) * rate));
+  }
+
+  release() {
+    this.root.dataset.released = "true";
+    this.scheduler.stop();
+    this.stage.release();
+    this.live.release();
+    if (this.dialog.open) this.dialog.close();
+  }
+
+  // What the parts use.
+
+  /** @param {SceneDocument} document */
+  resize(document) {
+    if (this.stage.setSize(document)) this.brushRadius = Math.max(1, Math.round(sideOf(document) * BRUSH));
+  }
+
+  /**
+   * @param {Reference | null} reference  null for the scene itself
+   * @param {[string, any][]} changes  values by their paths
+   * @param {string} key
+   */
+  change(reference, changes, key) {
+    const { document } = this;
+    /** @type {(holder: any) => any} */
+    const changed = (holder) => changes.reduce((made, [path, value]) => withValue(made, path, value), holder);
+    if (!reference) this.commit(changed(document), this.selection, key);
+    else this.commit(withItem(document, reference, changed(itemAt(document, reference))), reference, key);
+  }
+
+  /**
+   * @param {Point} point
+   * @param {PointerEvent} event
+   */
+  press(point, event) {
+    this.pointer = point;
+    this.tool.down(point, event);
+    this.redraw();
+  }
+
+  /** @param {Point | null} point */
+  hover(point) {
+    this.pointer = point;
+    if (point) this.tool.hover(point);
+    this.stage.overlay.style.cursor = this.stage.spaceHeld ? "grab" : this.tool.cursor;
+    if (BRUSHES.includes(this.tool.id)) this.redraw();
+  }
+
+  /** Bring buttons, values and timeline up to date, and draw. */
+  show() {
+    const { history, selection, document } = this.store;
+    const pressed = { ...this.shown, expand: this.dialog.open };
+    for (const id of this.tools.keys()) Object.assign(pressed, { [id]: id === this.tool.id });
+    const [past, future] = [history.past.length > 0, history.future.length > 0];
+    this.toolbar.show(pressed, { undo: !past, redo: !future, duplicate: !selection, delete: !selection });
+    this.frame.dataset.panel = String(this.shown.panel);
+    const paints = BRUSHES.includes(this.tool.id) && this.tool.id !== "erase";
+    this.inspector.show(document, selection, paints ? { radius: this.brushRadius } : null);
+    const { playback } = this.live;
+    if (!playback.header) playback.duration = this.frameCount;
+    playback.frameRate = document.frame_rate ?? 24;
+    this.timeline.showItems(document, selection, playback.duration / playback.frameRate);
+    this.redraw();
+  }
+
+  #keep() {
+    this.text = this.options.format.write(this.document);
+    this.notes.show("value", "");
+    this.resize(this.document);
+    this.options.onChange(this.text);
+    this.simulate();
+  }
+
+  /**
+   * @param {number} now  [ms]
+   * @param {boolean} asked  whether something besides the time has changed
+   */
+  #draw(now, asked) {
+    const { stage, live } = this;
+    const frame = live.playback.shown;
+    // An editor out of sight rests; it is drawn again when it gets its size back.
+    const more = live.playback.advance(now) && stage.across > 0;
+    if (!asked && frame === live.playback.shown) return more;
+    const context = stage.sharpen();
+    live.draw(stage.view, stage.across, stage.down);
+    const brushing = BRUSHES.includes(this.tool.id) && this.pointer;
+    drawOverlay(context, {
+      document: this.document,
+      selection: this.selection,
+      view: stage.view,
+      background: live.shows ? null : this.backdrop.picture,
+      mesh: this.shown.mesh || !live.player.ready ? live.mesh : null,
+      frame: live.playback.shown,
+      unit: live.unit,
+      draft: this.tool.draft,
+      brush: brushing ? { at: brushing, radius: this.brushRadius } : null,
+      itemsShown: this.shown.items,
+    });
+    if (this.options.moves) this.timeline.showPosition(live.playback);
+    return more;
+  }
+}

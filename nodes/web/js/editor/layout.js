@@ -1,0 +1,59 @@
+/**
+ * The parts of an editor on the page, and what they tell it.
+ *
+ * @typedef {import("./editor.js").Editor} Editor
+ */
+
+import { element } from "../panels/elements.js";
+import { Inspector } from "../panels/inspector.js";
+import { STYLE } from "../panels/style.js";
+import { Timeline } from "../panels/timeline.js";
+import { Toolbar } from "../panels/toolbar.js";
+import { Stage } from "../stage/stage.js";
+
+/** @param {Editor} editor */
+export function layout(editor) {
+  const { groups, moves } = editor.options;
+  const toolbar = new Toolbar(groups, (id) => editor.commands.run(id));
+  const place = element("div", { className: "physanimator-stage" });
+  const stage = stageIn(editor, place);
+  place.append(editor.notes.root);
+  const inspector = new Inspector({
+    change: (reference, changes, key) => editor.change(reference, changes, key),
+    redrawRegion: (kind) => editor.commands.redrawRegion(kind),
+    brushSize: (radius) => editor.commands.setBrush(radius),
+  });
+  const timeline = new Timeline({
+    toggle: () => editor.commands.run("play"),
+    loop: () => editor.commands.run("loop"),
+    seek: (frame) => editor.commands.seek(frame),
+    length: (frames) => editor.commands.setLength(frames),
+    select: (reference) => editor.select(reference),
+  });
+  const rows = [toolbar.root, place, inspector.root, ...(moves ? [timeline.root] : [])];
+  /** @type {HTMLElement} */
+  const frame = element("div", { className: "physanimator-frame" }, rows);
+  const onclose = () => editor.commands.shrink();
+  /** @type {HTMLDialogElement} */
+  const dialog = element("dialog", { className: "physanimator-dialog", "aria-label": "Scene editor", onclose });
+  const style = element("style", { textContent: STYLE });
+  /** @type {HTMLElement} */
+  const root = element("div", { className: "physanimator-editor", "data-capture-wheel": "true" }, [style, frame, dialog]);
+  return { toolbar, stage, inspector, timeline, frame, dialog, root };
+}
+
+/**
+ * @param {Editor} editor
+ * @param {HTMLElement} place
+ */
+function stageIn(editor, place) {
+  return new Stage(place, editor.document, {
+    down: (point, event) => editor.press(point, event),
+    move: (point, event) => editor.tool.move(point, event),
+    up: (point, event) => editor.tool.up(point, event),
+    hover: (point) => editor.hover(point),
+    cancel: () => editor.tool.cancel(),
+    double: () => editor.tool.finish(),
+    redraw: () => editor.redraw(),
+  });
+}

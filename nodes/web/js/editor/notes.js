@@ -1,0 +1,34 @@
+/** Sentences over the picture: what went wrong, what to do, what has just happened. */
+
+import { element } from "../panels/elements.js";
+
+const PASSING = 7000;
+
+export class Notes {
+  constructor() {
+    this.root = element("div", { className: "physanimator-notes", "aria-live": "polite" });
+    /** @type {Map<string, HTMLElement>} */
+    this.shown = new Map();
+  }
+
+  /**
+   * @param {string} name  of the place; a new sentence takes the place of the old one
+   * @param {string} text  empty: nothing
+   * @param {{kind?: "info" | "error", passing?: boolean, button?: [string, () => void]}} [options]
+   */
+  show(name, text, { kind = "info", passing = false, button } = {}) {
+    this.shown.get(name)?.remove();
+    this.shown.delete(name);
+    if (!text) return;
+    const more = button ? [element("button", { type: "button", onclick: button[1], "data-action": name }, [button[0]])] : [];
+    const note = element("div", { className: "physanimator-note", "data-kind": kind, "data-note": name, role: kind === "error" ? "alert" : "status" }, [text, ...more]);
+    this.shown.set(name, note);
+    this.root.append(note);
+    if (passing) setTimeout(() => this.shown.get(name) === note && this.show(name, ""), PASSING);
+  }
+
+  /** @param {string} sentence that goes away by itself */
+  say(sentence) {
+    this.show("said", sentence, { passing: true });
+  }
+}

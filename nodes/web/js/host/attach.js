@@ -1,0 +1,179 @@
+/**
+ * Puts an editor into a node of the host. It works in the LiteGraph canvas and in the Vue canvas.
+ *
+ * @typedef {object} Kind  of node
+ * @property {string} input  name of the text input that holds the value
+ * @property {any} format
+ * @property {string[][]} groups
+ * @property {boolean} moves
+ * @property {[number, number]} size  of a new node, at least
+ */
+
+import { Editor } from "../editor/editor.js";
+import { runNode } from "./queueing.js";
+import { upstreamImage, viewQuery } from "./upstream.js";
+
+const SHORTEST = 300;
+/** After this time a new node is on the canvas [ms]. */
+const SETTLED = 150;
+/** Time from one look at the graph to the next [ms]. */
+const LOOKS = 500;
+const OUTPUT = "physanimator_editor";
+
+/**
+ * @param {any} app  the host's
+ * @param {any} api  the host's
+ * @param {any} node
+ * @param {Kind} kind
+ */
+export function attachEditor(app, api, node, kind) {
+  const value = node.widgets?.find((/** @type {any} */ widget) => widget.name === kind.input);
+  if (!value) return null;
+  const editor = new Editor({
+    ...kind,
+    fetch: (path, options) => api.fetchApi(path, options),
+    onChange: (text) => keep(app, node, value, text),
+    onRun: () => runNode(app, node),
+  });
+  hide(value);
+  const widget = node.addDOMWidget("physanimator_editor", "physanimator_editor", editor.root, {
+    serialize: false,
+    hideOnZoom: false,
+    getMinHeight: () => SHORTEST,
+  });
+  // A widget that is only shown must not be saved: it would shift the values of all that come after it.
+  widget.serialize = false;
+  follow(app, api, node, value, editor);
+  grow(node, kind.size, editor.root);
+  return editor;
+}
+
+/**
+ * Give a new node its size; one that is opened with its workflow keeps what the user made of it.
+ *
+ * @param {any} node
+ * @param {[number, number]} size
+ * @param {HTMLElement} root
+ */
+function grow(node, size, root) {
+  let opened = false;
+  chain(node, "onConfigure", () => (opened = true));
+  node.setSize?.([Math.max(node.size[0], size[0]), Math.max(node.size[1], size[1])]);
+  // Older Vue canvases measure a new node once by themselves, and then only listen to the size of its box.
+  chain(node, "onAdded", () =>
+    setTimeout(() => {
+      const box = /** @type {HTMLElement | null} */ (root.closest("[data-node-id]"));
+      if (opened || !box || box.offsetWidth >= size[0] - 1) return;
+      box.style.setProperty("--node-width", `${size[0]}px`);
+      box.style.setProperty("--node-height", `${size[1]}px`);
+    }, SETTLED),
+  );
+}
+
+/** @param {any} value the widget whose text the editor shows */
+function hide(value) {
+  value.hidden = true;
+  value.options ??= {};
+  value.options.hidden = true;
+}
+
+/**
+ * @param {any} app
+ * @param {any} node
+ * @param {any} value
+ * @param {string} text
+ */
+function keep(app, node, value, text) {
+  value.value = text;
+  value.callback?.(text);
+  node.graph?.change?.();
+  const tracker = app.extensionManager?.workflow?.activeWorkflow?.changeTracker;
+  if (tracker?.captureCanvasState) tracker.captureCanvasState();
+  else tracker?.checkState?.();
+}
+
+/**
+ * Keep the editor up to date with the graph.
+ *
+ * @param {any} app
+ * @param {any} api
+ * @param {any} node
+ * @param {any} value
+ * @param {Editor} editor
+ */
+function follow(app, api, node, value, editor) {
+  let file = /** @type {string | null | undefined} */ (undefined);
+  const look = () => {
+    if (!node.graph) return;
+    takePlace(node, editor.root);
+    editor.load(String(value.value ?? ""));
+    const found = upstreamImage(node, app.rootGraph ?? app.graph);
+    if (found === file) return;
+    const first = file === undefined;
+    file = found;
+    if (!first) editor.backdrop.forgetRun();
+    if (found) editor.backdrop.setPicture(api.apiURL(`/view?${viewQuery(found)}`));
+  };
+  const ran = (/** @type {any} */ output) => {
+    const [info] = output?.[OUTPUT] ?? [];
+    if (info) editor.backdrop.setRun(runOf(api, info)).catch((error) => editor.say(error.message));
+  };
+  chain(node, "onConfigure", () => queueMicrotask(look));
+  chain(node, "onConnectionsChange", () => queueMicrotask(look));
+  chain(node, "onExecuted", ran);
+  // The graph does not tell when a node upstream changes.
+  editor.root.addEventListener("pointerenter", look);
+  /** @type {any} */
+  let remains = 0;
+  chain(node, "onAdded", () => {
+    clearInterval(remains);
+    remains = setInterval(look, LOOKS);
+    setTimeout(look, SETTLED);
+  });
+  chain(node, "onRemoved", () => {
+    clearInterval(remains);
+    editor.release();
+  });
+  queueMicrotask(() => {
+    look();
+    editor.load(String(value.value ?? ""));
+    ran(app.nodeOutputs?.[String(node.id)]);
+  });
+}
+
+/**
+ * An older Vue canvas keeps showing what belonged to the node that had this id before, such as before undoing.
+ *
+ * @param {any} node
+ * @param {HTMLElement} root
+ */
+function takePlace(node, root) {
+  if (root.isConnected) return;
+  const left = document.querySelector(`[data-node-id="${CSS.escape(String(node.id))}"] .physanimator-editor[data-released]`);
+  left?.replaceWith(root);
+}
+
+/**
+ * @param {any} api
+ * @param {any} info  as the node tells it
+ * @returns {import("../editor/live.js").Run}
+ */
+function runOf(api, { key, width, height, image, plate }) {
+  const url = (/** @type {any} */ saved) => api.apiURL(`/view?${new URLSearchParams(saved)}`);
+  const behind = plate ? url(plate) : api.apiURL(`/physanimator/plate/${key}`);
+  return { key, width, height, image: image ? url(image) : null, plate: behind };
+}
+
+/**
+ * @param {any} node
+ * @param {string} name
+ * @param {(argument: any) => void} more
+ */
+function chain(node, name, more) {
+  const before = node[name];
+  node[name] = function (/** @type {any[]} */ ...args) {
+    const result = before?.apply(this, args);
+    more(args[0]);
+    return result;
+  };
+}

@@ -1,0 +1,97 @@
+/**
+ * The picture that a node will get, as far as the graph tells it before it has run.
+ *
+ * @typedef {any} GraphNode  of LiteGraph
+ */
+
+/** Origin of a link that comes from outside of a subgraph. */
+const SUBGRAPH_INPUT = -10;
+const FARTHEST = 200;
+
+/**
+ * The file chosen in the Load Image node that is nearest upstream.
+ *
+ * @param {GraphNode} node
+ * @param {any} rootGraph
+ * @returns {string | null} as the widget has it, such as "folder/name.png [input]"
+ */
+export function upstreamImage(node, rootGraph) {
+  const open = sourcesOf(node, rootGraph, isPicture(node) ? "IMAGE" : null);
+  const seen = new Set();
+  for (let one = open.shift(); one && seen.size < FARTHEST; one = open.shift()) {
+    if (seen.has(one)) continue;
+    seen.add(one);
+    const file = imageFileOf(one);
+    if (file) return file;
+    open.push(...sourcesOf(one, rootGraph, null));
+  }
+  return null;
+}
+
+/** @param {GraphNode} node whether a picture is connected to the node itself */
+function isPicture(node) {
+  return (node.inputs ?? []).some((/** @type {any} */ input) => input.type === "IMAGE" && input.link != null);
+}
+
+/** @param {GraphNode} node */
+function imageFileOf(node) {
+  if (!/LoadImage/.test(node.comfyClass ?? node.type ?? "") || node.mode === 4) return null;
+  const value = node.widgets?.find((/** @type {any} */ widget) => widget.name === "image")?.value;
+  return typeof value === "string" && value ? value : null;
+}
+
+/**
+ * The nodes on which a node depends directly.
+ *
+ * @param {GraphNode} node
+ * @param {any} rootGraph
+ * @param {string | null} type  of the inputs to follow; null for all
+ * @returns {GraphNode[]}
+ */
+function sourcesOf(node, rootGraph, type) {
+  const inputs = (node.inputs ?? []).filter((/** @type {any} */ input) => input.link != null && (!type || input.type === type));
+  return inputs.map((/** @type {any} */ input) => sourceOf(node, input.link, rootGraph)).filter(Boolean);
+}
+
+/**
+ * @param {GraphNode} node
+ * @param {number} linkId
+ * @param {any} rootGraph
+ * @returns {GraphNode | null}
+ */
+function sourceOf(node, linkId, rootGraph) {
+  const { graph } = node;
+  const link = graph?.getLink?.(linkId) ?? graph?.links?.get?.(linkId) ?? graph?.links?.[linkId];
+  if (!link) return null;
+  if (link.origin_id !== SUBGRAPH_INPUT) return graph.getNodeById(link.origin_id);
+  const holder = holderOf(graph, rootGraph);
+  const outer = holder?.inputs?.[link.origin_slot]?.link;
+  return holder && outer != null ? sourceOf(holder, outer, rootGraph) : null;
+}
+
+/**
+ * The node that stands for a subgraph.
+ *
+ * @param {any} subgraph
+ * @param {any} rootGraph
+ * @returns {GraphNode | null}
+ */
+export function holderOf(subgraph, rootGraph) {
+  const graphs = [rootGraph, ...(rootGraph?.subgraphs?.values?.() ?? [])];
+  for (const graph of graphs) {
+    const holder = (graph?.nodes ?? []).find((/** @type {any} */ one) => one.subgraph === subgraph);
+    if (holder) return holder;
+  }
+  return null;
+}
+
+/**
+ * What the server's page for files is asked for.
+ *
+ * @param {string} file  as a Load Image widget has it
+ */
+export function viewQuery(file) {
+  const [, path, type] = file.match(/^(.*?)(?: \[(input|output|temp)\])?$/) ?? [file, file];
+  const cut = path.lastIndexOf("/");
+  return new URLSearchParams({ filename: path.slice(cut + 1), subfolder: cut < 0 ? "" : path.slice(0, cut), type: type ?? "input" });
+}

@@ -1,0 +1,130 @@
+/**
+ * The panel of values: of the selected item, or of the scene.
+ *
+ * @typedef {import("../scene/document.js").SceneDocument} SceneDocument
+ * @typedef {import("../scene/document.js").Reference} Reference
+ * @typedef {import("./field_inputs.js").Change} Change
+ *
+ * @typedef {object} InspectorListener
+ * @property {(reference: Reference | null, changes: [string, any][], key: string) => void} change
+ * @property {(kind: "circle" | "polygon" | "brush") => void} redrawRegion
+ * @property {(radius: number) => void} brushSize
+ */
+
+import { itemAt } from "../scene/document.js";
+import { CONTACT_FIELDS, fieldsOf, newMotion, SCENE_FIELDS, WIND_FIELDS } from "../scene/fields.js";
+import { titleOf } from "../scene/items.js";
+import { element } from "./elements.js";
+import { fieldRow } from "./field_inputs.js";
+
+export class Inspector {
+  /** @param {InspectorListener} listener */
+  constructor(listener) {
+    this.listener = listener;
+    this.root = element("div", { className: "physanimator-inspector", role: "group", "aria-label": "Values" });
+  }
+
+  /**
+   * @param {SceneDocument} document
+   * @param {Reference | null} selection
+   * @param {{radius: number} | null} brush  while a tool paints
+   */
+  show(document, selection, brush) {
+    const active = this.root.contains(globalThis.document.activeElement) && globalThis.document.activeElement;
+    // The field in which somebody types is left alone: it shows what is typed, not what became of it.
+    const typing = active && active.tagName === "INPUT" && this.subject === this.#subject(document, selection);
+    if (typing) return;
+    this.subject = this.#subject(document, selection);
+    const item = itemAt(document, selection);
+    const rows = selection && item ? this.#itemRows(selection, item) : this.#sceneRows(document);
+    this.root.replaceChildren(...(brush ? [this.#brushRow(brush)] : []), ...rows);
+  }
+
+  /**
+   * @param {SceneDocument} document
+   * @param {Reference | null} selection
+   */
+  #subject(document, selection) {
+    const item = itemAt(document, selection);
+    return selection && item ? `${selection.list}.${selection.index}.${item.motion?.type ?? ""}` : "scene";
+  }
+
+  /**
+   * @param {Reference} selection
+   * @param {any} item
+   */
+  #itemRows(selection, item) {
+    /** @type {Change} */
+    const change = (changes, key) => {
+      const type = changes.find(([path]) => path === "motion.type")?.[1];
+      this.listener.change(selection, type ? [["motion", newMotion(item, type)]] : changes, key && `${this.subject}.${key}`);
+    };
+    const rows = fieldsOf(selection, item).map((field) => fieldRow(field, item, change));
+    const region = selection.list === "rig_points" ? [this.#regionRow(item)] : [];
+    return [this.#heading(titleOf(selection, item)), ...rows, ...region];
+  }
+
+  /** @param {SceneDocument} document */
+  #sceneRows(document) {
+    /** @type {Change} */
+    const change = (changes, key) => this.listener.change(null, changes, key && `scene.${key}`);
+    return [
+      this.#heading("Scene"),
+      ...SCENE_FIELDS.map((field) => fieldRow(field, document, change)),
+      ...this.#section("Wind everywhere", "wind", document, WIND_FIELDS, change),
+      ...this.#section("Contact", "contact", document, CONTACT_FIELDS, change),
+    ];
+  }
+
+  /**
+   * Fields of a part that may be left out as a whole.
+   *
+   * @param {string} title
+   * @param {string} name
+   * @param {SceneDocument} document
+   * @param {import("../scene/fields.js").Field[]} fields
+   * @param {Change} change
+   */
+  #section(title, name, document, fields, change) {
+    const there = Boolean(document[name]);
+    const box = element("input", {
+      type: "checkbox",
+      checked: there,
+      "aria-label": title,
+      onchange: () => change([[name, there ? undefined : {}]], ""),
+    });
+    const head = element("label", { className: "physanimator-field physanimator-section", "data-field": name }, [box, title]);
+    return there ? [head, ...fields.map((field) => fieldRow(field, document, change))] : [head];
+  }
+
+  /** @param {string} text */
+  #heading(text) {
+    return element("div", { className: "physanimator-heading" }, [text]);
+  }
+
+  /** @param {any} item */
+  #regionRow(item) {
+    const kinds = /** @type {const} */ (["circle", "polygon", "brush"]);
+    const current = item.region?.type === "mask" ? "brush" : (item.region?.type ?? "circle");
+    const buttons = kinds.map((kind) =>
+      element("button", {
+        type: "button",
+        title: `Draw the region anew: ${kind}`,
+        "aria-pressed": String(kind === current),
+        onclick: () => this.listener.redrawRegion(kind),
+      }, [kind]),
+    );
+    return element("div", { className: "physanimator-field", "data-field": "region" }, [
+      element("span", { className: "physanimator-caption" }, ["Region"]),
+      element("span", { className: "physanimator-inputs" }, buttons),
+    ]);
+  }
+
+  /** @param {{radius: number}} brush */
+  #brushRow(brush) {
+    const field = /** @type {import("../scene/fields.js").Field} */ ({
+      path: "radius", title: "Brush radius", unit: "px", kind: "number", min: 1, max: 5000, step: 1, hint: "How broad the brush is; the keys [ and ] change it too.",
+    });
+    return fieldRow(field, brush, (changes) => this.listener.brushSize(changes[0][1]));
+  }
+}

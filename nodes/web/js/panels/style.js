@@ -1,0 +1,86 @@
+/** The look of the editor, in the host's colours; every class carries the pack's name. */
+export const STYLE = `
+.physanimator-editor {
+  --physanimator-back: var(--comfy-menu-bg, #1e1e22);
+  --physanimator-field: var(--comfy-input-bg, #2a2a30);
+  --physanimator-text: var(--input-text, #ddd);
+  --physanimator-dim: var(--descrip-text, #999);
+  --physanimator-rim: var(--border-color, #4e4e54);
+  --physanimator-accent: var(--p-primary-color, #3b82f6);
+  container-type: size;
+  box-sizing: border-box; width: 100%; height: 100%; min-height: max(300px, var(--node-height, 0px) - 140px);
+  color: var(--physanimator-text); font: 12px/1.35 system-ui, sans-serif; text-align: left;
+}
+.physanimator-editor *, .physanimator-editor *::before { box-sizing: border-box; }
+.physanimator-frame {
+  display: grid; width: 100%; height: 100%; min-height: 0; overflow: hidden; border-radius: 6px;
+  background: var(--physanimator-back); border: 1px solid var(--physanimator-rim);
+  grid-template: "toolbar toolbar" auto "stage inspector" minmax(0, 1fr) "timeline timeline" auto / minmax(0, 1fr) 216px;
+}
+.physanimator-frame[data-panel="false"] { grid-template-columns: minmax(0, 1fr) 0; }
+.physanimator-frame[data-panel="false"] .physanimator-inspector { display: none; }
+.physanimator-toolbar { grid-area: toolbar; display: flex; flex-wrap: wrap; gap: 2px 0; padding: 3px; border-bottom: 1px solid var(--physanimator-rim); }
+.physanimator-group { display: flex; gap: 1px; padding: 0 4px; border-right: 1px solid var(--physanimator-rim); }
+.physanimator-group:last-child { border-right: 0; }
+.physanimator-editor button {
+  display: inline-flex; align-items: center; justify-content: center; min-width: 26px; height: 26px; margin: 0; padding: 0 4px;
+  color: inherit; background: transparent; border: 1px solid transparent; border-radius: 5px; font: inherit; cursor: pointer;
+}
+.physanimator-editor button:hover:not(:disabled) { background: var(--physanimator-field); }
+.physanimator-editor button[aria-pressed="true"] { color: #fff; background: var(--physanimator-accent); }
+.physanimator-editor button:disabled { opacity: 0.35; cursor: default; }
+.physanimator-editor :is(button, input, select, canvas, textarea):focus-visible { outline: 2px solid var(--physanimator-accent); outline-offset: -2px; }
+.physanimator-stage { grid-area: stage; position: relative; min-width: 0; min-height: 0; overflow: hidden;
+  background: repeating-conic-gradient(rgba(128, 128, 128, 0.16) 0% 25%, transparent 0% 50%) 0 0 / 20px 20px, var(--physanimator-field); }
+.physanimator-stage canvas { position: absolute; inset: 0; width: 100%; height: 100%; touch-action: none; outline: none; }
+.physanimator-editor input.physanimator-keys { position: absolute; left: 0; bottom: 0; width: 1px; height: 1px; padding: 0; border: 0; opacity: 0; pointer-events: none; }
+.physanimator-stage:focus-within { box-shadow: inset 0 0 0 1px var(--physanimator-accent); }
+.physanimator-film { pointer-events: none; }
+.physanimator-notes { position: absolute; inset: auto 8px 8px; display: flex; flex-direction: column; align-items: flex-start; gap: 4px; pointer-events: none; }
+.physanimator-note { max-width: 100%; padding: 4px 8px; border-radius: 5px; color: #fff; background: rgba(16, 18, 24, 0.86); pointer-events: auto; overflow-wrap: anywhere; }
+.physanimator-note[data-kind="error"] { background: rgba(150, 28, 36, 0.94); }
+.physanimator-note button { color: #fff; background: var(--physanimator-accent); margin-left: 8px; padding: 0 8px; }
+.physanimator-note button:hover:not(:disabled) { background: var(--physanimator-accent); filter: brightness(1.15); }
+.physanimator-inspector { grid-area: inspector; overflow: auto; padding: 6px 8px; border-left: 1px solid var(--physanimator-rim); scrollbar-width: thin; }
+.physanimator-heading { margin: 2px 0 6px; font-weight: 600; }
+.physanimator-field { display: flex; align-items: center; justify-content: space-between; gap: 6px; min-height: 26px; }
+.physanimator-section { justify-content: flex-start; margin-top: 8px; font-weight: 600; }
+.physanimator-caption { color: var(--physanimator-dim); }
+.physanimator-inputs { display: flex; align-items: center; gap: 4px; }
+.physanimator-unit { min-width: 20px; color: var(--physanimator-dim); font-size: 11px; white-space: nowrap; }
+.physanimator-editor :is(input[type="number"], select) {
+  width: 62px; height: 22px; margin: 0; padding: 0 4px; color: var(--physanimator-text); background: var(--physanimator-field);
+  border: 1px solid var(--physanimator-rim); border-radius: 4px; font: inherit; appearance: textfield;
+}
+.physanimator-editor .physanimator-inputs select { width: 96px; padding: 0; appearance: auto; }
+.physanimator-editor input[aria-invalid] { border-color: #f44; }
+.physanimator-inputs input[type="number"] + input[type="number"] { margin-left: 0; }
+.physanimator-field[data-field="gravity"] input, .physanimator-field[data-field="motion.direction"] input { width: 44px; }
+.physanimator-table { display: block; padding: 1px 0; }
+.physanimator-key { display: flex; align-items: center; gap: 4px; margin-top: 2px; }
+.physanimator-keyhead { justify-content: space-between; }
+.physanimator-table button { height: 22px; white-space: nowrap; background: var(--physanimator-field); }
+.physanimator-timeline { grid-area: timeline; border-top: 1px solid var(--physanimator-rim); }
+.physanimator-bar { display: flex; align-items: center; gap: 4px; padding: 2px 6px; }
+.physanimator-slider { flex: 1; min-width: 40px; margin: 0; accent-color: var(--physanimator-accent); }
+.physanimator-readout { min-width: 84px; text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+.physanimator-editor input.physanimator-length { width: 48px; }
+.physanimator-lanes { position: relative; height: 40px; margin: 0 6px 4px; overflow-y: auto; scrollbar-width: thin; }
+.physanimator-lane { position: relative; height: 8px; margin-top: 1px; border-radius: 2px; background: rgba(128, 128, 128, 0.16); cursor: pointer; }
+.physanimator-lane[data-selected="true"] { outline: 1px solid var(--physanimator-text); outline-offset: -1px; }
+.physanimator-span { position: absolute; inset: 2px auto 2px 0; border-radius: 2px; background: var(--physanimator-colour); opacity: 0.75; }
+.physanimator-tick { position: absolute; inset: 0 auto 0 0; width: 2px; background: var(--physanimator-colour); }
+.physanimator-now { position: absolute; inset: 0 auto 0 calc(var(--physanimator-now, 0) * 100%); width: 1px; background: var(--physanimator-text); pointer-events: none; }
+.physanimator-dialog { width: 100vw; height: 100vh; max-width: none; max-height: none; margin: 0; padding: 10px; border: 0; background: rgba(0, 0, 0, 0.7); }
+.physanimator-dialog .physanimator-frame { grid-template-columns: minmax(0, 1fr) 252px; }
+.physanimator-dialog .physanimator-frame[data-panel="false"] { grid-template-columns: minmax(0, 1fr) 0; }
+.physanimator-dialog .physanimator-lanes { height: 120px; }
+.physanimator-dialog .physanimator-lane { height: 11px; }
+@container (max-width: 519px) {
+  .physanimator-frame, .physanimator-frame[data-panel="false"] {
+    grid-template: "toolbar" auto "stage" minmax(120px, 1fr) "inspector" auto "timeline" auto / minmax(0, 1fr);
+  }
+  .physanimator-inspector { max-height: 120px; border-left: 0; border-top: 1px solid var(--physanimator-rim); columns: 2; }
+}
+@media (pointer: coarse) { .physanimator-editor button { min-width: 34px; height: 34px; } }
+`;

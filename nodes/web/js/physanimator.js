@@ -1,0 +1,31 @@
+/** The one module that registers something with the host; all others are imported from here and do nothing by themselves. */
+
+import { app } from "../../../scripts/app.js";
+import { api } from "../../../scripts/api.js";
+import { attachEditor } from "./host/attach.js";
+import { POINTS, SCENE } from "./host/formats.js";
+import { POINT_GROUPS, SCENE_GROUPS } from "./panels/toolbar.js";
+
+/** @type {Record<string, import("./host/attach.js").Kind>} */
+const KINDS = {
+  PhysAnimator_SceneEditor: { input: "scene", format: SCENE, groups: SCENE_GROUPS, moves: true, size: [740, 560] },
+  PhysAnimator_SegmentByPoints: { input: "points", format: POINTS, groups: POINT_GROUPS, moves: false, size: [400, 400] },
+};
+
+app.registerExtension({
+  name: "PhysAnimator.Editor",
+  /**
+   * @param {any} nodeType
+   * @param {any} nodeData
+   */
+  beforeRegisterNodeDef(nodeType, nodeData) {
+    const kind = KINDS[nodeData.name];
+    if (!kind) return;
+    const before = nodeType.prototype.onNodeCreated;
+    // Earlier than the hook for created nodes, which comes when the Vue canvas has taken the node's size already.
+    nodeType.prototype.onNodeCreated = function () {
+      before?.apply(this, arguments);
+      this.physanimatorEditor = attachEditor(app, api, this, kind);
+    };
+  },
+});

@@ -1,0 +1,202 @@
+/**
+ * Draws the illustration as a textured mesh over the clean plate, in WebGL.
+ *
+ * @typedef {import("./records.js").Mesh} Mesh
+ * @typedef {import("../scene/geometry.js").View} View
+ */
+
+const VERTEX = `
+attribute vec2 rest;
+attribute vec2 displacement;
+uniform vec2 size;
+uniform vec2 stage;
+uniform vec3 view;
+uniform float unit;
+varying vec2 place;
+void main() {
+  place = rest / size;
+  vec2 at = ((rest + displacement * unit) * view.x + view.yz) / stage;
+  gl_Position = vec4(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, 0.0, 1.0);
+}`;
+
+const FRAGMENT = `
+precision mediump float;
+uniform sampler2D picture;
+varying vec2 place;
+void main() { gl_FragColor = texture2D(picture, place); }`;
+
+export class Player {
+  /** @param {HTMLCanvasElement} canvas */
+  constructor(canvas) {
+    this.canvas = canvas;
+    /** @type {Mesh | null} */
+    this.mesh = null;
+    /** @type {WebGLRenderingContext | null} */
+    this.gl = null;
+    /** @type {TexImageSource | null} */
+    this.picture = null;
+    /** @type {TexImageSource | null} */
+    this.plate = null;
+    this.ready = false;
+    canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault();
+      this.ready = false;
+    });
+    canvas.addEventListener("webglcontextrestored", () => this.#restore());
+  }
+
+  /** A page has only a few contexts: each editor takes one when there is something to play. */
+  #open() {
+    if (this.gl) return;
+    this.gl = this.canvas.getContext("webgl", { alpha: true, premultipliedAlpha: true, preserveDrawingBuffer: true });
+    if (this.gl) this.#prepare(this.gl);
+  }
+
+  /** @param {WebGLRenderingContext} gl */
+  #prepare(gl) {
+    const program = linked(gl);
+    gl.useProgram(program);
+    this.places = {
+      rest: gl.getAttribLocation(program, "rest"),
+      displacement: gl.getAttribLocation(program, "displacement"),
+      size: gl.getUniformLocation(program, "size"),
+      stage: gl.getUniformLocation(program, "stage"),
+      view: gl.getUniformLocation(program, "view"),
+      unit: gl.getUniformLocation(program, "unit"),
+    };
+    gl.enableVertexAttribArray(this.places.rest);
+    gl.enableVertexAttribArray(this.places.displacement);
+    gl.getExtension("OES_element_index_uint");
+    const plate = { rest: gl.createBuffer(), displacement: gl.createBuffer() };
+    this.buffers = { rest: gl.createBuffer(), displacement: gl.createBuffer(), triangles: gl.createBuffer(), plate };
+    this.textures = { picture: texture(gl), plate: texture(gl) };
+    this.ready = true;
+  }
+
+  #restore() {
+    if (!this.gl) return;
+    this.#prepare(this.gl);
+    if (this.mesh && this.picture && this.plate) this.load(this.mesh, this.picture, this.plate);
+  }
+
+  /**
+   * @param {Mesh} mesh
+   * @param {TexImageSource} picture  the illustration
+   * @param {TexImageSource} plate  what is behind the bodies
+   */
+  load(mesh, picture, plate) {
+    this.#open();
+    this.mesh = mesh;
+    this.picture = picture;
+    this.plate = plate;
+    const { gl, buffers, textures } = this;
+    if (!gl || !buffers || !textures) return;
+    fill(gl, gl.ARRAY_BUFFER, buffers.rest, mesh.positions);
+    fill(gl, gl.ELEMENT_ARRAY_BUFFER, buffers.triangles, mesh.triangles);
+    const { width, height } = mesh;
+    fill(gl, gl.ARRAY_BUFFER, buffers.plate.rest, new Float32Array([0, 0, width, 0, 0, height, width, height]));
+    fill(gl, gl.ARRAY_BUFFER, buffers.plate.displacement, new Int16Array(8));
+    upload(gl, textures.picture, picture);
+    upload(gl, textures.plate, plate);
+  }
+
+  unload() {
+    this.mesh = null;
+    this.clear();
+  }
+
+  clear() {
+    this.gl?.clearColor(0, 0, 0, 0);
+    this.gl?.clear(this.gl.COLOR_BUFFER_BIT);
+  }
+
+  /**
+   * @param {View} view
+   * @param {number} across  of the stage [CSS px]
+   * @param {number} down
+   * @param {Int16Array} displacements  [unit]
+   * @param {number} unit  [px]
+   */
+  draw(view, across, down, displacements, unit) {
+    const { gl, mesh, places, buffers, textures } = this;
+    if (!gl || !mesh || !places || !buffers || !textures || !this.ready) return;
+    gl.viewport(0, 0, this.canvas.width, this.canvas.height);
+    this.clear();
+    gl.uniform2f(places.size, mesh.width, mesh.height);
+    gl.uniform2f(places.stage, across, down);
+    gl.uniform3f(places.view, view.scale, view.x, view.y);
+    gl.uniform1f(places.unit, unit);
+    this.#point(gl, buffers.plate.rest, buffers.plate.displacement);
+    gl.bindTexture(gl.TEXTURE_2D, textures.plate);
+    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+    fill(gl, gl.ARRAY_BUFFER, buffers.displacement, displacements, gl.STREAM_DRAW);
+    this.#point(gl, buffers.rest, buffers.displacement);
+    gl.bindTexture(gl.TEXTURE_2D, textures.picture);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers.triangles);
+    gl.drawElements(gl.TRIANGLES, mesh.triangles.length, gl.UNSIGNED_INT, 0);
+  }
+
+  /**
+   * @param {WebGLRenderingContext} gl
+   * @param {WebGLBuffer | null} rest
+   * @param {WebGLBuffer | null} displacement
+   */
+  #point(gl, rest, displacement) {
+    const places = /** @type {{rest: number, displacement: number}} */ (this.places);
+    gl.bindBuffer(gl.ARRAY_BUFFER, rest);
+    gl.vertexAttribPointer(places.rest, 2, gl.FLOAT, false, 0, 0);
+    gl.bindBuffer(gl.ARRAY_BUFFER, displacement);
+    gl.vertexAttribPointer(places.displacement, 2, gl.SHORT, false, 0, 0);
+  }
+
+  /** Give the context back. */
+  release() {
+    this.ready = false;
+    this.gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  }
+}
+
+/** @param {WebGLRenderingContext} gl */
+function linked(gl) {
+  const program = /** @type {WebGLProgram} */ (gl.createProgram());
+  for (const [type, source] of /** @type {[number, string][]} */ ([[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]])) {
+    const shader = /** @type {WebGLShader} */ (gl.createShader(type));
+    gl.shaderSource(shader, source);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  return program;
+}
+
+/** @param {WebGLRenderingContext} gl */
+function texture(gl) {
+  const made = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, made);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+  return made;
+}
+
+/**
+ * @param {WebGLRenderingContext} gl
+ * @param {WebGLTexture | null} target
+ * @param {TexImageSource} source
+ */
+function upload(gl, target, source) {
+  gl.bindTexture(gl.TEXTURE_2D, target);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, source);
+}
+
+/**
+ * @param {WebGLRenderingContext} gl
+ * @param {number} kind
+ * @param {WebGLBuffer | null} buffer
+ * @param {ArrayBufferView} data
+ * @param {number} usage
+ */
+function fill(gl, kind, buffer, data, usage = gl.STATIC_DRAW) {
+  gl.bindBuffer(kind, buffer);
+  gl.bufferData(kind, data, usage);
+}

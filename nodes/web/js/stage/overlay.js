@@ -1,0 +1,130 @@
+/**
+ * The overlay as a whole: picture, mesh, items, what is being drawn, particles.
+ *
+ * @typedef {import("../scene/document.js").Point} Point
+ * @typedef {import("../scene/document.js").SceneDocument} SceneDocument
+ * @typedef {import("../scene/geometry.js").View} View
+ *
+ * @typedef {object} Picture  all that one drawing shows
+ * @property {SceneDocument} document
+ * @property {import("../scene/document.js").Reference | null} selection
+ * @property {View} view
+ * @property {CanvasImageSource | null} background  null where the moving mesh is shown instead
+ * @property {import("../preview/records.js").Mesh | null} mesh  null where it is hidden
+ * @property {import("../preview/records.js").Frame | null} frame
+ * @property {number} unit  of the frame [px]
+ * @property {import("./tool.js").Draft | null} draft
+ * @property {{at: Point, radius: number} | null} brush
+ * @property {boolean} itemsShown
+ */
+
+import { allItems } from "../scene/document.js";
+import { toStage } from "../scene/geometry.js";
+import { COLOURS } from "./colours.js";
+import { ItemPainter, tintedMask } from "./item_painter.js";
+
+const PARTICLES = [COLOURS.wind, COLOURS.repel, COLOURS.attract];
+
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Picture} shown
+ */
+export function drawOverlay(context, shown) {
+  const { document, view, selection } = shown;
+  const items = new ItemPainter(context, view, document);
+  if (shown.background) items.stretched(shown.background, 1);
+  frame(context, shown);
+  if (shown.mesh) wireframe(context, shown);
+  if (shown.itemsShown) {
+    for (const { reference, item } of allItems(document)) {
+      const selected = selection?.list === reference.list && selection.index === reference.index;
+      items.draw(reference, item, selected, reference.list === "rig_points" ? shiftOf(shown, reference.index) : [0, 0]);
+    }
+  }
+  if (shown.frame) particles(items, shown);
+  if (shown.draft) draft(items, shown);
+  if (shown.brush) {
+    items.painter.circle(items.at(shown.brush.at), shown.brush.radius * view.scale, "#fff", { width: 1 });
+  }
+}
+
+/**
+ * How far a rig point is away from its place at this moment.
+ *
+ * @param {Picture} shown
+ * @param {number} index
+ * @returns {Point}
+ */
+function shiftOf({ frame, unit }, index) {
+  if (!frame || frame.anchors.length <= index * 2 + 1) return [0, 0];
+  return [frame.anchors[index * 2] * unit, frame.anchors[index * 2 + 1] * unit];
+}
+
+/**
+ * The edge of the picture, so that its size is seen before there is a picture.
+ *
+ * @param {CanvasRenderingContext2D} context
+ * @param {Picture} shown
+ */
+function frame(context, { document, view }) {
+  context.strokeStyle = "rgba(128, 128, 128, 0.6)";
+  context.lineWidth = 1;
+  context.strokeRect(view.x - 0.5, view.y - 0.5, document.width * view.scale + 1, document.height * view.scale + 1);
+}
+
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Picture} shown
+ */
+function wireframe(context, { mesh, frame, unit, view }) {
+  if (!mesh) return;
+  const { positions, triangles } = mesh;
+  /** @type {(vertex: number) => Point} */
+  const place = (vertex) => {
+    const moved = frame?.displacements;
+    const x = positions[vertex * 2] + (moved ? moved[vertex * 2] * unit : 0);
+    const y = positions[vertex * 2 + 1] + (moved ? moved[vertex * 2 + 1] * unit : 0);
+    return toStage(view, [x, y]);
+  };
+  context.beginPath();
+  for (let i = 0; i < triangles.length; i += 3) {
+    const corners = [place(triangles[i]), place(triangles[i + 1]), place(triangles[i + 2])];
+    context.moveTo(...corners[2]);
+    for (const corner of corners) context.lineTo(...corner);
+  }
+  context.lineWidth = 0.6;
+  context.strokeStyle = "rgba(0, 200, 255, 0.7)";
+  context.stroke();
+}
+
+/**
+ * @param {ItemPainter} items
+ * @param {Picture} shown
+ */
+function particles(items, { frame, unit, view }) {
+  const data = frame?.particles ?? [];
+  for (let i = 0; i + 3 < data.length; i += 4) {
+    const colour = PARTICLES[data[i + 3]] ?? COLOURS.wind;
+    const at = items.at([data[i] * unit, data[i + 1] * unit]);
+    const { context } = items;
+    context.globalAlpha = 0.5;
+    items.painter.circle(at, data[i + 2] * unit * view.scale, colour, { width: 0.75 });
+    context.globalAlpha = 1;
+    items.painter.dot(at, 4, colour);
+  }
+}
+
+/**
+ * @param {ItemPainter} items
+ * @param {Picture} shown
+ */
+function draft(items, { draft: drawn, view }) {
+  const colour = drawn?.colour ?? COLOURS.pin;
+  if (drawn?.path) {
+    const path = drawn.path.map(items.at);
+    items.painter.line(path, colour, { closed: drawn.closed, fill: drawn.closed ? `${colour}30` : "" });
+    if (drawn.closed) items.painter.square(path[0], colour);
+  }
+  if (drawn?.circle) items.painter.circle(items.at(drawn.circle.at), drawn.circle.radius * view.scale, colour, { fill: `${colour}30` });
+  if (drawn?.bitmap) items.stretched(tintedMask(drawn.bitmap, colour), 0.6);
+}

@@ -1,0 +1,241 @@
+/**
+ * The place where the picture lies: two canvases, the view on them, and the pointer.
+ *
+ * @typedef {import("../scene/document.js").Point} Point
+ * @typedef {import("../scene/geometry.js").View} View
+ */
+
+import { fittingView, toPicture, zoomed } from "../scene/geometry.js";
+
+const MARGIN = 10;
+const WHEEL = 0.0015;
+const MOST_PIXELS = 4096;
+
+/**
+ * @typedef {object} StageListener
+ * @property {(point: Point, event: PointerEvent) => void} down
+ * @property {(point: Point, event: PointerEvent) => void} move
+ * @property {(point: Point, event: PointerEvent) => void} up
+ * @property {(point: Point | null) => void} hover
+ * @property {() => void} cancel
+ * @property {() => void} double
+ * @property {() => void} redraw
+ */
+
+export class Stage {
+  /**
+   * @param {HTMLElement} root
+   * @param {import("../scene/document.js").SceneDocument} document  whose size the picture has
+   * @param {StageListener} listener
+   */
+  constructor(root, { width, height }, listener) {
+    this.root = root;
+    this.size = { width, height };
+    this.listener = listener;
+    this.film = canvas("physanimator-film");
+    this.overlay = canvas("physanimator-overlay");
+    // The keys go to an input, because every host leaves the keys of inputs alone: Delete would take the node, and
+    // Ctrl+Z the last change of the graph.
+    this.keys = document.createElement("input");
+    Object.assign(this.keys, { className: "physanimator-keys", readOnly: true, inputMode: "none" });
+    this.keys.setAttribute("aria-label", "Picture");
+    root.append(this.keys, this.film, this.overlay);
+    /** @type {View} */
+    this.view = { scale: 1, x: 0, y: 0 };
+    this.fitted = true;
+    this.panning = false;
+    this.panned = false;
+    this.spaceHeld = false;
+    /** @type {Map<number, Point>} pointers that touch, on the stage */
+    this.touching = new Map();
+    this.active = -1;
+    this.#listen();
+    this.observer = new ResizeObserver(() => this.resized());
+    this.observer.observe(root);
+  }
+
+  get across() {
+    return this.root.clientWidth;
+  }
+
+  get down() {
+    return this.root.clientHeight;
+  }
+
+  focus() {
+    this.keys.focus({ preventScroll: true });
+  }
+
+  /**
+   * @param {import("../scene/document.js").SceneDocument} size
+   * @returns {boolean} whether it is another one
+   */
+  setSize({ width, height }) {
+    if (width === this.size.width && height === this.size.height) return false;
+    this.size = { width, height };
+    this.fit();
+    return true;
+  }
+
+  fit() {
+    this.fitted = true;
+    if (!this.across || !this.down) return;
+    this.view = fittingView(this.size.width, this.size.height, this.across, this.down, MARGIN);
+    this.listener.redraw();
+  }
+
+  /**
+   * @param {number} factor
+   * @param {Point} [about]  on the stage
+   */
+  zoom(factor, about = [this.across / 2, this.down / 2]) {
+    const least = fittingView(this.size.width, this.size.height, this.across, this.down, MARGIN).scale / 4;
+    this.view = zoomed(this.view, about, factor, least);
+    this.fitted = false;
+    this.listener.redraw();
+  }
+
+  resized() {
+    if (this.fitted) this.fit();
+    this.listener.redraw();
+  }
+
+  /** Give the canvases as many pixels as the screen shows, also where the graph is zoomed. */
+  sharpen() {
+    const shown = this.overlay.getBoundingClientRect().width / (this.across || 1);
+    const ratio = Math.min(Math.max(1, shown) * (globalThis.devicePixelRatio || 1), MOST_PIXELS / Math.max(this.across, this.down, 1));
+    const size = [Math.max(1, Math.round(this.across * ratio)), Math.max(1, Math.round(this.down * ratio))];
+    for (const one of [this.film, this.overlay]) {
+      if (one.width !== size[0]) one.width = size[0];
+      if (one.height !== size[1]) one.height = size[1];
+    }
+    const context = /** @type {CanvasRenderingContext2D} */ (this.overlay.getContext("2d"));
+    context.setTransform(size[0] / (this.across || 1), 0, 0, size[1] / (this.down || 1), 0, 0);
+    context.clearRect(0, 0, this.across, this.down);
+    return context;
+  }
+
+  /**
+   * Where an event is on the stage [CSS px], whatever the zoom of the graph.
+   *
+   * @param {MouseEvent} event
+   * @returns {Point}
+   */
+  place(event) {
+    const box = this.overlay.getBoundingClientRect();
+    const [across, down] = [this.across / (box.width || 1), this.down / (box.height || 1)];
+    return [(event.clientX - box.left) * across, (event.clientY - box.top) * down];
+  }
+
+  #listen() {
+    const { overlay } = this;
+    overlay.addEventListener("pointerdown", (event) => this.#down(event));
+    overlay.addEventListener("pointermove", (event) => this.#move(event));
+    overlay.addEventListener("pointerup", (event) => this.#up(event));
+    overlay.addEventListener("pointercancel", (event) => this.#lost(event));
+    overlay.addEventListener("pointerleave", () => this.listener.hover(null));
+    overlay.addEventListener("dblclick", () => this.listener.double());
+    overlay.addEventListener("contextmenu", (event) => event.preventDefault());
+    overlay.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
+  }
+
+  /** @param {PointerEvent} event */
+  #down(event) {
+    event.preventDefault();
+    this.focus();
+    try {
+      this.overlay.setPointerCapture(event.pointerId);
+    } catch {
+      // The pointer may be gone already; without capture it is followed as far as the canvas reaches.
+    }
+    const at = this.place(event);
+    this.touching.set(event.pointerId, at);
+    if (event.pointerType === "touch" && this.touching.size === 2) {
+      this.#giveUp();
+      this.panning = true;
+    } else if (event.button === 1 || this.spaceHeld) this.panning = this.panned = true;
+    else if (event.button === 0 || event.button === 5) {
+      this.active = event.pointerId;
+      this.listener.down(toPicture(this.view, at), event);
+    }
+  }
+
+  /** @param {PointerEvent} event */
+  #move(event) {
+    const at = this.place(event);
+    const before = this.touching.get(event.pointerId);
+    if (before && this.panning) {
+      this.#pan(event.pointerId, before, at);
+      return;
+    }
+    if (before) this.touching.set(event.pointerId, at);
+    if (event.pointerId !== this.active) {
+      if (!before) this.listener.hover(toPicture(this.view, at));
+      return;
+    }
+    const passed = event.getCoalescedEvents?.() ?? [];
+    for (const one of passed.length ? passed : [event]) {
+      this.listener.move(toPicture(this.view, this.place(one)), one);
+    }
+    this.listener.hover(toPicture(this.view, at));
+  }
+
+  /** @param {PointerEvent} event */
+  #up(event) {
+    const at = this.place(event);
+    this.touching.delete(event.pointerId);
+    if (!this.touching.size) this.panning = false;
+    if (event.pointerId !== this.active) return;
+    this.active = -1;
+    this.listener.up(toPicture(this.view, at), event);
+  }
+
+  /** @param {PointerEvent} event */
+  #lost(event) {
+    this.touching.delete(event.pointerId);
+    if (!this.touching.size) this.panning = false;
+    if (event.pointerId === this.active) this.#giveUp();
+  }
+
+  #giveUp() {
+    this.active = -1;
+    this.listener.cancel();
+  }
+
+  /**
+   * One finger or the mouse pans, two fingers zoom as well.
+   *
+   * @param {number} pointer
+   * @param {Point} before
+   * @param {Point} at
+   */
+  #pan(pointer, before, at) {
+    const other = [...this.touching].find(([id]) => id !== pointer)?.[1];
+    this.touching.set(pointer, at);
+    const share = other ? 0.5 : 1;
+    this.view = { ...this.view, x: this.view.x + (at[0] - before[0]) * share, y: this.view.y + (at[1] - before[1]) * share };
+    this.fitted = false;
+    if (other) {
+      const [was, is] = [before, at].map((one) => Math.hypot(one[0] - other[0], one[1] - other[1]) || 1);
+      this.zoom(is / was, [(at[0] + other[0]) / 2, (at[1] + other[1]) / 2]);
+    }
+    this.listener.redraw();
+  }
+
+  /** @param {WheelEvent} event */
+  #wheel(event) {
+    event.preventDefault();
+    event.stopPropagation();
+    const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
+    this.zoom(Math.exp(-event.deltaY * lines * WHEEL), this.place(event));
+  }
+
+  release() {
+    this.observer.disconnect();
+  }
+}
+
+/** @param {string} name */
+function canvas(name) {
+  return Object.assign(document.createElement("canvas"), { className: name });
+}
