@@ -73,9 +73,9 @@ class ReferenceAttention(_Attention):
         parts, start = [], 0
         for run in layout.runs:
             stop = start + len(run.own)
-            chosen = (_of_frames(each, run) for each in (keys, values))
             bias = _half_bias(run.bias, x) if run.bias and self.amplified else None
-            mixed = self._attend(queries[:, start:stop].flatten(0, 1), *chosen, bias=bias)
+            asked = queries[:, start:stop].flatten(0, 1)
+            mixed = self._attend(asked, _of_frames(keys, run), _of_frames(values, run), bias)
             parts.append(mixed.unflatten(0, (-1, len(run.own))))
             start = stop
         return self.to_out(torch.cat(parts, dim=1).flatten(0, 1))
