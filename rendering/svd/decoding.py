@@ -9,11 +9,9 @@ import torch
 from torch import Tensor
 
 from ...physics.errors import require
+from .options import DECODED_TOGETHER
 
-__all__ = ["CHUNK", "Chunk", "decode", "decoding_chunks"]
-
-CHUNK = 10
-"""Frames that are decoded together by default."""
+__all__ = ["Chunk", "decode", "decoding_chunks"]
 
 _OVERLAP = 3
 """Frames of the chunk before that are decoded once more, and dropped."""
@@ -32,7 +30,7 @@ class Chunk:
     kept: int
 
 
-def decoding_chunks(count: int, size: int = CHUNK) -> Iterator[Chunk]:
+def decoding_chunks(count: int, size: int = DECODED_TOGETHER) -> Iterator[Chunk]:
     """Chunks that cover a clip; each holds frame 0, and all but the first a few frames of the one before.
 
     Args:
@@ -53,7 +51,7 @@ def decode(
     decoder: Callable[[Tensor], Tensor],
     latents: Tensor,
     *,
-    size: int = CHUNK,
+    size: int = DECODED_TOGETHER,
     progress: Callable[[int, int], None] | None = None,
 ) -> Iterator[Tensor]:
     """Pictures of a clip, a chunk at a time.
