@@ -39,12 +39,13 @@ class Placement:
             working_bytes: what their results in between need.
         """
         self.make_room(sum(map(bytes_of, networks)) + working_bytes)
-        kept = [(each, each.data) for network in networks for each in (*network.parameters(), *network.buffers())]
+        kept = [network.state_dict() for network in networks]
         try:
-            for each, _ in kept:
-                each.data = each.data.to(self.device)
+            for network, tensors in zip(networks, kept, strict=True):
+                moved = {name: tensor.to(self.device) for name, tensor in tensors.items()}
+                network.load_state_dict(moved, assign=True)
             yield
         finally:
-            for each, tensor in kept:
-                each.data = tensor
+            for network, tensors in zip(networks, kept, strict=True):
+                network.load_state_dict(tensors, assign=True)
             self.left()
