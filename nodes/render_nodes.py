@@ -1,22 +1,29 @@
-"""From motion to frames: the layered renderer, and in-betweens."""
+"""From motion to frames: the renderers, and in-betweens."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from itertools import count
+from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
 from .defaults import default_of
 from .model_files import find_model_file
 from .progress import host_progress
+from .sketch_video import missing_sketch_video_files, sketch_video_frames, sketch_video_inputs
 from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of, pictures_of
 from .wires import MaskedMotion, MotionWire
 
 if TYPE_CHECKING:
     import torch
+    from numpy.typing import NDArray
+
+    from ..rendering.composite import LayeredRenderer
 
 __all__ = ["Interpolate", "Render"]
 
+_COMPOSITE, _SKETCH_VIDEO = "composite", "sketch-guided SVD"
 _IMAGES_ARE = ("all frames", "keyframes")
 
 
@@ -27,10 +34,21 @@ class Render(io.ComfyNode):
             node_id="PhysAnimator_Render",
             display_name="Render",
             category="PhysAnimator/render",
-            description="Paints the frames: each body stretched along with its mesh, over the picture without it.",
+            description="Paints the frames: each body stretched along with its mesh, over the picture without it; or by"
+            " a video model that follows sketches.",
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 MotionWire.Input("motion", tooltip="From Simulate; it carries the masks along."),
+                io.DynamicCombo.Input(
+                    "renderer",
+                    options=[
+                        io.DynamicCombo.Option(_COMPOSITE, []),
+                        io.DynamicCombo.Option(_SKETCH_VIDEO, sketch_video_inputs()),
+                    ],
+                    optional=True,
+                    tooltip="composite: the illustration's own pixels, without any model."
+                    " sketch-guided SVD: the paper's renderer, for which two model files are needed.",
+                ),
                 io.Image.Input(
                     "clean_plate",
                     optional=True,
@@ -45,21 +63,38 @@ class Render(io.ComfyNode):
         )
 
     @classmethod
+    def validate_inputs(cls, renderer: dict[str, Any] | None = None, **others: Any) -> bool | str:
+        # The host hands over the inputs that a choice brings only to a function that takes every input.
+        return " ".join(missing_sketch_video_files(renderer or {})) or True
+
+    @classmethod
     def execute(
-        cls, image: torch.Tensor, motion: MaskedMotion, clean_plate: torch.Tensor | None = None
+        cls,
+        image: torch.Tensor,
+        motion: MaskedMotion,
+        renderer: dict[str, Any] | None = None,
+        clean_plate: torch.Tensor | None = None,
     ) -> io.NodeOutput:
         from ..rendering.composite import LayeredRenderer
 
-        plate = None if clean_plate is None else picture_of(clean_plate, name="clean_plate")
-        renderer = LayeredRenderer(picture_of(image), motion.masks, motion.motion, plate=plate)
-        count, report = len(motion.motion), host_progress()
-        frames, alpha = picture_batch(count), mask_batch(count)
-        for number in range(count):
-            picture, covered = renderer.frame_and_alpha(number)
-            frames.put(picture)
+        picture, plate = picture_of(image), None if clean_plate is None else picture_of(clean_plate, name="clean_plate")
+        layers = LayeredRenderer(picture, motion.masks, motion.motion, plate=plate)
+        frames, alpha = picture_batch(len(layers)), mask_batch(len(layers))
+        if renderer is not None and renderer["renderer"] == _SKETCH_VIDEO:
+            drawn = zip(sketch_video_frames(picture, layers, renderer), map(layers.alpha, count()), strict=False)
+        else:
+            drawn = _composed(layers)
+        for frame, covered in drawn:
+            frames.put(frame)
             alpha.put(covered)
-            report(number + 1, count)
-        return io.NodeOutput(frames.tensor, alpha.tensor, batch_of_pictures([renderer.plate], 1))
+        return io.NodeOutput(frames.tensor, alpha.tensor, batch_of_pictures([layers.plate], 1))
+
+
+def _composed(layers: LayeredRenderer) -> Iterator[tuple[NDArray[Any], NDArray[Any]]]:
+    report = host_progress()
+    for number in range(len(layers)):
+        yield layers.frame_and_alpha(number)
+        report(number + 1, len(layers))
 
 
 class Interpolate(io.ComfyNode):

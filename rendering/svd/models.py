@@ -21,7 +21,7 @@ from .unet import SpatioTemporalUNet
 __all__ = ["WANTED_LVCD", "SketchVideoModels", "load_models"]
 
 WANTED_LVCD = (
-    "LVCD's lvcd.ckpt from https://huggingface.co/luckyhzt/LVCD, or lvcd-fp16.safetensors from"
+    "LVCD's lvcd.ckpt from https://huggingface.co/luckyhzt/lvcd_pretrained_models, or lvcd-fp16.safetensors from"
     " https://huggingface.co/Kijai/LVCD-pruned"
 )
 

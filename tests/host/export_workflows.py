@@ -8,6 +8,7 @@ would save; the API files are what it would post.
 
 from __future__ import annotations
 
+import copy
 import io
 import json
 import os
@@ -127,6 +128,16 @@ def thumbnail(host: Host, api: dict[str, Any], path: Path) -> None:
     print(path.relative_to(ROOT))
 
 
+def without_models(api: dict[str, Any]) -> dict[str, Any]:
+    """The workflow with the renderer that needs no model files."""
+    changed = copy.deepcopy(api)
+    for node in changed.values():
+        if node["class_type"] == "PhysAnimator_Render":
+            node["inputs"] = {name: value for name, value in node["inputs"].items() if not name.startswith("renderer.")}
+            node["inputs"]["renderer"] = "composite"
+    return changed
+
+
 def schemas(host: Host) -> dict[str, Any]:
     """What the host tells about the nodes of this pack."""
     info = host.get("/object_info")
@@ -153,7 +164,7 @@ def main() -> None:
                     ui, api = export(page, name, build())
                     _write(ROOT / "workflows" / f"{name}.json", ui)
                     _write(ROOT / "workflows" / "api" / f"{name}.json", api)
-                    thumbnail(host, api, ROOT / "workflows" / f"{name}.jpg")
+                    thumbnail(host, without_models(api), ROOT / "workflows" / f"{name}.jpg")
         finally:
             host.stop()
 
