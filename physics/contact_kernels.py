@@ -37,7 +37,9 @@ def build_contact_kernel(ti: Any) -> Any:
     pairs4 = ti.types.ndarray(dtype=ti.types.vector(4, ti.i32), ndim=1)
 
     @ti.func
-    def plan_tick(tick: ti.i32, solid: ti.template(), state: ti.template(), drive: ti.template(), surface: ti.template()):
+    def plan_tick(
+        tick: ti.i32, solid: ti.template(), state: ti.template(), drive: ti.template(), surface: ti.template()
+    ):
         """Choose the steps of every part and begin its tick; returns the intervals of the parts that may touch."""
         most = 1
         for part in range(solid.substeps.shape[0]):

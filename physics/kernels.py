@@ -95,7 +95,9 @@ def build_kernels(ti: Any) -> Kernels:
     begin_tick, move = functions.begin_tick, functions.move
 
     @ti.func
-    def advance_part(part: ti.i32, solid: ti.template(), state: ti.template(), drive: ti.template(), pairs: ti.template()):
+    def advance_part(
+        part: ti.i32, solid: ti.template(), state: ti.template(), drive: ti.template(), pairs: ti.template()
+    ):
         first, end = solid.starts[part], solid.starts[part + 1]
         for tick in range(drive.first_particles.shape[0] - 1):
             squared = highest_frequency(solid, state, first[1] & _SMALL, end[1] & _SMALL)
@@ -292,9 +294,7 @@ def build_kernels(ti: Any) -> Kernels:
             )
 
     @ti.kernel
-    def forces(
-        corners: types.index_blocks, elements: types.blocks, u: types.vectors, corner_forces: types.pair_blocks
-    ):
+    def forces(corners: types.index_blocks, elements: types.blocks, u: types.vectors, corner_forces: types.pair_blocks):
         ti.loop_config(serialize=True)
         for n in range(corners.shape[0]):
             elastic = ti.static(_Elastic(corners, elements, u, corner_forces))

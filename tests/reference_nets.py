@@ -89,12 +89,15 @@ def _arrays(tensors: Mapping[str, Tensor]) -> dict[str, np.ndarray]:
 
 @contextmanager
 def recorded(case: str, prefix: str, network: nn.Module) -> Iterator[dict[str, Tensor]]:
-    """While active, collects the case's summaries ``prefix.PATH`` (outputs of modules) and ``prefix.PATH:input``."""
+    """While active, collects the case's summaries ``prefix.PATH`` (outputs of modules) and ``prefix.PATH:input``.
+
+    An empty prefix stands for plain ``PATH``.
+    """
     found: dict[str, Tensor] = {}
-    modules, hooks = dict(network.named_modules()), []
+    modules, hooks, start = dict(network.named_modules()), [], f"{prefix}." if prefix else ""
     for name in fixtures().cases[case].get("summaries", {}):
-        path, _, is_input = name.removeprefix(prefix + ".").partition(":")
-        if not name.startswith(prefix + ".") or path not in modules:
+        path, _, is_input = name.removeprefix(start).partition(":")
+        if not name.startswith(start) or path not in modules:
             continue
 
         def keep(_: nn.Module, given: Any, out: Any, name: str = name, is_input: str = is_input) -> None:

@@ -14,7 +14,7 @@ from .configuration import NetworkConfiguration
 from .encoder import SpatioTemporalEncoder
 from .frame_layout import FrameLayout
 
-__all__ = ["SketchControlNet"]
+__all__ = ["SketchControlNet", "hint_layers", "zero_convolution"]
 
 _HINT_CHANNELS = (16, 16, 32, 32, 96, 96, 256)
 _HINT_STRIDES = (1, 1, 2, 1, 2, 1, 2, 1)
@@ -28,9 +28,9 @@ class SketchControlNet(SpatioTemporalEncoder):
 
     def __init__(self, config: NetworkConfiguration) -> None:
         super().__init__(config)
-        self.input_hint_block = nn.Sequential(*_hint_layers(config))
-        self.zero_convs = nn.ModuleList(_zero_convolution(channels) for channels in self.skip_channels)
-        self.middle_block_out = _zero_convolution(config.level_channels[-1])
+        self.input_hint_block = nn.Sequential(*hint_layers(config.hint_channels, config.model_channels))
+        self.zero_convs = nn.ModuleList(zero_convolution(channels) for channels in self.skip_channels)
+        self.middle_block_out = zero_convolution(config.level_channels[-1])
 
     @classmethod
     def from_reference(
@@ -65,16 +65,16 @@ class SketchControlNet(SpatioTemporalEncoder):
         return [*residuals, self.middle_block_out(middle)]
 
 
-def _hint_layers(config: NetworkConfiguration) -> Iterator[nn.Module]:
+def hint_layers(hint_channels: int, model_channels: int) -> Iterator[nn.Module]:
     """Convolutions from picture to latent resolution, a SiLU between each two."""
-    widths = (config.hint_channels, *_HINT_CHANNELS, config.model_channels)
+    widths = (hint_channels, *_HINT_CHANNELS, model_channels)
     for number, ((before, after), stride) in enumerate(zip(pairwise(widths), _HINT_STRIDES, strict=True)):
         if number:
             yield nn.SiLU()
         yield nn.Conv2d(before, after, 3, stride=stride, padding=1)
 
 
-def _zero_convolution(channels: int) -> nn.Sequential:
+def zero_convolution(channels: int) -> nn.Sequential:
     """Zero before training; real weights are assigned."""
     convolution = nn.Conv2d(channels, channels, 1)
     nn.init.zeros_(convolution.weight)

@@ -15,7 +15,7 @@ from .encoder import SpatioTemporalEncoder, Stage, residual_block, transformer
 from .frame_layout import FrameLayout
 from .residual_block import normalised
 
-__all__ = ["SpatioTemporalUNet"]
+__all__ = ["SpatioTemporalUNet", "Upsample"]
 
 
 class Upsample(nn.Module):
