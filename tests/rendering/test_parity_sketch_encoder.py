@@ -16,7 +16,7 @@ NET = "sketch_encoder"
 def test_residuals(case: str) -> None:
     described, given = reference.fixtures().cases[case], reference.inputs(case)
     net = SketchEncoder.from_reference(reference.fixtures().nets[NET]["config"], reference.state_dict(case, NET))
-    with torch.no_grad(), reference.recorded(case, "input_hint_block", net) as found:
+    with torch.no_grad(), reference.recorded(case, "", net) as found:
         residuals = net(given["x"], given["hint"], given["t"], given["context"])
     named = found | {f"control_{number:02d}": each for number, each in enumerate(residuals)}
     got = {name: each for name, each in named.items() if name in described["outputs"]}
