@@ -61,7 +61,7 @@ def write_single_file(path: Path, given: dict[str, Tensors]) -> Path:
             content["conditioner.embedders.3.encoder." + name] = tensor
         if name.startswith("encoder."):
             content["first_stage_model." + name] = torch.zeros_like(tensor)
-    for name, tensor in _open_clip(given["image_encoder"]):
+    for name, tensor in open_clip(given["image_encoder"]):
         content["conditioner.embedders.0.open_clip.model.visual." + name] = tensor
     content["conditioner.embedders.0.open_clip.model.logit_scale"] = torch.zeros(())
     save_file({name: tensor.clone().contiguous() for name, tensor in content.items()}, path)
@@ -190,7 +190,7 @@ def _public_autoencoder(tensors: Tensors) -> Iterator[tuple[str, Tensor]]:
         yield public, tensor[:, :, None, None] if matrix else tensor
 
 
-def _open_clip(tensors: Tensors) -> Iterator[tuple[str, Tensor]]:
+def open_clip(tensors: Tensors) -> Iterator[tuple[str, Tensor]]:
     """OpenCLIP's names, in which queries, keys and values are one tensor."""
     named = {
         "vision_model.embeddings.class_embedding": "class_embedding",

@@ -106,8 +106,10 @@ class _VisionModel(nn.Module):
         self.post_layernorm = nn.LayerNorm(config.width)
 
     def forward(self, picture: Tensor) -> Tensor:
-        x = self.encoder(self.pre_layrnorm(self.embeddings(picture)))
-        return self.post_layernorm(x[:, 0])
+        return self.post_layernorm(self.tokens(picture)[:, 0])
+
+    def tokens(self, picture: Tensor) -> Tensor:
+        return self.encoder(self.pre_layrnorm(self.embeddings(picture)))
 
 
 class ImageEncoder(nn.Module):
@@ -122,6 +124,10 @@ class ImageEncoder(nn.Module):
     def forward(self, picture: Tensor) -> Tensor:
         """Embed pictures that ``encoder_picture`` has prepared, shape [b, 3, h, h], as [b, projection]."""
         return self.visual_projection(self.vision_model(picture))
+
+    def tokens(self, picture: Tensor) -> Tensor:
+        """All tokens of such pictures after the last layer, not normalised, shape [b, n, width]."""
+        return self.vision_model.tokens(picture)
 
 
 def encoder_picture(picture: Tensor, size: int) -> Tensor:

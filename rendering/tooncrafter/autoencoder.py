@@ -87,11 +87,13 @@ class _Downsample(nn.Module):
 class _Level(nn.Module):
     """Blocks of one level and, but for the last, the way to the next."""
 
-    def __init__(self, blocks: Sequence[nn.Module], **way: nn.Module) -> None:
+    def __init__(
+        self, blocks: Sequence[nn.Module], downsample: nn.Module | None = None, upsample: nn.Module | None = None
+    ) -> None:
         super().__init__()
         self.block = nn.ModuleList(blocks)
-        for name, layer in way.items():
-            self.add_module(name, layer)
+        self.downsample = downsample
+        self.upsample = upsample
 
     def forward(self, x: Tensor) -> Tensor:
         """The blocks alone."""
@@ -119,8 +121,7 @@ class _Encoder(nn.Module):
         channels = config.ch
         for number, width in enumerate(levels):
             blocks = [PictureBlock(channels if not each else width, width) for each in range(config.num_res_blocks)]
-            way = {"downsample": _Downsample(width)} if number + 1 < len(levels) else {}
-            self.down.append(_Level(blocks, **way))
+            self.down.append(_Level(blocks, downsample=_Downsample(width) if number + 1 < len(levels) else None))
             channels = width
         self.mid = _Middle(PictureBlock, last)
         self.norm_out = normalised(last, epsilon=1e-6)
@@ -130,9 +131,10 @@ class _Encoder(nn.Module):
         entrance = x = self.conv_in(x)
         features = []
         for level in self.down:
+            assert isinstance(level, _Level)
             x = level(x)
             features.append(x)
-            if hasattr(level, "downsample"):
+            if level.downsample is not None:
                 x = level.downsample(x)
         x = functional.silu(self.norm_out(self.mid(x)))
         return self.conv_out(x), [*features, entrance]
@@ -159,7 +161,7 @@ class _Decoder(nn.Module):
         up = []
         for number, width in reversed(list(enumerate(levels))):
             blocks = [VideoBlock(channels if not each else width, width) for each in range(config.num_res_blocks + 1)]
-            up.append(_Level(blocks, **({"upsample": Upsample(width)} if number else {})))
+            up.append(_Level(blocks, upsample=Upsample(width) if number else None))
             channels = width
         self.up = nn.ModuleList(reversed(up))
         refinements = [
@@ -173,8 +175,10 @@ class _Decoder(nn.Module):
     def forward(self, x: Tensor, references: Sequence[Tensor]) -> Tensor:
         x = self.mid(self.conv_in(x))
         for number in reversed(range(len(self.up))):
-            x = self.attn_refinement[number](self.up[number](x), references[number])
-            if number:
-                x = self.up[number].upsample(x)
+            level = self.up[number]
+            assert isinstance(level, _Level)
+            x = self.attn_refinement[number](level(x), references[number])
+            if level.upsample is not None:
+                x = level.upsample(x)
         x = functional.silu(self.norm_out(x))
         return self.conv_out(self.attn_refinement[len(self.up)](x, references[-1]))

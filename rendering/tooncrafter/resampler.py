@@ -42,6 +42,15 @@ def _feed_forward(config: ResamplerConfiguration) -> nn.Sequential:
     return nn.Sequential(nn.LayerNorm(config.dim), first, nn.GELU(), second)
 
 
+class _Layer(nn.ModuleList):
+    def __init__(self, config: ResamplerConfiguration) -> None:
+        super().__init__([_Attention(config), _feed_forward(config)])
+
+    def forward(self, tokens: Tensor, queries: Tensor) -> Tensor:
+        queries = queries + self[0](tokens, queries)
+        return queries + self[1](queries)
+
+
 class ImageResampler(nn.Module):
     """Tells the UNet what is in a picture."""
 
@@ -53,9 +62,7 @@ class ImageResampler(nn.Module):
         self.config = config
         self.latents = nn.Parameter(torch.zeros(1, config.num_queries * config.video_length, config.dim))
         self.proj_in = nn.Linear(config.embedding_dim, config.dim)
-        self.layers = nn.ModuleList(
-            nn.ModuleList([_Attention(config), _feed_forward(config)]) for _ in range(config.depth)
-        )
+        self.layers = nn.ModuleList(_Layer(config) for _ in range(config.depth))
         self.proj_out = nn.Linear(config.dim, config.output_dim)
         self.norm_out = nn.LayerNorm(config.output_dim)
 
@@ -80,7 +87,6 @@ class ImageResampler(nn.Module):
         """
         tokens = self.proj_in(tokens)
         queries = self.latents.expand(len(tokens), -1, -1)
-        for attention, feed_forward in self.layers:  # type: ignore[misc]
-            queries = queries + attention(tokens, queries)
-            queries = queries + feed_forward(queries)
+        for layer in self.layers:
+            queries = layer(tokens, queries)
         return self.norm_out(self.proj_out(queries))
