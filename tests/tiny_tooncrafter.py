@@ -26,13 +26,18 @@ from torch import Tensor
 
 SIZES = ModelSizes(
     UNetConfiguration(
-        model_channels=32, num_head_channels=16, context_dim=16, init_attn_heads=2, image_tokens_per_frame=2
+        model_channels=32,
+        num_res_blocks=1,
+        num_head_channels=16,
+        context_dim=16,
+        init_attn_heads=2,
+        image_tokens_per_frame=2,
     ),
     ResamplerConfiguration(
         dim=16, depth=1, heads=2, dim_head=8, num_queries=2, embedding_dim=32, output_dim=16, ff_mult=2
     ),
-    AutoencoderConfiguration(ch=32, ch_mult=(1, 1, 1, 1), fusion_heads=2, fusion_dim_head=8),
-    SketchEncoderConfiguration(model_channels=32, num_head_channels=16, context_dim=16),
+    AutoencoderConfiguration(ch=32, ch_mult=(1, 1, 1, 1), num_res_blocks=1, fusion_heads=2, fusion_dim_head=8),
+    SketchEncoderConfiguration(model_channels=32, num_res_blocks=1, num_head_channels=16, context_dim=16),
     ImageEncoderConfiguration(width=32, layers=2, heads=2, hidden=48, patch=14, picture=28, projection=24),
     TextEncoderConfiguration(width=16, layers=2, heads=2),
 )
