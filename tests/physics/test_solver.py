@@ -254,6 +254,7 @@ def test_large_stretch_refines_the_step() -> None:
         vertices=solid_of(rest).vertices * np.float32([1, 1, 1, 0]),
         substeps=np.array([substeps(highest)], dtype=np.int32),
     )
+
     def energies(solid: Solid) -> list[float]:
         state, found = State.at_rest(solid), []
         state.displacement[:] = (rest.positions - rest.positions.mean(axis=0)) / 2
