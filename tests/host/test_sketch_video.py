@@ -42,13 +42,13 @@ def test_missing_weights_are_named_with_their_source(host: Any) -> None:
 def chosen(host: Any) -> dict[str, str]:
     """Small random weights among the host's models; a diffusers folder tells their sizes."""
     torch = pytest.importorskip("torch")
-    tiny_svd = pytest.importorskip("tiny_svd")
+    random_svd = pytest.importorskip("random_svd")
     torch.set_num_threads(1)
-    models, weights = host.folder / "models", tiny_svd.weights()
+    models, weights = host.folder / "models", random_svd.weights()
     for kind in ("diffusers", "controlnet"):
         (models / kind).mkdir(parents=True, exist_ok=True)
-    tiny_svd.write_folder(models / "diffusers" / "svd-tiny", weights)
-    tiny_svd.write_lvcd(models / "controlnet" / "lvcd-fp16.safetensors", weights, dtype=torch.float16)
+    random_svd.write_folder(models / "diffusers" / "svd-tiny", weights)
+    random_svd.write_lvcd(models / "controlnet" / "lvcd-fp16.safetensors", weights, dtype=torch.float16)
     return {"svd_model": "diffusers/svd-tiny", "lvcd_model": "lvcd-fp16.safetensors"}
 
 
