@@ -11,7 +11,7 @@ from comfy_api.latest import io
 from .defaults import default_of
 from .model_files import find_model_file
 from .progress import host_progress
-from .sketch_video import missing_sketch_video_files, sketch_video_frames, sketch_video_inputs
+from .sketch_video import sketch_video_frames, sketch_video_inputs
 from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of, pictures_of
 from .wires import MaskedMotion, MotionWire
 
@@ -61,11 +61,6 @@ class Render(io.ComfyNode):
                 io.Image.Output("plate", display_name="clean_plate", tooltip="The picture without the moving parts."),
             ],
         )
-
-    @classmethod
-    def validate_inputs(cls, renderer: dict[str, Any] | None = None, **others: Any) -> bool | str:
-        # The host hands over the inputs that a choice brings only to a function that takes every input.
-        return " ".join(missing_sketch_video_files(renderer or {})) or True
 
     @classmethod
     def execute(

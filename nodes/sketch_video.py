@@ -27,9 +27,9 @@ if TYPE_CHECKING:
     from ..rendering.svd.models import SketchVideoModels
     from ..rendering.svd.sampler import SampledStep
 
-__all__ = ["missing_sketch_video_files", "sketch_video_frames", "sketch_video_inputs"]
+__all__ = ["sketch_video_frames", "sketch_video_inputs"]
 
-_AREAS = {"576 x 320": 576 * 320, "768 x 448": 768 * 448, "1024 x 576": 1024 * 576}
+_AREAS = {"448 x 256": 448 * 256, "576 x 320": 576 * 320, "768 x 448": 768 * 448, "1024 x 576": 1024 * 576}
 _PRECISIONS = ("auto", "fp16", "bf16", "fp32")
 _USUAL = SketchVideoOptions()
 
@@ -82,7 +82,7 @@ def sketch_video_inputs() -> list[Any]:
         io.Combo.Input(
             "working_size",
             options=list(_AREAS),
-            default=next(iter(_AREAS)),
+            default="576 x 320",
             tooltip="Area that the model works on [px], in the illustration's proportions; trained at 576 x 320.",
         ),
         io.Int.Input(
@@ -129,16 +129,6 @@ def sketch_video_inputs() -> list[Any]:
     ]
 
 
-def missing_sketch_video_files(choice: dict[str, Any]) -> list[str]:
-    """One sentence for each chosen model file that is not there, with where to get it."""
-    found = {"svd_model": svd_file, "lvcd_model": lvcd_file}
-    return [
-        f"{choice[name]} is missing: {SKETCH_VIDEO[name]}"
-        for name, find in found.items()
-        if isinstance(choice.get(name), str) and find(choice[name]) is None
-    ]
-
-
 def sketch_video_frames(image: FloatImage, layers: LayeredRenderer, choice: dict[str, Any]) -> Iterator[FloatImage]:
     """The frames.
 
@@ -150,13 +140,11 @@ def sketch_video_frames(image: FloatImage, layers: LayeredRenderer, choice: dict
     import torch
     from comfy import model_management
 
-    from ..physics.errors import InvalidInputError, require
+    from ..physics.errors import require
     from ..rendering.svd.memory import peak_memory
     from ..rendering.svd.renderer import SketchVideoRenderer
 
-    missing = missing_sketch_video_files(choice)
-    if missing:
-        raise InvalidInputError(" ".join(missing))
+    files = _files(choice)
     sketches = pictures_of(choice["sketches"], name="sketches")
     require(
         "sketches", len(sketches), len(sketches) == len(layers), f"one for each of the motion's {len(layers)} frames"
@@ -165,7 +153,9 @@ def sketch_video_frames(image: FloatImage, layers: LayeredRenderer, choice: dict
     if device.type == "cuda":
         torch.cuda.reset_peak_memory_stats(device)
     began = time.perf_counter()
-    renderer = SketchVideoRenderer(_models(choice, device), options=_options(choice), placement=_placement(device))
+    renderer = SketchVideoRenderer(
+        _models(*files, _dtype(choice["precision"], device)), options=_options(choice), placement=_placement(device)
+    )
     region = None
     if choice["keep_still_parts"]:
         alphas = (layers.alpha(number) for number in range(len(layers)))
@@ -182,11 +172,20 @@ def _options(choice: dict[str, Any]) -> SketchVideoOptions:
     return SketchVideoOptions(area=_AREAS[choice["working_size"]], seed=choice["noise_from"], **chosen)
 
 
-def _models(choice: dict[str, Any], device: torch.device) -> SketchVideoModels:
+def _files(choice: dict[str, Any]) -> tuple[Path, Path]:
+    """The chosen model files."""
+    from ..physics.errors import InvalidInputError
+
     svd, lvcd = svd_file(choice["svd_model"]), lvcd_file(choice["lvcd_model"])
-    assert svd is not None
-    assert lvcd is not None
-    return _loaded(svd, svd.stat().st_mtime, lvcd, lvcd.stat().st_mtime, _dtype(choice["precision"], device))
+    if svd is None or lvcd is None:
+        missing = [name for name, path in {"svd_model": svd, "lvcd_model": lvcd}.items() if path is None]
+        told = " ".join(f"{choice[name]} is missing: {SKETCH_VIDEO[name]}" for name in missing)
+        raise InvalidInputError(f"{told} Or set renderer to composite, which needs no model.")
+    return svd, lvcd
+
+
+def _models(svd: Path, lvcd: Path, dtype: torch.dtype) -> SketchVideoModels:
+    return _loaded(svd, svd.stat().st_mtime, lvcd, lvcd.stat().st_mtime, dtype)
 
 
 @lru_cache(maxsize=1)

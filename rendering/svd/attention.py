@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import torch
 from torch import Tensor, nn
 from torch.nn import functional
@@ -98,15 +96,9 @@ class MaskedTemporalAttention(_Attention):
 
 def _of_frames(x: Tensor, run: KeyFrames) -> Tensor:
     """Tokens, shape [b, t, n, c], of the frames that each frame of the run attends to, shape [b * run, n or 2 n, c]."""
-    chosen = x[:, _indices(run.own, x.device)]
-    if run.reference:
-        chosen = torch.cat([chosen, x[:, _indices(run.reference, x.device)]], dim=2)
-    return chosen.flatten(0, 1)
-
-
-@lru_cache(maxsize=64)
-def _indices(frames: tuple[int, ...], device: torch.device) -> Tensor:
-    return torch.tensor(frames, dtype=torch.long, device=device)
+    halves = (run.own, run.reference) if run.reference else (run.own,)
+    chosen = [x[:, frame] for frames in zip(*halves, strict=True) for frame in frames]
+    return torch.cat(chosen, dim=1).unflatten(1, (len(run.own), -1)).flatten(0, 1)
 
 
 def _half_bias(bias: float, x: Tensor) -> Tensor:

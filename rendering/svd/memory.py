@@ -10,10 +10,10 @@ from torch import nn
 
 __all__ = ["autoencoder_bytes", "bytes_of", "peak_memory", "sampling_bytes"]
 
-_SAMPLING_COPIES = 32
+_SAMPLING_COPIES = 40
 """So many tensors of the first level's size live at once in the UNet: skips, keys and values, gated layers."""
 
-_AUTOENCODER_COPIES = 5
+_AUTOENCODER_COPIES = 8
 """So many tensors of full resolution live at once in the autoencoder."""
 
 

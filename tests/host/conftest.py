@@ -32,6 +32,7 @@ def _sibling(name: str) -> ModuleType:
 
 comfy_host = _sibling("comfy_host")
 browser = _sibling("browser")
+_sibling("graphs")
 
 
 @pytest.fixture(scope="session")

@@ -8,7 +8,6 @@ would save; the API files are what it would post.
 
 from __future__ import annotations
 
-import copy
 import io
 import json
 import os
@@ -22,7 +21,7 @@ from typing import Any
 import numpy as np
 from browser import Page, opened
 from comfy_host import ROOT, Host
-from graphs import WORKFLOWS, Group
+from graphs import WORKFLOWS, Group, without_models
 
 SCHEMAS = ROOT / "tests" / "nodes" / "node_schemas.json"
 _GAP = 40
@@ -126,16 +125,6 @@ def thumbnail(host: Host, api: dict[str, Any], path: Path) -> None:
     picture = max(frames, key=lambda frame: np.abs(np.asarray(frame) - first).mean())
     picture.resize((640, round(640 * picture.height / picture.width))).save(path, quality=88)
     print(path.relative_to(ROOT))
-
-
-def without_models(api: dict[str, Any]) -> dict[str, Any]:
-    """The workflow with the renderer that needs no model files."""
-    changed = copy.deepcopy(api)
-    for node in changed.values():
-        if node["class_type"] == "PhysAnimator_Render":
-            node["inputs"] = {name: value for name, value in node["inputs"].items() if not name.startswith("renderer.")}
-            node["inputs"]["renderer"] = "composite"
-    return changed
 
 
 def schemas(host: Host) -> dict[str, Any]:

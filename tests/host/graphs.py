@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass
 from typing import Any
 
-__all__ = ["WORKFLOWS", "Column", "Group", "Node"]
+__all__ = ["WORKFLOWS", "Column", "Group", "Node", "without_models"]
 
 
 @dataclass(frozen=True)
@@ -123,7 +124,8 @@ The *Rig Point* swings and turns the bow itself; the ribbons follow, overlap and
 PAPER_NOTE = """\
 ## The paper, as a graph
 
-Illustration, query points, mesh, strokes, rig, simulation, flow, sketch, warp, blur, **sketch-guided SVD**, interpolation.
+Illustration, query points, mesh, strokes, rig, simulation, flow, sketch, warp, blur, **sketch-guided SVD**, \
+interpolation.
 
 **Two model files** are needed, as *Render* tells:
 
@@ -406,3 +408,13 @@ WORKFLOWS = {
     "contact": contact,
     "seamless_loop": seamless_loop,
 }
+
+
+def without_models(api: dict[str, Any]) -> dict[str, Any]:
+    """The workflow with the renderer that needs no model files."""
+    changed = copy.deepcopy(api)
+    for node in changed.values():
+        if node["class_type"] == "PhysAnimator_Render":
+            node["inputs"] = {name: value for name, value in node["inputs"].items() if not name.startswith("renderer.")}
+            node["inputs"]["renderer"] = "composite"
+    return changed

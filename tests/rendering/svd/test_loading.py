@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-import tiny_svd
+import random_svd
 import torch
 from physanimator.rendering.checkpoints import CheckpointError
 from physanimator.rendering.svd.models import SketchVideoModels, load_models
@@ -34,7 +34,7 @@ def test_single_file_and_training_checkpoint(models: SketchVideoModels, weights:
 
 @pytest.mark.parametrize("suffix", [".safetensors", ".bin", ".fp16.safetensors"])
 def test_diffusers_folder(weights: Weights, lvcd: Path, tmp_path: Path, suffix: str) -> None:
-    assert_holds(load_models(tiny_svd.write_folder(tmp_path / "svd", weights, suffix=suffix), lvcd), weights)
+    assert_holds(load_models(random_svd.write_folder(tmp_path / "svd", weights, suffix=suffix), lvcd), weights)
 
 
 def test_split_diffusers_files(weights: Weights, folder: Path, lvcd: Path, tmp_path: Path) -> None:
@@ -54,17 +54,17 @@ def test_split_diffusers_files(weights: Weights, folder: Path, lvcd: Path, tmp_p
 @pytest.mark.parametrize("dtype", [torch.float16, torch.bfloat16, torch.float32])
 def test_pruned_lvcd_in_every_precision(weights: Weights, folder: Path, tmp_path: Path, dtype: torch.dtype) -> None:
     half = {part: {name: each.half().float() for name, each in found.items()} for part, found in weights.items()}
-    pruned = tiny_svd.write_lvcd(tmp_path / "lvcd-fp16.safetensors", weights, dtype=torch.float16)
+    pruned = random_svd.write_lvcd(tmp_path / "lvcd-fp16.safetensors", weights, dtype=torch.float16)
     expected = {**weights, "control": half["control"], "attention": half["attention"]}
     assert_holds(load_models(folder, pruned, dtype=dtype), expected, dtype=dtype)
 
 
 def test_an_encoder_with_the_quantisation_folded_in(weights: Weights, tmp_path: Path, lvcd: Path) -> None:
     """Files without the condition's own encoder have an encoder that needs no further convolution."""
-    path = tiny_svd.write_single_file(tmp_path / "svd.safetensors", weights)
+    path = random_svd.write_single_file(tmp_path / "svd.safetensors", weights)
     tensors = {name: each for name, each in load_file(path).items() if ".embedders.3." not in name}
     save_file(tensors, path)
-    loaded = load_models(path, lvcd, sizes=tiny_svd.SIZES).autoencoder
+    loaded = load_models(path, lvcd, sizes=random_svd.TINY).autoencoder
     moments = torch.randn(1, 8, 2, 2)
     torch.testing.assert_close(loaded.quant_conv(moments), moments)
 
@@ -79,9 +79,9 @@ def test_weights_in_the_right_precision_stay_in_the_file(models: SketchVideoMode
 
 def test_swapped_files_are_named(single_file: Path, lvcd: Path) -> None:
     with pytest.raises(CheckpointError, match=r"lvcd\.ckpt does not fit.*Wanted: Stable Video Diffusion"):
-        load_models(lvcd, lvcd, sizes=tiny_svd.SIZES)
+        load_models(lvcd, lvcd, sizes=random_svd.TINY)
     with pytest.raises(CheckpointError, match=r"svd\.safetensors does not fit.*control_model.*Wanted: LVCD"):
-        load_models(single_file, single_file, sizes=tiny_svd.SIZES)
+        load_models(single_file, single_file, sizes=random_svd.TINY)
 
 
 def test_files_of_another_size_are_named(single_file: Path, lvcd: Path) -> None:
@@ -100,7 +100,7 @@ def test_missing_names_of_lvcd_are_named(
     weights: Weights, folder: Path, tmp_path: Path, part: str, lost: str, fault: str
 ) -> None:
     left = {name: each for name, each in weights[part].items() if name != lost}
-    path = tiny_svd.write_lvcd(tmp_path / "lvcd.ckpt", {**weights, part: left})
+    path = random_svd.write_lvcd(tmp_path / "lvcd.ckpt", {**weights, part: left})
     with pytest.raises(CheckpointError, match=rf"lvcd\.ckpt does not fit: {fault}.*lvcd\.ckpt"):
         load_models(folder, path)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import log
 
 import pytest
-import tiny_svd
+import random_svd
 import torch
 from diffusers import UNetSpatioTemporalConditionModel
 from physanimator.rendering.svd.attention import MaskedTemporalAttention, ReferenceAttention
@@ -22,19 +22,19 @@ Given = tuple[torch.Tensor, torch.Tensor, torch.Tensor, torch.Tensor]
 def given(frames: int = FRAMES) -> Given:
     generator = torch.Generator().manual_seed(1)
     x = torch.randn(1, frames, 8, 8, 16, generator=generator)
-    context = torch.randn(1, 2, tiny_svd.SIZES.network.context_dim, generator=generator)
+    context = torch.randn(1, 2, random_svd.TINY.network.context_dim, generator=generator)
     return x, torch.tensor([0.4]), context, torch.tensor([[6.0, 127.0, 0.02]])
 
 
 def unet() -> SpatioTemporalUNet:
-    network = SpatioTemporalUNet(tiny_svd.SIZES.network)
-    network.load_state_dict(tiny_svd.random_weights(network, 1))
+    network = SpatioTemporalUNet(random_svd.TINY.network)
+    network.load_state_dict(random_svd.random_weights(network, 1))
     return network.eval()
 
 
 @torch.no_grad()
 def test_without_references_it_is_plain_stable_video_diffusion() -> None:
-    ours, config = unet(), tiny_svd.SIZES.network
+    ours, config = unet(), random_svd.TINY.network
     theirs = UNetSpatioTemporalConditionModel(
         block_out_channels=config.level_channels,
         addition_time_embed_dim=config.ids_embed_dim,
@@ -42,7 +42,7 @@ def test_without_references_it_is_plain_stable_video_diffusion() -> None:
         cross_attention_dim=config.context_dim,
         num_attention_heads=tuple(each // config.num_head_channels for each in config.level_channels),
     ).eval()
-    theirs.load_state_dict(dict(tiny_svd.diffusers_unet(ours.state_dict())))
+    theirs.load_state_dict(dict(random_svd.diffusers_unet(ours.state_dict())))
     x, level, context, ids = given()
     plain = FrameLayout(0, (KeyFrames(tuple(range(FRAMES))),))
     expected = theirs(x, level, context, ids).sample
@@ -97,7 +97,7 @@ def test_amplification_counts_a_token_so_many_times() -> None:
 
 @torch.no_grad()
 def test_an_untrained_control_net_changes_nothing() -> None:
-    network, control, layout = unet(), SketchControlNet(tiny_svd.SIZES.network), FrameLayout.single_reference(3)
+    network, control, layout = unet(), SketchControlNet(random_svd.TINY.network), FrameLayout.single_reference(3)
     x, *conditions = given(3)
     residuals = control(x, torch.rand(1, 3, 3, 64, 128), *conditions, layout)
     plain = network(x, *conditions, layout)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import tiny_svd
+import random_svd
 import torch
 from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
@@ -60,7 +60,7 @@ def test_one_frame_for_each_sketch(models: SketchVideoModels, count: int) -> Non
 def test_every_format_gives_the_same_clip(
     short: Image, weights: dict[str, dict[str, torch.Tensor]], folder: Path, tmp_path: Path
 ) -> None:
-    lvcd = tiny_svd.write_lvcd(tmp_path / "lvcd.safetensors", weights)
+    lvcd = random_svd.write_lvcd(tmp_path / "lvcd.safetensors", weights)
     np.testing.assert_allclose(clip(load_models(folder, lvcd)), short, atol=1e-3)
 
 
@@ -80,7 +80,7 @@ def test_sketches_and_settings_matter(models: SketchVideoModels, short: Image) -
 
 @pytest.mark.parametrize("dtype", [torch.bfloat16])
 def test_half_precision_gives_nearly_the_same(short: Image, single_file: Path, lvcd: Path, dtype: torch.dtype) -> None:
-    half = clip(load_models(single_file, lvcd, dtype=dtype, sizes=tiny_svd.SIZES))
+    half = clip(load_models(single_file, lvcd, dtype=dtype, sizes=random_svd.TINY))
     assert np.abs(half - short).max() < 0.1
     assert np.abs(half - short).mean() < 0.02
 

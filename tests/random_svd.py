@@ -1,12 +1,14 @@
-"""Small random networks of the sketch-guided renderer, written to disk in every format that the real ones come in."""
+"""Random weights of the sketch-guided renderer, small or of full size, on disk in every format of the real ones."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import torch
+from physanimator.rendering.checkpoints import build_without_storage
 from physanimator.rendering.svd.autoencoder import build_autoencoder
 from physanimator.rendering.svd.configuration import NetworkConfiguration
 from physanimator.rendering.svd.controlnet import SketchControlNet
@@ -16,7 +18,7 @@ from physanimator.rendering.svd.unet import SpatioTemporalUNet
 from safetensors.torch import save_file
 from torch import Tensor, nn
 
-SIZES = ModelSizes(
+TINY = ModelSizes(
     NetworkConfiguration(model_channels=32, num_head_channels=16, context_dim=24, adm_in_channels=24, ids_embed_dim=8),
     (32, 32, 32, 32),
     ImageEncoderConfiguration(width=32, layers=2, heads=2, hidden=48, patch=14, picture=28, projection=24),
@@ -24,30 +26,51 @@ SIZES = ModelSizes(
 
 Tensors = dict[str, Tensor]
 
+_DISTINCT = 2**20
 
-def random_weights(network: nn.Module, seed: int) -> Tensors:
-    """Normalisations stay near 1, all else is small enough for numbers to stay moderate."""
+
+def random_weights(network: nn.Module, seed: int, *, dtype: torch.dtype = torch.float32) -> Tensors:
+    """Weights for a network, also for one without storage.
+
+    Normalisations stay near 1, all else is small enough for numbers to stay moderate. Large tensors repeat themselves.
+    """
     generator = torch.Generator().manual_seed(seed)
     found = {}
     for name, tensor in network.state_dict().items():
-        noise = torch.randn(tensor.shape, generator=generator)
+        count = tensor.numel()
+        noise = torch.randn(min(count, _DISTINCT), generator=generator)
         fan_in = max(tensor[0].numel(), 1) if tensor.ndim > 1 else 25
         gain = 1.0 if tensor.ndim == 1 and name.endswith("weight") else 0.0
-        found[name] = gain + noise * fan_in**-0.5
+        values = (gain + noise * fan_in**-0.5).to(dtype)
+        found[name] = values.repeat(-(-count // _DISTINCT))[:count].reshape(tensor.shape)
     return found
 
 
-def weights() -> dict[str, Tensors]:
+def weights(sizes: ModelSizes = TINY, *, dtype: torch.dtype = torch.float32) -> dict[str, Tensors]:
     """Of every network, by our own names, and the attention that LVCD has instead."""
-    unet = SpatioTemporalUNet(SIZES.network)
-    tuned = random_weights(unet, 5)
+    unet = build_without_storage(lambda: SpatioTemporalUNet(sizes.network))
+    control = build_without_storage(lambda: SketchControlNet(sizes.network))
+    autoencoder = build_without_storage(lambda: build_autoencoder(sizes.autoencoder))
+    encoder = build_without_storage(lambda: ImageEncoder(sizes.image_encoder))
+    attention = _Attention({name: each for name, each in unet.state_dict().items() if ".attn1." in name})
     return {
-        "unet": random_weights(unet, 1),
-        "control": random_weights(SketchControlNet(SIZES.network), 2),
-        "autoencoder": random_weights(build_autoencoder(SIZES.autoencoder), 3),
-        "image_encoder": random_weights(ImageEncoder(SIZES.image_encoder), 4),
-        "attention": {name: tensor for name, tensor in tuned.items() if ".attn1." in name},
+        "unet": random_weights(unet, 1, dtype=dtype),
+        "control": random_weights(control, 2, dtype=dtype),
+        "autoencoder": random_weights(autoencoder, 3, dtype=dtype),
+        "image_encoder": random_weights(encoder, 4, dtype=dtype),
+        "attention": random_weights(attention, 5, dtype=dtype),
     }
+
+
+class _Attention(nn.Module):
+    """Stands for the part of the UNet that LVCD's file holds."""
+
+    def __init__(self, tensors: Tensors) -> None:
+        super().__init__()
+        self.tensors = tensors
+
+    def state_dict(self, *_: Any, **__: Any) -> Any:
+        return self.tensors
 
 
 def write_single_file(path: Path, given: dict[str, Tensors]) -> Path:
@@ -64,13 +87,15 @@ def write_single_file(path: Path, given: dict[str, Tensors]) -> Path:
     for name, tensor in open_clip(given["image_encoder"]):
         content["conditioner.embedders.0.open_clip.model.visual." + name] = tensor
     content["conditioner.embedders.0.open_clip.model.logit_scale"] = torch.zeros(())
-    save_file({name: tensor.clone().contiguous() for name, tensor in content.items()}, path)
+    save_file({name: tensor.contiguous() for name, tensor in content.items()}, path)
     return path
 
 
-def write_folder(path: Path, given: dict[str, Tensors], *, suffix: str = ".safetensors") -> Path:
+def write_folder(
+    path: Path, given: dict[str, Tensors], *, suffix: str = ".safetensors", sizes: ModelSizes = TINY
+) -> Path:
     """As diffusers' version."""
-    network, encoder = SIZES.network, SIZES.image_encoder
+    network, encoder = sizes.network, sizes.image_encoder
     configs = {
         "unet": {
             "in_channels": network.in_channels,
@@ -83,7 +108,7 @@ def write_folder(path: Path, given: dict[str, Tensors], *, suffix: str = ".safet
             "projection_class_embeddings_input_dim": network.adm_in_channels,
             "addition_time_embed_dim": network.ids_embed_dim,
         },
-        "vae": {"block_out_channels": SIZES.autoencoder},
+        "vae": {"block_out_channels": sizes.autoencoder},
         "image_encoder": {
             "hidden_size": encoder.width,
             "num_hidden_layers": encoder.layers,
@@ -123,8 +148,8 @@ def write_lvcd(path: Path, given: dict[str, Tensors], *, dtype: torch.dtype = to
 
 
 def diffusers_unet(tensors: Tensors) -> Iterator[tuple[str, Tensor]]:
-    """Diffusers' names, read off the order of the blocks of both."""
-    levels, blocks = len(SIZES.network.channel_mult), SIZES.network.num_res_blocks
+    """Diffusers' names, read off the order of the blocks of both; small and full size have the same."""
+    levels, blocks = len(TINY.network.channel_mult), TINY.network.num_res_blocks
     places = {"middle_block.0.": "mid_block.resnets.0.", "middle_block.1.": "mid_block.attentions.0."}
     places |= {"middle_block.2.": "mid_block.resnets.1.", "input_blocks.0.0.": "conv_in."}
     places |= {"time_embed.0.": "time_embedding.linear_1.", "time_embed.2.": "time_embedding.linear_2."}
@@ -162,7 +187,7 @@ def diffusers_unet(tensors: Tensors) -> Iterator[tuple[str, Tensor]]:
 
 def _public_autoencoder(tensors: Tensors) -> Iterator[tuple[str, Tensor]]:
     """The single file's names, by the grammar of both."""
-    last = len(SIZES.autoencoder) - 1
+    last = len(TINY.autoencoder) - 1
     for name, tensor in tensors.items():
         public = name.replace("mid_block.attentions.0.", "mid.attn_1.")
         for theirs, ours in (("group_norm", "norm"), ("to_q", "q"), ("to_k", "k"), ("to_v", "v")):
