@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ..rendering.still_parts import keep_still_parts, moving_region
 from ..rendering.svd.frame_layout import CLIP_FRAMES
 from ..rendering.svd.options import SketchVideoOptions
+from .computing import PRECISIONS, dtype_of, host_placement
 from .model_files import SKETCH_VIDEO, lvcd_choices, lvcd_file, svd_choices, svd_file
 from .progress import host_preview, host_progress
 from .tensors import pictures_of
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
 __all__ = ["sketch_video_frames", "sketch_video_inputs"]
 
 _AREAS = {"448 x 256": 448 * 256, "576 x 320": 576 * 320, "768 x 448": 768 * 448, "1024 x 576": 1024 * 576}
-_PRECISIONS = ("auto", "fp16", "bf16", "fp32")
 _USUAL = SketchVideoOptions()
 
 FloatImage = NDArray[np.float32]
@@ -109,8 +109,8 @@ def sketch_video_inputs() -> list[Any]:
         ),
         io.Combo.Input(
             "precision",
-            options=list(_PRECISIONS),
-            default=_PRECISIONS[0],
+            options=list(PRECISIONS),
+            default=PRECISIONS[0],
             tooltip="auto: 16 bits where the device computes faster with them.",
         ),
         io.Boolean.Input(
@@ -154,7 +154,9 @@ def sketch_video_frames(image: FloatImage, layers: LayeredRenderer, choice: dict
         torch.cuda.reset_peak_memory_stats(device)
     began = time.perf_counter()
     renderer = SketchVideoRenderer(
-        _models(*files, _dtype(choice["precision"], device)), options=_options(choice), placement=_placement(device)
+        _models(*files, dtype_of(choice["precision"], device)),
+        options=_options(choice),
+        placement=host_placement(device),
     )
     region = None
     if choice["keep_still_parts"]:
@@ -194,28 +196,6 @@ def _loaded(svd: Path, _: float, lvcd: Path, __: float, dtype: torch.dtype) -> S
     from ..rendering.svd.models import load_models
 
     return load_models(svd, lvcd, dtype=dtype)
-
-
-def _dtype(precision: str, device: torch.device) -> torch.dtype:
-    import torch
-    from comfy import model_management
-
-    if precision == "auto":
-        halves = model_management.should_use_fp16(device)
-        precision = "fp16" if halves else "bf16" if model_management.should_use_bf16(device) else "fp32"
-    return {"fp16": torch.float16, "bf16": torch.bfloat16, "fp32": torch.float32}[precision]
-
-
-def _placement(device: torch.device) -> Any:
-    from comfy import model_management
-
-    from ..rendering.svd.placement import Placement
-
-    return Placement(
-        device,
-        make_room=lambda needed: model_management.free_memory(needed, device) and None,
-        left=model_management.soft_empty_cache,
-    )
 
 
 def _watched(device: torch.device) -> dict[str, Any]:

@@ -57,15 +57,19 @@ BACKENDS: dict[str, Interpolator] = {
 """Every available backend by its name; further ones register by adding themselves."""
 
 
-def keyframe_indices(count: int, every: int = DEFAULT_GAP) -> list[int]:
-    """Frames 0, n, 2n, ... of a clip, and always its last frame.
+def keyframe_indices(count: int, every: int = DEFAULT_GAP, *, at: Sequence[int] = ()) -> list[int]:
+    """Frames 0, n, 2n, ... of a clip, or the listed ones, and always its first and last frame.
 
     Args:
         count: number of frames of the clip.
         every: frames from one keyframe to the next.
+        at: frame numbers of the keyframes, instead.
     """
     require("count", count, count >= 1, "at least 1 frame")
     require("every", every, every >= 1, "at least 1 frame")
+    require("keyframes", list(at), all(0 <= index < count for index in at), f"frame numbers from 0 to {count - 1}")
+    if at:
+        return sorted({0, *at, count - 1})
     return sorted({*range(0, count, every), count - 1})
 
 

@@ -8,7 +8,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
-__all__ = ["ImageEncoder", "ImageEncoderConfiguration", "encoder_picture"]
+__all__ = ["ImageEncoder", "ImageEncoderConfiguration", "encoder_picture", "square_picture"]
 
 _MEAN = (0.48145466, 0.4578275, 0.40821073)
 _DEVIATION = (0.26862954, 0.26130258, 0.27577711)
@@ -137,9 +137,14 @@ def encoder_picture(picture: Tensor, size: int) -> Tensor:
         picture: -1..1, shape [b, 3, h, w].
         size: width and height of the result [px]; other proportions are squeezed, as in the encoder's use in training.
     """
-    shrunk = functional.interpolate(_smoothed(picture, size), (size, size), mode="bicubic", align_corners=True)
+    shrunk = square_picture(picture, size)
     mean, deviation = (shrunk.new_tensor(each)[:, None, None] for each in (_MEAN, _DEVIATION))
     return ((shrunk + 1) / 2 - mean) / deviation
+
+
+def square_picture(picture: Tensor, size: int) -> Tensor:
+    """A picture, shape [b, 3, h, w], in the encoder's size, with the colours that it had."""
+    return functional.interpolate(_smoothed(picture, size), (size, size), mode="bicubic", align_corners=True)
 
 
 def _smoothed(picture: Tensor, size: int) -> Tensor:

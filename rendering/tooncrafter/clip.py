@@ -6,6 +6,7 @@ import torch
 from torch import Tensor
 
 from .conditioning import Context
+from .fast_sampler import sample_dpm
 from .guidance import guided
 from .models import InterpolationModels
 from .noise_schedule import sampling_steps
@@ -62,5 +63,6 @@ def sample_clips(
     velocity: Velocity, start: Tensor, noise: Noise, options: InterpolationOptions, *, watch: Watch | None = None
 ) -> Tensor:
     """Clean, scaled latents of clips, shape [b, 4, t, h, w], from noise of that shape."""
-    steps = sampling_steps(options.steps, eta=options.eta)
-    return sample_ddim(velocity, start, steps, noise, watch=watch)
+    if options.solver == "dpm++ 2m":
+        return sample_dpm(velocity, start, sampling_steps(options.steps, eta=0), watch=watch)
+    return sample_ddim(velocity, start, sampling_steps(options.steps, eta=options.eta), noise, watch=watch)

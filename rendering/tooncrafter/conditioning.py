@@ -14,7 +14,7 @@ from .autoencoder import DualReferenceAutoencoder
 from .models import WANTED_IMAGE_ENCODER, WANTED_TEXT_ENCODER, InterpolationModels
 from .resampler import ImageResampler
 
-__all__ = ["LATENT_SCALE", "Context", "KeyframePair", "Tokens", "contexts", "encode_pair", "look_at"]
+__all__ = ["LATENT_SCALE", "Context", "KeyframePair", "Tokens", "contexts", "empty_prompt_of", "encode_pair", "look_at"]
 
 LATENT_SCALE = 0.18215
 """Between the autoencoder's latents and those that the networks know."""

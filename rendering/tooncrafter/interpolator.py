@@ -7,7 +7,6 @@ from typing import Any
 
 import torch
 from numpy.typing import NDArray
-from torch import Tensor
 
 from ...physics.progress import Progress
 from ..checkpoints import CheckpointError
@@ -17,7 +16,7 @@ from .gap_drawing import Gap, GapDrawing
 from .gap_plan import clips_in
 from .models import WANTED_SKETCH, InterpolationModels
 from .options import InterpolationOptions
-from .pair_drawing import LookAt, PairDrawing
+from .pair_drawing import LookAt, PairDrawing, Prompts
 from .sampler import SampledStep, Watch
 
 __all__ = ["ToonCrafterInterpolator"]
@@ -37,7 +36,7 @@ class ToonCrafterInterpolator:
         options: InterpolationOptions | None = None,
         placement: Placement | None = None,
         look: LookAt | None = None,
-        prompt: Tensor | None = None,
+        prompts: Prompts | None = None,
         progress: Progress | None = None,
         watch: Watch | None = None,
     ) -> None:
@@ -48,14 +47,14 @@ class ToonCrafterInterpolator:
             options: settings.
             placement: where the networks compute; on the CPU by default.
             look: another picture encoder than the models' own.
-            prompt: embedded prompt, shape [1, l, c]; the empty one by default.
+            prompts: what is wanted, and no words at all, by another text encoder than that of the models' files.
             progress: called after each sampling step with the number done and the number in all, counted for each pair
                 of keyframes; may raise to stop.
             watch: called in each sampling step; may raise to stop.
         """
         self.options = options or InterpolationOptions()
         place = placement or Placement(torch.device("cpu"))
-        self._drawing = PairDrawing(models, self.options, place, look=look, prompt=prompt)
+        self._drawing = PairDrawing(models, self.options, place, look=look, prompts=prompts)
         self._progress, self._watch = progress, watch
         self._clip: Clip | None = None
         self._drawn: dict[int, dict[int, FloatImage]] = {}

@@ -18,10 +18,13 @@ from .models import InterpolationModels
 from .options import InterpolationOptions
 from .sampler import Watch
 
-__all__ = ["LookAt", "Pair", "PairDrawing"]
+__all__ = ["LookAt", "Pair", "PairDrawing", "Prompts"]
 
 LookAt = Callable[[Sequence[Tensor]], Tokens]
 """Gives the picture encoder's tokens of pictures, -1..1, each of shape [3, h, w]."""
+
+Prompts = tuple[Tensor, Tensor]
+"""Embedded prompt and embedded empty prompt, each of shape [1, l, c]."""
 
 _PIXELS_PER_LATENT = 8
 
@@ -51,7 +54,7 @@ class PairDrawing:
         placement: Placement,
         *,
         look: LookAt | None = None,
-        prompt: Tensor | None = None,
+        prompts: Prompts | None = None,
     ) -> None:
         """Prepare.
 
@@ -60,11 +63,11 @@ class PairDrawing:
             options: settings.
             placement: where the networks compute.
             look: another picture encoder than the models' own.
-            prompt: embedded prompt, shape [1, l, c]; the empty one by default.
+            prompts: what is wanted, and no words at all, by another text encoder than that of the models' files.
         """
         self.models, self.options, self.placement = models, options, placement
         self.look = look or self._look
-        self.prompt = prompt
+        self.prompts = prompts
 
     @torch.no_grad()
     def frames(self, pairs: Sequence[Pair], *, watch: Watch | None = None) -> list[Tensor]:
@@ -93,8 +96,8 @@ class PairDrawing:
         device, dtype = self.placement.device, self.models.dtype
         found = self.look([pair.keyframes[0] for pair in pairs])
         tokens = Tokens(found.picture.to(device, dtype), found.nothing.to(device, dtype))
-        without = empty_prompt_of(self.models).to(device, dtype)
-        prompt = without if self.prompt is None else self.prompt.to(device, dtype)
+        prompts = self.prompts or (empty_prompt_of(self.models),) * 2
+        prompt, without = (each.to(device, dtype) for each in prompts)
         with self.placement.at_work(self.models.resampler):
             return contexts(self.models.resampler, tokens, prompt, without)
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-import tiny_tooncrafter as tiny
+import random_tooncrafter as tiny
 import torch
 from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
@@ -103,7 +103,7 @@ def test_pictures_stay_in_their_place(models: InterpolationModels) -> None:
 
     def look(given: Any) -> Tokens:
         seen.extend(given)
-        width = tiny.SIZES.image_encoder.width
+        width = tiny.TINY.image_encoder.width
         return Tokens(torch.zeros(len(given), 5, width), torch.zeros(1, 5, width))
 
     backend = ToonCrafterInterpolator(models, options=InterpolationOptions(**QUICK), look=look)
@@ -154,7 +154,7 @@ def test_networks_leave_the_device_when_cancelled(models: InterpolationModels) -
 def test_half_precision_from_the_pruned_file(pruned_file: Path, weights: Any, tmp_path: Path) -> None:
     picture = tiny.write_image_encoder(tmp_path / "vision.safetensors", weights)
     text = tiny.write_text_encoder(tmp_path / "text.safetensors", weights)
-    given = {"image_encoder": picture, "text_encoder": text, "sizes": tiny.SIZES}
+    given = {"image_encoder": picture, "text_encoder": text, "sizes": tiny.TINY}
     whole, half = (
         np.stack(drawn(load_models(pruned_file, dtype=dtype, **given), [0, 4])).astype(int)
         for dtype in (torch.float32, torch.bfloat16)
@@ -164,9 +164,9 @@ def test_half_precision_from_the_pruned_file(pruned_file: Path, weights: Any, tm
 
 def test_missing_encoders_and_sketch_models_are_named(pruned_file: Path, weights: Any, tmp_path: Path) -> None:
     with pytest.raises(CheckpointError, match=r"No picture encoder.*ViT-H"):
-        drawn(load_models(pruned_file, sizes=tiny.SIZES), [0, 4])
+        drawn(load_models(pruned_file, sizes=tiny.TINY), [0, 4])
     picture = tiny.write_image_encoder(tmp_path / "vision.safetensors", weights)
-    models = load_models(pruned_file, image_encoder=picture, sizes=tiny.SIZES)
+    models = load_models(pruned_file, image_encoder=picture, sizes=tiny.TINY)
     with pytest.raises(CheckpointError, match=r"No text encoder.*Stable Diffusion 2\.1"):
         drawn(models, [0, 4])
     with pytest.raises(CheckpointError, match=r"sketch_encoder\.ckpt"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-import tiny_tooncrafter as tiny
+import random_tooncrafter as tiny
 import torch
 from physanimator.rendering.checkpoints import CheckpointError
 from physanimator.rendering.tooncrafter.models import InterpolationModels, load_models
@@ -25,10 +25,10 @@ def assert_holds(models: InterpolationModels, weights: Weights, *, through: torc
 
 
 def empty_prompt_by(weights: Weights) -> torch.Tensor:
-    encoder = TextEncoder(tiny.SIZES.text_encoder).eval()
+    encoder = TextEncoder(tiny.TINY.text_encoder).eval()
     encoder.load_state_dict(weights["text_encoder"])
     with torch.no_grad():
-        return encoder(empty_prompt(tiny.SIZES.text_encoder.tokens))
+        return encoder(empty_prompt(tiny.TINY.text_encoder.tokens))
 
 
 def test_the_full_file_holds_everything_but_the_sketch_encoder(models: InterpolationModels, weights: Weights) -> None:
@@ -40,13 +40,13 @@ def test_the_full_file_holds_everything_but_the_sketch_encoder(models: Interpola
 
 def test_deepspeeds_file(weights: Weights, tmp_path: Path) -> None:
     path = tiny.write_deepspeed(tmp_path / "model.ckpt", weights)
-    assert_holds(load_models(path, sizes=tiny.SIZES), weights)
+    assert_holds(load_models(path, sizes=tiny.TINY), weights)
 
 
 @pytest.mark.parametrize("dtype", [torch.float16, torch.bfloat16, torch.float32])
 def test_the_pruned_file_in_every_precision(weights: Weights, tmp_path: Path, dtype: torch.dtype) -> None:
     path = tiny.write_pruned(tmp_path / "pruned.safetensors", weights)
-    models = load_models(path, dtype=dtype, sizes=tiny.SIZES)
+    models = load_models(path, dtype=dtype, sizes=tiny.TINY)
     assert_holds(models, weights, through=torch.float16)
     assert models.dtype == dtype
     assert next(models.autoencoder.parameters()).dtype == torch.float32
@@ -59,7 +59,7 @@ def test_the_sketch_encoders_file(
     weights: Weights, pruned_file: Path, tmp_path: Path, name: str, wrapped: bool
 ) -> None:
     path = tiny.write_sketch_encoder(tmp_path / name, weights, wrapped=wrapped)
-    sketch = load_models(pruned_file, sketch=path, sizes=tiny.SIZES).sketch
+    sketch = load_models(pruned_file, sketch=path, sizes=tiny.TINY).sketch
     assert sketch is not None
     for key, tensor in sketch.state_dict().items():
         torch.testing.assert_close(tensor, weights["sketch"][key], rtol=0, atol=0)
@@ -71,7 +71,7 @@ def test_encoders_in_files_of_their_own(
 ) -> None:
     picture = tiny.write_image_encoder(tmp_path / "vision.safetensors", weights, by_open_clip=by_open_clip)
     text = tiny.write_text_encoder(tmp_path / "text.safetensors", weights)
-    models = load_models(pruned_file, image_encoder=picture, text_encoder=text, sizes=tiny.SIZES)
+    models = load_models(pruned_file, image_encoder=picture, text_encoder=text, sizes=tiny.TINY)
     assert_holds(models, weights, through=torch.float16)
     assert models.image_encoder is not None
     torch.testing.assert_close(models.empty_prompt, empty_prompt_by(weights))
@@ -79,9 +79,9 @@ def test_encoders_in_files_of_their_own(
 
 def test_swapped_files_are_named(full_file: Path, sketch_file: Path) -> None:
     with pytest.raises(CheckpointError, match=r"sketch_encoder\.ckpt does not fit.*Wanted: ToonCrafter's model"):
-        load_models(sketch_file, sizes=tiny.SIZES)
+        load_models(sketch_file, sizes=tiny.TINY)
     with pytest.raises(CheckpointError, match=r"model\.ckpt does not fit.*Wanted: ToonCrafter's sketch"):
-        load_models(full_file, sketch=full_file, sizes=tiny.SIZES)
+        load_models(full_file, sketch=full_file, sizes=tiny.TINY)
 
 
 def test_files_of_another_size_are_named(full_file: Path) -> None:
@@ -95,7 +95,7 @@ def test_missing_names_are_named(weights: Weights, tmp_path: Path, part: str) ->
     left = {name: each for name, each in weights[part].items() if name != lost}
     path = tiny.write_pruned(tmp_path / "pruned.safetensors", {**weights, part: left})
     with pytest.raises(CheckpointError, match=rf"does not fit: 1 missing: {lost}"):
-        load_models(path, sizes=tiny.SIZES)
+        load_models(path, sizes=tiny.TINY)
 
 
 def test_a_missing_file_is_named(tmp_path: Path) -> None:

@@ -20,11 +20,11 @@ from physanimator.rendering.tooncrafter.resampler import ImageResampler
 from physanimator.rendering.tooncrafter.sketch_encoder import SketchEncoder
 from physanimator.rendering.tooncrafter.text_encoder import TextEncoder, TextEncoderConfiguration
 from physanimator.rendering.tooncrafter.unet import InterpolationUNet
+from random_svd import open_clip, random_weights
 from safetensors.torch import save_file
-from tiny_svd import open_clip, random_weights
 from torch import Tensor
 
-SIZES = ModelSizes(
+TINY = ModelSizes(
     UNetConfiguration(
         model_channels=32,
         num_res_blocks=1,
@@ -48,12 +48,12 @@ Tensors = dict[str, Tensor]
 def weights() -> dict[str, Tensors]:
     """Of every network, by our own names."""
     networks = {
-        "unet": InterpolationUNet(SIZES.unet),
-        "resampler": ImageResampler(SIZES.resampler),
-        "autoencoder": DualReferenceAutoencoder(SIZES.autoencoder),
-        "sketch": SketchEncoder(SIZES.sketch),
-        "image_encoder": ImageEncoder(SIZES.image_encoder),
-        "text_encoder": TextEncoder(SIZES.text_encoder),
+        "unet": InterpolationUNet(TINY.unet),
+        "resampler": ImageResampler(TINY.resampler),
+        "autoencoder": DualReferenceAutoencoder(TINY.autoencoder),
+        "sketch": SketchEncoder(TINY.sketch),
+        "image_encoder": ImageEncoder(TINY.image_encoder),
+        "text_encoder": TextEncoder(TINY.text_encoder),
     }
     return {name: random_weights(network, number) for number, (name, network) in enumerate(networks.items())}
 
@@ -68,7 +68,7 @@ def content(given: dict[str, Tensors], *, encoders: bool) -> Tensors:
         found |= {"cond_stage_model.model." + name: each for name, each in given["text_encoder"].items()}
         last = "cond_stage_model.model.transformer.resblocks."
         found |= {
-            f"{last}{SIZES.text_encoder.layers}.{name.split('.', 3)[3]}": torch.zeros_like(each)
+            f"{last}{TINY.text_encoder.layers}.{name.split('.', 3)[3]}": torch.zeros_like(each)
             for name, each in given["text_encoder"].items()
             if name.startswith("transformer.resblocks.0.")
         }
