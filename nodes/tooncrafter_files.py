@@ -9,9 +9,9 @@ __all__ = ["TOONCRAFTER", "model_choices", "model_file", "sketch_model_choices",
 
 TOONCRAFTER = {
     "tooncrafter_model": "put model.ckpt into models/checkpoints, from https://huggingface.co/Doubiiu/ToonCrafter"
-    " (Apache License 2.0), or its pruned fp16 safetensors, from https://huggingface.co/Kijai/DynamiCrafter_pruned.",
+    ", or its pruned fp16 safetensors, from https://huggingface.co/Kijai/DynamiCrafter_pruned.",
     "sketch_model": "put sketch_encoder.ckpt into models/controlnet, from https://huggingface.co/Doubiiu/ToonCrafter"
-    " (Apache License 2.0), or leave the sketches away.",
+    ", or leave the sketches away.",
 }
 """Where to get the files, by the input that names them."""
 

@@ -1,12 +1,13 @@
-"""Small random networks of the interpolation, written to disk in every format that the real ones come in."""
+"""Random weights of the interpolation, small or of full size, on disk in every format of the real ones."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import torch
+from physanimator.rendering.checkpoints import build_without_storage
 from physanimator.rendering.svd.image_encoder import ImageEncoder, ImageEncoderConfiguration
 from physanimator.rendering.tooncrafter.autoencoder import DualReferenceAutoencoder
 from physanimator.rendering.tooncrafter.configuration import (
@@ -22,7 +23,7 @@ from physanimator.rendering.tooncrafter.text_encoder import TextEncoder, TextEnc
 from physanimator.rendering.tooncrafter.unet import InterpolationUNet
 from random_svd import open_clip, random_weights
 from safetensors.torch import save_file
-from torch import Tensor
+from torch import Tensor, nn
 
 TINY = ModelSizes(
     UNetConfiguration(
@@ -45,17 +46,20 @@ TINY = ModelSizes(
 Tensors = dict[str, Tensor]
 
 
-def weights() -> dict[str, Tensors]:
+def weights(sizes: ModelSizes = TINY, *, dtype: torch.dtype = torch.float32) -> dict[str, Tensors]:
     """Of every network, by our own names."""
-    networks = {
-        "unet": InterpolationUNet(TINY.unet),
-        "resampler": ImageResampler(TINY.resampler),
-        "autoencoder": DualReferenceAutoencoder(TINY.autoencoder),
-        "sketch": SketchEncoder(TINY.sketch),
-        "image_encoder": ImageEncoder(TINY.image_encoder),
-        "text_encoder": TextEncoder(TINY.text_encoder),
+    networks: dict[str, Callable[[], nn.Module]] = {
+        "unet": lambda: InterpolationUNet(sizes.unet),
+        "resampler": lambda: ImageResampler(sizes.resampler),
+        "autoencoder": lambda: DualReferenceAutoencoder(sizes.autoencoder),
+        "sketch": lambda: SketchEncoder(sizes.sketch),
+        "image_encoder": lambda: ImageEncoder(sizes.image_encoder),
+        "text_encoder": lambda: TextEncoder(sizes.text_encoder),
     }
-    return {name: random_weights(network, number) for number, (name, network) in enumerate(networks.items())}
+    return {
+        name: random_weights(build_without_storage(build), number, dtype=dtype)
+        for number, (name, build) in enumerate(networks.items())
+    }
 
 
 def content(given: dict[str, Tensors], *, encoders: bool) -> Tensors:
@@ -67,8 +71,9 @@ def content(given: dict[str, Tensors], *, encoders: bool) -> Tensors:
         found |= {"embedder.model.visual." + name: each for name, each in open_clip(given["image_encoder"])}
         found |= {"cond_stage_model.model." + name: each for name, each in given["text_encoder"].items()}
         last = "cond_stage_model.model.transformer.resblocks."
+        layers = {name.split(".")[2] for name in given["text_encoder"] if name.startswith("transformer.resblocks.")}
         found |= {
-            f"{last}{TINY.text_encoder.layers}.{name.split('.', 3)[3]}": torch.zeros_like(each)
+            f"{last}{len(layers)}.{name.split('.', 3)[3]}": torch.zeros_like(each)
             for name, each in given["text_encoder"].items()
             if name.startswith("transformer.resblocks.0.")
         }

@@ -127,18 +127,20 @@ PAPER_NOTE = """\
 Illustration, query points, mesh, strokes, rig, simulation, flow, sketch, warp, blur, **sketch-guided SVD**, \
 interpolation.
 
-**Two model files** are needed, as *Render* tells:
+**Four model files** are needed, as *Render* and *Interpolate* tell:
 
 - `models/checkpoints/svd.safetensors` from \
 https://huggingface.co/stabilityai/stable-video-diffusion-img2vid
 - `models/controlnet/lvcd.ckpt` from \
 https://huggingface.co/luckyhzt/lvcd_pretrained_models
+- `models/checkpoints/model.ckpt` and `models/controlnet/sketch_encoder.ckpt` from \
+https://huggingface.co/Doubiiu/ToonCrafter
 
-Without them, set *renderer* in *Render* to *composite*.
+Without them, set *renderer* in *Render* to *composite*, and *backend* in *Interpolate* to *motion*.
 
 **35 frames** are three segments of the video model: 15, then 10 with each further segment. Other lengths work too.
 
-Settings are explained on the help page of *Render*: select it and press **?**.
+Settings are explained on the help pages of both: select one and press **?**.
 """
 
 HEAD = {
@@ -219,8 +221,9 @@ def physanimator_paper() -> tuple[Group, ...]:
         rig_points="shoulder.rig_points",
     )
     segment = ours("segment", "SegmentByPoints", 440, values={"points": CAPE_POINTS}, image="example.image")
-    interpolate = ours("interpolate", "Interpolate", images="render.frames", motion="simulate.motion")
-    video = _video("physanimator_paper", 420, "interpolate.frames", interpolate, renderer=_SKETCH_GUIDED)
+    led = {"backend.sketches": "warp.sketches"}
+    drawn = ours("interpolate", "Interpolate", values={"backend": "tooncrafter"}, images="render.frames", **led)
+    video = _video("physanimator_paper", 420, "interpolate.frames", drawn, renderer=_SKETCH_GUIDED)
     return (
         _illustration(340, core("note", "MarkdownNote", 520, "The paper", {"": PAPER_NOTE}), segment),
         _cape_and_hair(),
@@ -411,10 +414,11 @@ WORKFLOWS = {
 
 
 def without_models(api: dict[str, Any]) -> dict[str, Any]:
-    """The workflow with the renderer that needs no model files."""
+    """The workflow with the renderer and the in-betweens that need no model files."""
     changed = copy.deepcopy(api)
-    for node in changed.values():
-        if node["class_type"] == "PhysAnimator_Render":
-            node["inputs"] = {name: value for name, value in node["inputs"].items() if not name.startswith("renderer.")}
-            node["inputs"]["renderer"] = "composite"
+    for kind, choice, plain in (("Render", "renderer", "composite"), ("Interpolate", "backend", "motion")):
+        for node in changed.values():
+            if node["class_type"] == f"PhysAnimator_{kind}":
+                kept = {name: value for name, value in node["inputs"].items() if not name.startswith(f"{choice}.")}
+                node["inputs"] = kept | {choice: plain}
     return changed

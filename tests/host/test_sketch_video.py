@@ -15,8 +15,12 @@ FRAMES = 9
 
 
 def prompt(**changes: Any) -> dict[str, Any]:
-    """The published graph, with other values for Render."""
+    """The published graph, with other values for Render, and in-betweens without a model."""
     graph = json.loads((ROOT / "workflows" / "api" / "physanimator_paper.json").read_text(encoding="utf-8"))
+    interpolate = _node(graph, "Interpolate")["inputs"]
+    _node(graph, "Interpolate")["inputs"] = {
+        name: value for name, value in interpolate.items() if not name.startswith("backend")
+    } | {"backend": "flow"}
     _node(graph, "Render")["inputs"] |= {f"renderer.{name}": value for name, value in changes.items()}
     return graph
 
