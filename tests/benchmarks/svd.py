@@ -22,17 +22,24 @@ from typing import Any
 import numpy as np
 import source_tree  # loads this source tree as the package physanimator
 import torch
+from live_tensors import LiveTensors
+from physanimator.rendering.svd.autoencoder import build_autoencoder
+from physanimator.rendering.svd.configuration import NetworkConfiguration
+from physanimator.rendering.svd.controlnet import SketchControlNet
+from physanimator.rendering.svd.frame_layout import FrameLayout
 from physanimator.rendering.svd.memory import bytes_of, peak_memory
 from physanimator.rendering.svd.models import SketchVideoModels, load_models
 from physanimator.rendering.svd.options import SketchVideoOptions
 from physanimator.rendering.svd.placement import Placement
 from physanimator.rendering.svd.renderer import SketchVideoRenderer
 from physanimator.rendering.svd.svd_weights import ModelSizes
+from physanimator.rendering.svd.unet import SpatioTemporalUNet
+from torch._subclasses.fake_tensor import FakeTensorMode
 
 random_svd = source_tree.helper("random_svd")
 
 GIB = 2**30
-AREAS = {"576x320": (576, 320), "1024x576": (1024, 576)}
+AREAS = {"448x256": (448, 256), "576x320": (576, 320), "768x448": (768, 448), "1024x576": (1024, 576)}
 FORMATS = {
     "single file, training checkpoint": ("svd.safetensors", "lvcd.ckpt"),
     "diffusers folder, pruned safetensors": ("svd", "lvcd-fp16.safetensors"),
@@ -108,6 +115,33 @@ def drawing(models: SketchVideoModels, frames: int, size: tuple[int, int], steps
     }
 
 
+def counted_memory(size: tuple[int, int]) -> dict[str, float]:
+    """What full-size networks need in half precision beside their weights, counted without a device [GiB]."""
+    (width, height), config = size, NetworkConfiguration()
+    layout, half = FrameLayout.later_segment(), torch.float16
+
+    def empty(*shape: int) -> torch.Tensor:
+        return torch.empty(shape, dtype=half)
+
+    with FakeTensorMode(), torch.no_grad():
+        unet, control = SpatioTemporalUNet(config), SketchControlNet(config)
+        for network in (unet, control):
+            tensors = {name: empty(*each.shape) for name, each in network.state_dict().items()}
+            network.load_state_dict(tensors, assign=True)
+        x, hint = empty(1, layout.count, 8, height // 8, width // 8), empty(1, layout.count, 3, height, width)
+        conditions = (torch.empty(1), empty(1, 1, config.context_dim), torch.empty(1, 3), layout)
+        with LiveTensors(unet, control) as sampling:
+            unet(x, *conditions, control(x, hint, *conditions))
+        found = {"unet_and_control": sum(map(bytes_of, (unet, control))), "sampling": sampling.peak}
+        autoencoder = build_autoencoder(ModelSizes().autoencoder)
+        found["autoencoder"] = bytes_of(autoencoder)
+        for frames in (10, 5):
+            with LiveTensors(autoencoder) as decoding:
+                autoencoder.decode(torch.empty(frames, 4, height // 8, width // 8), num_frames=frames)
+            found[f"decoding_{frames}_frames"] = decoding.peak // 2  # half of what single precision needs
+    return {name: size / GIB for name, size in found.items()}
+
+
 def in_own_process(work: Callable[..., Any], *arguments: Any) -> Any:
     """The result of a function in a fresh process, whose memory is its alone."""
     with multiprocessing.get_context("spawn").Pool(1) as pool:
@@ -119,7 +153,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--size", choices=["auto", "full", "tiny"], default="auto", help="of the networks of clips")
     parser.add_argument("--frames", type=int, nargs="+", default=[15, 35])
-    parser.add_argument("--areas", choices=list(AREAS), nargs="+", default=list(AREAS))
+    parser.add_argument("--areas", choices=list(AREAS), nargs="+", default=["576x320", "1024x576"])
     parser.add_argument("--steps", type=int, default=25, help="sampling steps of a segment (default 25)")
     parser.add_argument("--dtype", choices=["float16", "bfloat16", "float32"], help="default: float16 on a GPU")
     parser.add_argument("--no-loading", action="store_true", help="leave out loading the full-size files")
@@ -148,6 +182,7 @@ def main() -> None:
                 for name, files in FORMATS.items()
                 for kind in ("float16", "float32")
             }
+        result["counted_memory_gib"] = {name: counted_memory(size) for name, size in AREAS.items()}
         result["clips"] = clips(folder, full, dtype, device, options)
     print(json.dumps(result, indent=2) if options.json else result)
 
