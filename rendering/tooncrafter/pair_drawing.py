@@ -133,7 +133,8 @@ class PairDrawing:
             return torch.stack(drawn).to(device)
 
         networks = [models.unet, *([models.sketch] if models.sketch is not None and hints is not None else [])]
-        needed = sampling_bytes(condition[:, 0].numel(), models.unet.config.model_channels, models.dtype)
+        # A quarter more than in the video model, for the sketch encoder's residuals and all frames' prompt attention.
+        needed = 5 * sampling_bytes(condition[:, 0].numel(), models.unet.config.model_channels, models.dtype) // 4
         with self.placement.at_work(*networks, working_bytes=needed):
             velocity = guided_velocity(models, condition, context, hints, self.options)
             return sample_clips(velocity, noise(), noise, self.options, watch=watch)

@@ -38,7 +38,7 @@ random_tooncrafter = source_tree.helper("random_tooncrafter")
 
 GIB = 2**30
 GAP = 15
-AREAS = {"512x320": (512, 320), "768x512": (768, 512)}
+AREAS = {"512x320": (512, 320), "768x512": (768, 512), "128x64": (128, 64)}
 
 
 def random_models(sizes: ModelSizes, dtype: torch.dtype) -> InterpolationModels:
@@ -135,7 +135,7 @@ def main() -> None:
     """Read the command line, measure, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--size", choices=["full", "tiny"], default="full", help="of the networks")
-    parser.add_argument("--areas", choices=list(AREAS), nargs="+", help="default: all on a GPU, the first on a CPU")
+    parser.add_argument("--areas", choices=list(AREAS), nargs="+", help="default: by device and networks")
     parser.add_argument("--steps", type=int, help="sampling steps that are measured; default: 50 on a GPU, 2 on a CPU")
     parser.add_argument("--dtype", choices=["float16", "bfloat16", "float32"], help="default: float16 on a GPU")
     parser.add_argument("--no-compile", action="store_true", help="leave out compiled networks")
@@ -144,7 +144,8 @@ def main() -> None:
     options = parser.parse_args()
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
     on_gpu = device.type == "cuda"
-    options.areas = options.areas or list(AREAS)[: None if on_gpu else 1]
+    usual = ["128x64"] if options.size == "tiny" else ["512x320", "768x512"] if on_gpu else ["512x320"]
+    options.areas = options.areas or usual
     options.steps = options.steps or (InterpolationOptions().steps if on_gpu else 2)
     dtype = getattr(torch, options.dtype or ("float16" if on_gpu else "float32"))
     sizes = ModelSizes() if options.size == "full" else random_tooncrafter.TINY
