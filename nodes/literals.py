@@ -6,9 +6,9 @@ import json
 from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
-from ..physics.errors import InvalidInputError, PhysAnimatorError
+from ..physics.errors import InvalidInputError, PhysAnimatorError, require
 
-__all__ = ["PATH_FORMS", "chosen", "keys_of", "numbers_of", "refusal", "times_of"]
+__all__ = ["PATH_FORMS", "chosen", "keys_of", "numbers_of", "refusal", "times_of", "whole_numbers_of"]
 
 PATH_FORMS = 'as JSON: [[x, y], ...] or [{"x": .., "y": ..}, ...], as spline editors write it.'
 """How a tooltip says what may be typed for a path."""
@@ -80,6 +80,21 @@ def numbers_of(text: str, *, name: str, like: str) -> tuple[float, ...]:
         return tuple(float(value) for value in values)
     except (TypeError, ValueError):
         raise InvalidInputError(f"{name} must be a list of {like}. Got: {text[:60]}") from None
+
+
+def whole_numbers_of(text: str, *, name: str) -> tuple[int, ...]:
+    """Frame numbers from text: a JSON list, or numbers with commas between them; empty text gives none.
+
+    Args:
+        text: what was typed.
+        name: what the node calls the input.
+
+    Raises:
+        InvalidInputError: the text holds something else.
+    """
+    numbers = numbers_of(text, name=name, like="frame numbers such as 0, 12, 15")
+    require(name, text[:60], all(number.is_integer() for number in numbers), "whole numbers")
+    return tuple(int(number) for number in numbers)
 
 
 def keys_of(text: str, *, name: str) -> tuple[tuple[float, float], ...]:

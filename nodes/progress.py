@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from ..physics.progress import Progress
+    import torch
 
-__all__ = ["host_progress"]
+__all__ = ["host_preview", "host_progress"]
 
 
-def host_progress() -> Progress:
+class Report(Protocol):
+    """A progress callback that can also show a picture."""
+
+    def __call__(self, done: int, total: int, preview: Any = None) -> None: ...
+
+
+def host_progress() -> Report:
     """A callback that moves the bar of the node being run, and raises the host's interruption when asked to stop.
 
     The node's identity is taken now, because the callback may be called from another thread.
@@ -22,8 +29,19 @@ def host_progress() -> Progress:
     context = get_executing_context()
     bar = comfy.utils.ProgressBar(1, node_id=context.node_id if context else None)
 
-    def report(done: int, total: int) -> None:
+    def report(done: int, total: int, preview: Any = None) -> None:
         comfy.model_management.throw_exception_if_processing_interrupted()
-        bar.update_absolute(done, total)
+        bar.update_absolute(done, total, preview)
 
     return report
+
+
+def host_preview(device: torch.device) -> Callable[[torch.Tensor], Any]:
+    """What makes a picture for ``host_progress`` of scaled latents [1, 4, h, w]; nothing where previews are off."""
+    import comfy.latent_formats
+    import latent_preview
+
+    previewer = latent_preview.get_previewer(device, comfy.latent_formats.SD15())
+    if previewer is None:
+        return lambda _: None
+    return lambda latents: previewer.decode_latent_to_preview_image("JPEG", latents)

@@ -1,22 +1,32 @@
-"""From motion to frames: the layered renderer, and in-betweens."""
+"""From motion to frames: the renderers, and in-betweens."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from itertools import count
+from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
-from .defaults import default_of
+from .cartoon_interpolation import missing_tooncrafter_files, tooncrafter_backend, tooncrafter_inputs
+from .literals import chosen, refusal, whole_numbers_of
 from .model_files import find_model_file
 from .progress import host_progress
+from .sketch_video import sketch_video_frames, sketch_video_inputs
 from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of, pictures_of
 from .wires import MaskedMotion, MotionWire
 
 if TYPE_CHECKING:
     import torch
+    from numpy.typing import NDArray
+
+    from ..physics.motion import Motion
+    from ..rendering.composite import LayeredRenderer
 
 __all__ = ["Interpolate", "Render"]
 
+_COMPOSITE, _SKETCH_VIDEO = "composite", "sketch-guided SVD"
+_TOONCRAFTER = "tooncrafter"
 _IMAGES_ARE = ("all frames", "keyframes")
 
 
@@ -27,10 +37,21 @@ class Render(io.ComfyNode):
             node_id="PhysAnimator_Render",
             display_name="Render",
             category="PhysAnimator/render",
-            description="Paints the frames: each body stretched along with its mesh, over the picture without it.",
+            description="Paints the frames: each body stretched along with its mesh, over the picture without it; or by"
+            " a video model that follows sketches.",
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 MotionWire.Input("motion", tooltip="From Simulate; it carries the masks along."),
+                io.DynamicCombo.Input(
+                    "renderer",
+                    options=[
+                        io.DynamicCombo.Option(_COMPOSITE, []),
+                        io.DynamicCombo.Option(_SKETCH_VIDEO, sketch_video_inputs()),
+                    ],
+                    optional=True,
+                    tooltip="composite: the illustration's own pixels, without any model."
+                    " sketch-guided SVD: the paper's renderer, for which two model files are needed.",
+                ),
                 io.Image.Input(
                     "clean_plate",
                     optional=True,
@@ -46,26 +67,38 @@ class Render(io.ComfyNode):
 
     @classmethod
     def execute(
-        cls, image: torch.Tensor, motion: MaskedMotion, clean_plate: torch.Tensor | None = None
+        cls,
+        image: torch.Tensor,
+        motion: MaskedMotion,
+        renderer: dict[str, Any] | None = None,
+        clean_plate: torch.Tensor | None = None,
     ) -> io.NodeOutput:
         from ..rendering.composite import LayeredRenderer
 
-        plate = None if clean_plate is None else picture_of(clean_plate, name="clean_plate")
-        renderer = LayeredRenderer(picture_of(image), motion.masks, motion.motion, plate=plate)
-        count, report = len(motion.motion), host_progress()
-        frames, alpha = picture_batch(count), mask_batch(count)
-        for number in range(count):
-            picture, covered = renderer.frame_and_alpha(number)
-            frames.put(picture)
+        picture, plate = picture_of(image), None if clean_plate is None else picture_of(clean_plate, name="clean_plate")
+        layers = LayeredRenderer(picture, motion.masks, motion.motion, plate=plate)
+        frames, alpha = picture_batch(len(layers)), mask_batch(len(layers))
+        if renderer is not None and renderer["renderer"] == _SKETCH_VIDEO:
+            drawn = zip(sketch_video_frames(picture, layers, renderer), map(layers.alpha, count()), strict=False)
+        else:
+            drawn = _composed(layers)
+        for frame, covered in drawn:
+            frames.put(frame)
             alpha.put(covered)
-            report(number + 1, count)
-        return io.NodeOutput(frames.tensor, alpha.tensor, batch_of_pictures([renderer.plate], 1))
+        return io.NodeOutput(frames.tensor, alpha.tensor, batch_of_pictures([layers.plate], 1))
+
+
+def _composed(layers: LayeredRenderer) -> Iterator[tuple[NDArray[Any], NDArray[Any]]]:
+    report = host_progress()
+    for number in range(len(layers)):
+        yield layers.frame_and_alpha(number)
+        report(number + 1, len(layers))
 
 
 class Interpolate(io.ComfyNode):
     @classmethod
     def define_schema(cls) -> io.Schema:
-        from ..rendering.interpolation import BACKENDS, DEFAULT_GAP, interpolate
+        from ..rendering.interpolation import BACKENDS, DEFAULT_GAP
 
         described = "; ".join(f"{name}: {backend.description}" for name, backend in BACKENDS.items())
         return io.Schema(
@@ -89,41 +122,79 @@ class Interpolate(io.ComfyNode):
                     max=1000,
                     tooltip="From one keyframe to the next [frames]; the paper takes 15.",
                 ),
-                io.Combo.Input(
+                io.DynamicCombo.Input(
                     "backend",
-                    options=list(BACKENDS),
-                    default=default_of(interpolate, "backend"),
-                    tooltip=f"Who draws the in-betweens. {described}.",
+                    options=[
+                        *(io.DynamicCombo.Option(name, []) for name in BACKENDS),
+                        io.DynamicCombo.Option(_TOONCRAFTER, tooncrafter_inputs()),
+                    ],
+                    tooltip=f"Who draws the in-betweens. {described}; {_TOONCRAFTER}: the paper's video model, for"
+                    " which model files are needed.",
                 ),
                 MotionWire.Input(
                     "motion",
                     optional=True,
                     tooltip="From Simulate: in-betweens then follow the known motion. Without it 'motion' is 'flow'.",
                 ),
+                io.String.Input(
+                    "keyframes_at",
+                    default="",
+                    optional=True,
+                    tooltip="Frame numbers of the keyframes, from 0, with commas between them, instead of every n-th."
+                    " Empty: every n-th.",
+                ),
             ],
             outputs=[io.Image.Output(display_name="frames", tooltip="Keyframes and in-betweens.")],
         )
 
     @classmethod
-    def execute(
-        cls, images: torch.Tensor, images_are: str, every: int, backend: str, motion: MaskedMotion | None = None
-    ) -> io.NodeOutput:
-        from ..rendering.interpolation import interpolate, keyframe_indices
+    def validate_inputs(
+        cls, backend: dict[str, Any] | None = None, keyframes_at: str | None = None, **others: Any
+    ) -> bool | str:
+        # The host hands over the inputs that a choice brings only to a function that takes every input.
+        missing = " ".join(missing_tooncrafter_files(backend or {}))
+        return missing or refusal(lambda: whole_numbers_of(keyframes_at or "", name="keyframes_at"))
 
-        pictures, known = pictures_of(images, name="images"), motion.motion if motion else None
-        if images_are == "keyframes":
-            last = len(known) - 1 if known else every * len(pictures)
-            indices = [min(every * number, last) for number in range(len(pictures))]
-        else:
-            indices = keyframe_indices(len(pictures), every)
-            pictures = pictures[indices]
+    @classmethod
+    def execute(
+        cls,
+        images: torch.Tensor,
+        images_are: str,
+        every: int,
+        backend: dict[str, Any],
+        motion: MaskedMotion | None = None,
+        keyframes_at: str = "",
+    ) -> io.NodeOutput:
+        from ..rendering.interpolation import BACKENDS, interpolate
+
+        name, choice = chosen(backend, "backend", (*BACKENDS, _TOONCRAFTER))
+        known = motion.motion if motion else None
+        at = whole_numbers_of(keyframes_at, name="keyframes_at")
+        keyframes, indices = _keyframes(pictures_of(images, name="images"), images_are, every, at, known)
+        drawn_by_model = name == _TOONCRAFTER
+        sketches = choice.get("sketches")
         frames = interpolate(
-            list(pictures),
+            list(keyframes),
             indices,
-            backend=backend,
+            backend=tooncrafter_backend(choice) if drawn_by_model else name,
             motion=known,
             masks=motion.masks if motion else (),
+            sketches=() if sketches is None else list(pictures_of(sketches, name="sketches")),
             find_file=find_model_file,
-            progress=host_progress(),
+            progress=None if drawn_by_model else host_progress(),
         )
         return io.NodeOutput(batch_of_pictures(frames, indices[-1] + 1))
+
+
+def _keyframes(
+    pictures: NDArray[Any], images_are: str, every: int, at: tuple[int, ...], motion: Motion | None
+) -> tuple[NDArray[Any], list[int]]:
+    """The keyframes among the pictures and their frame numbers."""
+    from ..rendering.interpolation import keyframe_indices
+
+    if images_are == "keyframes":
+        last = len(motion) - 1 if motion else every * len(pictures)
+        regular = [min(every * number, last) for number in range(len(pictures))]
+        return pictures, list(at) or regular
+    indices = keyframe_indices(len(pictures), every, at=at)
+    return pictures[indices], indices

@@ -45,6 +45,8 @@ class Clip:
         motion: positions of the bodies in every frame, if known.
         masks: soft mask of each body in the drawing, shape [h, w]; empty when unknown.
         files: path of each file that the backend requires, by its name.
+        sketches: dark lines on white, one for each frame up to the last keyframe, shape [h, w] or [h, w, 3]; empty when
+            there are none.
     """
 
     keyframes: Sequence[NDArray[Any]]
@@ -52,6 +54,7 @@ class Clip:
     motion: Motion | None = None
     masks: Sequence[NDArray[Any]] = ()
     files: Mapping[str, Path] = field(default_factory=dict)
+    sketches: Sequence[NDArray[Any]] = ()
 
     @property
     def size(self) -> tuple[int, int]:

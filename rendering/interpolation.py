@@ -57,15 +57,19 @@ BACKENDS: dict[str, Interpolator] = {
 """Every available backend by its name; further ones register by adding themselves."""
 
 
-def keyframe_indices(count: int, every: int = DEFAULT_GAP) -> list[int]:
-    """Frames 0, n, 2n, ... of a clip, and always its last frame.
+def keyframe_indices(count: int, every: int = DEFAULT_GAP, *, at: Sequence[int] = ()) -> list[int]:
+    """Frames 0, n, 2n, ... of a clip, or the listed ones, and always its first and last frame.
 
     Args:
         count: number of frames of the clip.
         every: frames from one keyframe to the next.
+        at: frame numbers of the keyframes, instead.
     """
     require("count", count, count >= 1, "at least 1 frame")
     require("every", every, every >= 1, "at least 1 frame")
+    require("keyframes", list(at), all(0 <= index < count for index in at), f"frame numbers from 0 to {count - 1}")
+    if at:
+        return sorted({0, *at, count - 1})
     return sorted({*range(0, count, every), count - 1})
 
 
@@ -73,9 +77,10 @@ def interpolate(
     keyframes: Sequence[NDArray[Any]],
     indices: Sequence[int],
     *,
-    backend: str = "motion",
+    backend: str | Interpolator = "motion",
     motion: Motion | None = None,
     masks: Sequence[NDArray[Any]] = (),
+    sketches: Sequence[NDArray[Any]] = (),
     find_file: FileFinder | None = None,
     progress: Progress | None = None,
 ) -> Iterator[NDArray[Any]]:
@@ -84,10 +89,13 @@ def interpolate(
     Args:
         keyframes: RGB, uint8 or float in 0..1, of one size and type, shape [h, w, 3] each.
         indices: frame number of each keyframe, increasing.
-        backend: name of an entry of ``BACKENDS``; "motion" without a known motion becomes "flow".
+        backend: name of an entry of ``BACKENDS``, or a backend that was made elsewhere, such as
+            ``tooncrafter.interpolator.ToonCrafterInterpolator``; "motion" without a known motion becomes "flow".
         motion: positions of the bodies in every frame; needed by "motion".
         masks: soft mask of each body in the drawing, in the order of the motion's bodies, shape [h, w]; with them
             "motion" keeps soft edges exactly as soft as they were.
+        sketches: dark lines on white that lead backends which heed them, one for each frame up to the last keyframe, of
+            the keyframes' size, shape [h, w] or [h, w, 3].
         find_file: tells where a file lies that the backend requires, or None where it is missing.
         progress: called after each frame.
 
@@ -105,7 +113,9 @@ def interpolate(
         require("indices", list(indices), indices[0] >= 0 and indices[-1] < len(motion), expected)
         counted = len(masks) in (0, len(motion.bodies))
         require("masks", f"{len(masks)}", counted, f"none or one per body ({len(motion.bodies)})")
-    clip = Clip(keyframes, tuple(indices), motion, tuple(masks), _files(chosen, find_file))
+    if len(sketches):
+        _check_sketches(sketches, indices[-1], keyframes[0].shape[:2])
+    clip = Clip(keyframes, tuple(indices), motion, tuple(masks), _files(chosen, find_file), sketches)
     return _frames(chosen, clip, progress)
 
 
@@ -137,7 +147,15 @@ def _check(keyframes: Sequence[NDArray[Any]], indices: Sequence[int]) -> None:
     require("keyframes", f"shape {shape}", len(shape) == 3 and shape[2] == 3, "RGB pictures of shape [h, w, 3]")
 
 
-def _chosen(name: str) -> Interpolator:
+def _check_sketches(sketches: Sequence[NDArray[Any]], last: int, size: tuple[int, ...]) -> None:
+    require("sketches", len(sketches), len(sketches) > last, f"one for each of the {last + 1} frames")
+    sizes = sorted({sketch.shape[:2] for sketch in sketches})
+    require("sketches", sizes, sizes == [size], f"of the keyframes' size, {size[1]} x {size[0]} px")
+
+
+def _chosen(name: str | Interpolator) -> Interpolator:
+    if not isinstance(name, str):
+        return name
     if name not in BACKENDS:
         raise InvalidInputError(f"backend must be one of {', '.join(BACKENDS)}. Got: {name!r}")
     return BACKENDS[name]

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from browser import Page, opened
 from comfy_host import ROOT, Host
-from graphs import WORKFLOWS, Group
+from graphs import WORKFLOWS, Group, without_models
 
 SCHEMAS = ROOT / "tests" / "nodes" / "node_schemas.json"
 _GAP = 40
@@ -153,7 +153,7 @@ def main() -> None:
                     ui, api = export(page, name, WORKFLOWS[name]())
                     _write(ROOT / "workflows" / f"{name}.json", ui)
                     _write(ROOT / "workflows" / "api" / f"{name}.json", api)
-                    thumbnail(host, api, ROOT / "workflows" / f"{name}.jpg")
+                    thumbnail(host, without_models(api), ROOT / "workflows" / f"{name}.jpg")
         finally:
             host.stop()
 

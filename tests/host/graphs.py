@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import copy
 import json
 from dataclasses import dataclass
 from typing import Any
 
-__all__ = ["WORKFLOWS", "Column", "Group", "Node"]
+__all__ = ["WORKFLOWS", "Column", "Group", "Node", "without_models"]
 
 
 @dataclass(frozen=True)
@@ -196,12 +197,39 @@ DRAWN = {
     ],
 }
 
+PAPER_NOTE = """\
+## The paper, as a graph
+
+Illustration, query points, mesh, strokes, rig, simulation, flow, sketch, warp, blur, **sketch-guided SVD**, \
+interpolation.
+
+**Four model files** are needed, as *Render* and *Interpolate* tell:
+
+- `models/checkpoints/svd.safetensors` from \
+https://huggingface.co/stabilityai/stable-video-diffusion-img2vid
+- `models/controlnet/lvcd.ckpt` from \
+https://huggingface.co/luckyhzt/lvcd_pretrained_models
+- `models/checkpoints/model.ckpt` and `models/controlnet/sketch_encoder.ckpt` from \
+https://huggingface.co/Doubiiu/ToonCrafter
+
+Without them, set *renderer* in *Render* to *composite*, and *backend* in *Interpolate* to *motion*.
+
+**35 frames** are three segments of the video model: 15, then 10 with each further segment. Other lengths work too.
+
+Settings are explained on the help pages of both: select one and press **?**.
+"""
+
 HEAD = {
     "position": "[[470, 130]]",
     "region": "polygon",
     "region.points": "[[340, 20], [600, 20], [600, 330], [340, 330]]",
     "body": 0,
 }
+
+Renderer = tuple[dict[str, Any], dict[str, str]]
+
+_COMPOSITE: Renderer = ({}, {})
+_SKETCH_GUIDED: Renderer = ({"renderer": "sketch-guided SVD"}, {"renderer.sketches": "warp.sketches"})
 
 CAPE_POINTS = """\
 [[680, 540, 1], [640, 480, 1], [700, 590, 1],
@@ -255,6 +283,29 @@ def every_step() -> tuple[Group, ...]:
         Group("3 · Strokes, rig points, simulation", ORANGE, (_drawn(), _simulated(400, scene, {"frames": 61}))),
         _sketches(),
         _video("every_step", 420, "interpolate.frames", interpolate),
+    )
+
+
+def physanimator_paper() -> tuple[Group, ...]:
+    """The paper's pipeline, with its renderer."""
+    scene = ours(
+        "scene",
+        "Scene",
+        values={"gravity_y": 0.1},
+        bodies="body_hair.bodies",
+        strokes="hand.strokes",
+        rig_points="shoulder.rig_points",
+    )
+    segment = ours("segment", "SegmentByPoints", 440, values={"points": CAPE_POINTS}, image="example.image")
+    led = {"backend.sketches": "warp.sketches"}
+    drawn = ours("interpolate", "Interpolate", values={"backend": "tooncrafter"}, images="render.frames", **led)
+    video = _video("physanimator_paper", 420, "interpolate.frames", drawn, renderer=_SKETCH_GUIDED)
+    return (
+        _illustration(340, core("note", "MarkdownNote", 520, "The paper", {"": PAPER_NOTE}), segment),
+        _cape_and_hair(),
+        Group("3 · Strokes, rig points, simulation", ORANGE, (_drawn(), _simulated(400, scene, {"frames": 35}))),
+        _sketches(),
+        video,
     )
 
 
@@ -440,9 +491,10 @@ def _sketches() -> Group:
     return Group("4 · Flow and sketch", TEAL, (Column(370, nodes),))
 
 
-def _video(name: str, width: int, frames: str, *between: Node) -> Group:
+def _video(name: str, width: int, frames: str, *between: Node, renderer: Renderer = _COMPOSITE) -> Group:
+    values, inputs = renderer
     nodes = (
-        ours("render", "Render", image="example.image", motion="simulate.motion"),
+        ours("render", "Render", values=values, image="example.image", motion="simulate.motion", **inputs),
         *between,
         core("video", "CreateVideo", images=frames, fps="simulate.frame_rate"),
         core("save", "SaveVideo", 480, "", {"filename_prefix": f"PhysAnimator/{name}"}, video="video.VIDEO"),
@@ -454,8 +506,20 @@ def _video(name: str, width: int, frames: str, *between: Node) -> Group:
 WORKFLOWS = {
     "quickstart": quickstart,
     "every_step": every_step,
+    "physanimator_paper": physanimator_paper,
     "wind_and_pins": wind_and_pins,
     "contact": contact,
     "seamless_loop": seamless_loop,
     "scene_editor": scene_editor,
 }
+
+
+def without_models(api: dict[str, Any]) -> dict[str, Any]:
+    """The workflow with the renderer and the in-betweens that need no model files."""
+    changed = copy.deepcopy(api)
+    for kind, choice, plain in (("Render", "renderer", "composite"), ("Interpolate", "backend", "motion")):
+        for node in changed.values():
+            if node["class_type"] == f"PhysAnimator_{kind}":
+                kept = {name: value for name, value in node["inputs"].items() if not name.startswith(f"{choice}.")}
+                node["inputs"] = kept | {choice: plain}
+    return changed

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from physanimator.nodes.defaults import default_of
-from physanimator.nodes.literals import chosen, keys_of, refusal, times_of
+from physanimator.nodes.literals import chosen, keys_of, refusal, times_of, whole_numbers_of
 from physanimator.physics.errors import InvalidInputError, require
 
 
@@ -22,6 +22,14 @@ def test_no_times(text: str) -> None:
 def test_bad_times_are_refused_by_name(text: str) -> None:
     with pytest.raises(InvalidInputError, match=r"^motion times must be a list of seconds such as \[0, 0\.5, 2\]"):
         times_of(text, name="motion times")
+
+
+def test_frame_numbers() -> None:
+    assert whole_numbers_of("0, 12,15", name="keyframes_at") == (0, 12, 15)
+    assert whole_numbers_of(" ", name="keyframes_at") == ()
+    for text in ("0, 1.5", "soon"):
+        with pytest.raises(InvalidInputError, match=r"^keyframes_at must be"):
+            whole_numbers_of(text, name="keyframes_at")
 
 
 def test_keys_along_a_path() -> None:

@@ -76,6 +76,12 @@ def psnr(a: NDArray[Any], b: NDArray[Any]) -> float:
     return float(10 * np.log10(255**2 / max(error, 1e-12)))
 
 
+def test_keyframes_may_be_listed() -> None:
+    assert keyframe_indices(31, at=[12, 5]) == [0, 5, 12, 30]
+    with pytest.raises(InvalidInputError, match="frame numbers from 0 to 30"):
+        keyframe_indices(31, at=[31])
+
+
 def test_keyframes_are_every_nth_and_the_last() -> None:
     assert keyframe_indices(31, 15) == [0, 15, 30]
     assert keyframe_indices(40, 15) == [0, 15, 30, 39]

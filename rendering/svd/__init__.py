@@ -1,0 +1,1 @@
+"""Sketch-guided Stable Video Diffusion: the paper's renderer, for the public LVCD weights."""

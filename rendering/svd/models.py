@@ -1,0 +1,110 @@
+"""All networks of the sketch-guided renderer, loaded from the files that users have."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeVar
+
+import torch
+from diffusers import AutoencoderKLTemporalDecoder
+from torch import Tensor, nn
+
+from ..checkpoints import CheckpointError, assign, below, build_without_storage, check_names, read_checkpoint
+from .autoencoder import build_autoencoder
+from .controlnet import SketchControlNet
+from .image_encoder import ImageEncoder
+from .svd_weights import WANTED_SVD, ModelSizes, SVDWeights, read_svd
+from .unet import SpatioTemporalUNet
+
+__all__ = ["WANTED_LVCD", "SketchVideoModels", "load_models"]
+
+WANTED_LVCD = (
+    "LVCD's lvcd.ckpt from https://huggingface.co/luckyhzt/lvcd_pretrained_models, or lvcd-fp16.safetensors from"
+    " https://huggingface.co/Kijai/LVCD-pruned"
+)
+
+Network = TypeVar("Network", bound=nn.Module)
+
+
+@dataclass(frozen=True, eq=False)
+class SketchVideoModels:
+    """The networks, on the CPU, in the order of their use.
+
+    Attributes:
+        image_encoder: embeds the illustration.
+        autoencoder: float32; pictures to latents and back.
+        control: reads the sketches.
+        unet: predicts the frames.
+    """
+
+    image_encoder: ImageEncoder
+    autoencoder: AutoencoderKLTemporalDecoder
+    control: SketchControlNet
+    unet: SpatioTemporalUNet
+
+    @property
+    def dtype(self) -> torch.dtype:
+        """In which all but the autoencoder compute."""
+        return next(self.unet.parameters()).dtype
+
+
+def load_models(
+    svd: Path, lvcd: Path, *, dtype: torch.dtype = torch.float32, sizes: ModelSizes | None = None
+) -> SketchVideoModels:
+    """Load all networks. Tensors already in the wanted precision stay mapped from their files.
+
+    Args:
+        svd: Stable Video Diffusion: its single file or its diffusers folder.
+        lvcd: LVCD's file, .ckpt or .safetensors.
+        dtype: in which all but the autoencoder compute.
+        sizes: of the networks in a single file; the public ones by default.
+
+    Raises:
+        CheckpointError: a file is missing, damaged or another one; it tells what is wrong and what is wanted.
+    """
+    weights = read_svd(svd, sizes=sizes)
+    control, attention = _read_lvcd(lvcd, weights.sizes)
+    network = weights.sizes.network
+    return SketchVideoModels(
+        _loaded(lambda: ImageEncoder(weights.sizes.image_encoder), weights.image_encoder, weights, dtype),
+        _loaded(lambda: build_autoencoder(weights.sizes.autoencoder), weights.autoencoder, weights, torch.float32),
+        _made(lambda: SketchControlNet(network), control, dtype, str(lvcd), WANTED_LVCD),
+        _loaded(lambda: SpatioTemporalUNet(network), {**weights.unet, **attention}, weights, dtype),
+    )
+
+
+def _loaded(
+    build: Callable[[], Network], tensors: Mapping[str, Tensor], weights: SVDWeights, dtype: torch.dtype
+) -> Network:
+    return _made(build, tensors, dtype, f"{weights.source}", WANTED_SVD)
+
+
+def _made(
+    build: Callable[[], Network], tensors: Mapping[str, Tensor], dtype: torch.dtype, file: str, wanted: str
+) -> Network:
+    network = build_without_storage(build)
+    shapes = {name: tuple(tensor.shape) for name, tensor in network.state_dict().items()}
+    check_names(shapes, {name: tuple(tensor.shape) for name, tensor in tensors.items()}, file=file, wanted=wanted)
+    assign(network, {name: tensor.to(dtype) for name, tensor in tensors.items()}, file=file, wanted=wanted)
+    return network
+
+
+def _read_lvcd(path: Path, sizes: ModelSizes) -> tuple[dict[str, Tensor], dict[str, Tensor]]:
+    """LVCD's ControlNet, and its attention layers of the UNet; names without prefixes."""
+    tensors = read_checkpoint(path, wanted=WANTED_LVCD)
+    control, attention = below(tensors, SketchControlNet.prefix), below(tensors, SpatioTemporalUNet.prefix)
+    if not control:
+        raise CheckpointError(
+            f"{path} does not fit: nothing in it is called {SketchControlNet.prefix}*. Wanted: {WANTED_LVCD}"
+        )
+    unet = build_without_storage(lambda: SpatioTemporalUNet(sizes.network)).state_dict()
+    expected = {name: tuple(tensor.shape) for name, tensor in unet.items() if ".attn1." in name or name in attention}
+    check_names(
+        expected,
+        {name: tuple(tensor.shape) for name, tensor in attention.items()},
+        file=str(path),
+        wanted=WANTED_LVCD,
+    )
+    return control, attention

@@ -1,0 +1,45 @@
+"""Settings of the sketch-guided renderer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...physics.errors import require
+from .frame_layout import OVERLAP
+from .working_size import TRAINED_HEIGHT, TRAINED_WIDTH
+
+__all__ = ["DECODED_TOGETHER", "SketchVideoOptions"]
+
+DECODED_TOGETHER = 10
+"""Frames that LVCD decodes at once."""
+
+
+@dataclass(frozen=True)
+class SketchVideoOptions:
+    """Settings; the defaults are those that LVCD is used with.
+
+    Attributes:
+        steps: of the sampler, for each segment.
+        motion_bucket: how much motion to expect, 1 to 255.
+        frames_per_second: what the networks are told of the frame rate.
+        picture_noise: standard deviation of the noise on the reference picture, which is in -1..1.
+        overlap: frames that neighbouring segments share.
+        area: of the pictures that the networks work on [px^2].
+        decoded_together: frames that are decoded at once; fewer need less memory.
+        seed: of the noise.
+    """
+
+    steps: int = 25
+    motion_bucket: int = 160
+    frames_per_second: int = 6
+    picture_noise: float = 0.0
+    overlap: int = OVERLAP
+    area: int = TRAINED_WIDTH * TRAINED_HEIGHT
+    decoded_together: int = DECODED_TOGETHER
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        require("steps", self.steps, self.steps >= 2, "2 or more")
+        require("motion_bucket", self.motion_bucket, 1 <= self.motion_bucket <= 255, "1 to 255")
+        require("frames_per_second", self.frames_per_second, self.frames_per_second >= 1, "1 or more")
+        require("picture_noise", self.picture_noise, self.picture_noise >= 0, "0 or more")

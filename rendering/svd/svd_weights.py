@@ -1,0 +1,165 @@
+"""Stable Video Diffusion's weights, from its single file or from a diffusers folder, by the names of our networks."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from torch import Tensor
+
+from ..checkpoints import CheckpointError, below, read_checkpoint
+from .autoencoder import from_public_autoencoder
+from .configuration import NetworkConfiguration
+from .image_encoder import ImageEncoderConfiguration
+from .image_encoder_names import from_open_clip
+from .unet import SpatioTemporalUNet
+from .unet_names import from_diffusers_unet
+
+__all__ = ["WANTED_SVD", "ModelSizes", "SVDWeights", "read_svd"]
+
+WANTED_SVD = (
+    "Stable Video Diffusion image-to-video (14 frames): svd.safetensors, or the folder of its diffusers version,"
+    " from https://huggingface.co/stabilityai/stable-video-diffusion-img2vid"
+)
+
+_AUTOENCODER = "first_stage_model."
+_CONDITION_ENCODER = "conditioner.embedders.3.encoder."
+_IMAGE_ENCODER = "conditioner.embedders.0.open_clip.model.visual."
+_PARTS = ("unet", "vae", "image_encoder")
+
+
+@dataclass(frozen=True)
+class ModelSizes:
+    """Sizes of all networks; the defaults are the public ones.
+
+    Attributes:
+        network: of UNet and ControlNet.
+        autoencoder: channels of each level.
+        image_encoder: of the picture encoder.
+    """
+
+    network: NetworkConfiguration = field(default_factory=NetworkConfiguration)
+    autoencoder: tuple[int, ...] = (128, 256, 512, 512)
+    image_encoder: ImageEncoderConfiguration = field(default_factory=ImageEncoderConfiguration)
+
+
+@dataclass(frozen=True, eq=False)
+class SVDWeights:
+    """Tensors of each network by the names that the network uses.
+
+    Attributes:
+        unet: public names, without prefix.
+        autoencoder: diffusers' names.
+        image_encoder: diffusers' names.
+        sizes: of the networks.
+        source: the file or folder.
+    """
+
+    unet: dict[str, Tensor]
+    autoencoder: dict[str, Tensor]
+    image_encoder: dict[str, Tensor]
+    sizes: ModelSizes
+    source: Path
+
+
+def read_svd(path: Path, *, sizes: ModelSizes | None = None) -> SVDWeights:
+    """Read a single file, or a diffusers folder, whose documents then tell the sizes.
+
+    Args:
+        path: file or folder.
+        sizes: of the networks in a single file; the public ones by default.
+
+    Raises:
+        CheckpointError: it is neither.
+    """
+    return _from_folder(path) if path.is_dir() else _from_file(path, sizes or ModelSizes())
+
+
+def _from_file(path: Path, sizes: ModelSizes) -> SVDWeights:
+    tensors = read_checkpoint(path, wanted=WANTED_SVD)
+    for prefix in (SpatioTemporalUNet.prefix, _AUTOENCODER, _IMAGE_ENCODER):
+        if not any(name.startswith(prefix) for name in tensors):
+            raise CheckpointError(f"{path} does not fit: nothing in it is called {prefix}*. Wanted: {WANTED_SVD}")
+    decoder, condition = below(tensors, _AUTOENCODER), below(tensors, _CONDITION_ENCODER)
+    encoder = condition if any(name.startswith("encoder.") for name in condition) else decoder
+    return SVDWeights(
+        below(tensors, SpatioTemporalUNet.prefix),
+        from_public_autoencoder(
+            {name: tensor for name, tensor in encoder.items() if name.startswith(("encoder.", "quant_conv."))},
+            {name: tensor for name, tensor in decoder.items() if name.startswith("decoder.")},
+        ),
+        from_open_clip(below(tensors, _IMAGE_ENCODER)),
+        sizes,
+        path,
+    )
+
+
+def _from_folder(path: Path) -> SVDWeights:
+    lacking = [part for part in _PARTS if not (path / part / "config.json").is_file()]
+    if lacking:
+        missing = ", ".join(f"{part}/config.json" for part in lacking)
+        raise CheckpointError(f"{path} does not fit: it lacks {missing}. Wanted: {WANTED_SVD}")
+    unet, vae, encoder = (json.loads((path / part / "config.json").read_text(encoding="utf-8")) for part in _PARTS)
+    try:
+        sizes = ModelSizes(_network_sizes(unet), tuple(vae["block_out_channels"]), _encoder_sizes(encoder))
+    except KeyError as error:
+        raise CheckpointError(f"{path} does not fit: a config.json lacks {error}. Wanted: {WANTED_SVD}") from error
+    image_encoder = _tensors(path / "image_encoder", "model", "pytorch_model")
+    return SVDWeights(
+        from_diffusers_unet(_tensors(path / "unet", "diffusion_pytorch_model"), sizes.network),
+        _tensors(path / "vae", "diffusion_pytorch_model"),
+        {name: tensor for name, tensor in image_encoder.items() if not name.endswith("position_ids")},
+        sizes,
+        path,
+    )
+
+
+def _tensors(folder: Path, *stems: str) -> dict[str, Tensor]:
+    """All weights of one part: one file, or a split one; full precision where there are both."""
+    for stem in stems:
+        for variant in ("", ".fp16"):
+            for suffix in (".safetensors", ".bin"):
+                whole = folder / f"{stem}{variant}{suffix}"
+                split = sorted(folder.glob(f"{stem}{variant}-*-of-*{suffix}"))
+                files = [whole] if whole.is_file() else split
+                if files:
+                    return {
+                        name: tensor
+                        for file in files
+                        for name, tensor in read_checkpoint(file, wanted=WANTED_SVD).items()
+                    }
+    raise CheckpointError(f"{folder} does not fit: it lacks {stems[0]}.safetensors. Wanted: {WANTED_SVD}")
+
+
+def _network_sizes(config: Mapping[str, Any]) -> NetworkConfiguration:
+    channels, heads = config["block_out_channels"], config["num_attention_heads"]
+    return replace(
+        NetworkConfiguration(),
+        in_channels=config["in_channels"],
+        out_channels=config["out_channels"],
+        model_channels=channels[0],
+        channel_mult=tuple(each // channels[0] for each in channels),
+        num_res_blocks=config["layers_per_block"],
+        attention_at_levels=tuple(
+            level for level, kind in enumerate(config["down_block_types"]) if kind.startswith("CrossAttn")
+        ),
+        num_head_channels=channels[0] // (heads if isinstance(heads, int) else heads[0]),
+        context_dim=config["cross_attention_dim"],
+        adm_in_channels=config["projection_class_embeddings_input_dim"],
+        ids_embed_dim=config["addition_time_embed_dim"],
+    )
+
+
+def _encoder_sizes(config: Mapping[str, Any]) -> ImageEncoderConfiguration:
+    return ImageEncoderConfiguration(
+        width=config["hidden_size"],
+        layers=config["num_hidden_layers"],
+        heads=config["num_attention_heads"],
+        hidden=config["intermediate_size"],
+        patch=config["patch_size"],
+        picture=config["image_size"],
+        projection=config["projection_dim"],
+    )

@@ -1,0 +1,1 @@
+"""Cartoon interpolation between two keyframes with sketch control (ToonCrafter, Xing et al. 2024)."""

@@ -1,0 +1,98 @@
+"""The interpolation as a backend: in-betweens of a clip's keyframes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import torch
+from numpy.typing import NDArray
+
+from ...physics.progress import Progress
+from ..checkpoints import CheckpointError
+from ..inbetweening import Clip, FloatImage, ModelFile, as_float, like
+from ..svd.placement import Placement
+from .gap_drawing import Gap, GapDrawing
+from .gap_plan import clips_in
+from .models import WANTED_SKETCH, InterpolationModels
+from .options import InterpolationOptions
+from .pair_drawing import LookAt, PairDrawing, Prompts
+from .sampler import SampledStep, Watch
+
+__all__ = ["ToonCrafterInterpolator"]
+
+
+class ToonCrafterInterpolator:
+    """Draws in-betweens as ToonCrafter does; where the clip has sketches, they lead it."""
+
+    name = "tooncrafter"
+    description = "Draws in-betweens with the video model ToonCrafter, led by sketches: for large or unknown motion"
+    requires: tuple[ModelFile, ...] = ()
+
+    def __init__(
+        self,
+        models: InterpolationModels,
+        *,
+        options: InterpolationOptions | None = None,
+        placement: Placement | None = None,
+        look: LookAt | None = None,
+        prompts: Prompts | None = None,
+        progress: Progress | None = None,
+        watch: Watch | None = None,
+    ) -> None:
+        """Prepare.
+
+        Args:
+            models: the networks.
+            options: settings.
+            placement: where the networks compute; on the CPU by default.
+            look: another picture encoder than the models' own.
+            prompts: what is wanted, and no words at all, by another text encoder than that of the models' files.
+            progress: called after each sampling step with the number done and the number in all, counted for each pair
+                of keyframes; may raise to stop.
+            watch: called in each sampling step; may raise to stop.
+        """
+        self.options = options or InterpolationOptions()
+        place = placement or Placement(torch.device("cpu"))
+        self._drawing = PairDrawing(models, self.options, place, look=look, prompts=prompts)
+        self._progress, self._watch = progress, watch
+        self._clip: Clip | None = None
+        self._drawn: dict[int, dict[int, FloatImage]] = {}
+        self._done = 0
+
+    def in_betweens(self, clip: Clip, number: int) -> Iterator[NDArray[Any]]:
+        """Yield the frames between two keyframes; those of pairs that were drawn with it wait for their turn."""
+        if clip is not self._clip:
+            self._clip, self._drawn, self._done = clip, {}, 0
+        if number not in self._drawn:
+            last = min(number + self.options.pairs_together, len(clip.keyframes) - 1)
+            self._drawn = self._filled(clip, range(number, last))
+        drawn = self._drawn.pop(number)
+        for frame, _ in clip.times(number):
+            yield like(drawn[frame], clip.keyframes[number])
+
+    def _filled(self, clip: Clip, numbers: range) -> dict[int, dict[int, FloatImage]]:
+        """In-betweens of several pairs of keyframes."""
+        sketches = clip.sketches if self.options.control_scale > 0 else ()
+        if sketches and self._drawing.models.sketch is None:
+            raise CheckpointError(
+                f"Sketches lead the in-betweens only with a model of their own. Wanted: {WANTED_SKETCH}"
+            )
+        clip_gap = self._drawing.models.unet.config.temporal_length - 1
+        lengths = [last - first for first, last in zip(clip.indices, clip.indices[1:], strict=False)]
+        total = self.options.steps * sum(clips_in(length, clip_gap) for length in lengths)
+
+        def each_step(now: SampledStep) -> None:
+            if self._watch is not None:
+                self._watch(now)
+            self._done += len(now.noisy)
+            if self._progress is not None:
+                self._progress(self._done, total)
+
+        drawing = GapDrawing(self._drawing, sketches, clip.size, watch=each_step)
+        return dict(zip(numbers, drawing.filled([_gap(clip, number) for number in numbers]), strict=True))
+
+
+def _gap(clip: Clip, number: int) -> Gap:
+    start, end = (as_float(clip.keyframes[each]) for each in (number, number + 1))
+    return Gap(clip.indices[number], clip.indices[number + 1], start, end)

@@ -1,0 +1,177 @@
+"""All networks of the interpolation, loaded from the files that users have."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TypeVar
+
+import torch
+from torch import Tensor, nn
+
+from ..checkpoints import CheckpointError, assign, below, build_without_storage, check_names, read_checkpoint
+from ..svd.image_encoder import ImageEncoder, ImageEncoderConfiguration
+from ..svd.image_encoder_names import from_open_clip
+from .autoencoder import DualReferenceAutoencoder
+from .configuration import (
+    AutoencoderConfiguration,
+    ResamplerConfiguration,
+    SketchEncoderConfiguration,
+    UNetConfiguration,
+)
+from .resampler import ImageResampler
+from .sketch_encoder import SketchEncoder
+from .text_encoder import TextEncoder, TextEncoderConfiguration, empty_prompt, text_weights
+from .unet import InterpolationUNet
+
+__all__ = ["InterpolationModels", "ModelSizes", "load_models"]
+
+WANTED_MODEL = (
+    "ToonCrafter's model.ckpt from https://huggingface.co/Doubiiu/ToonCrafter, or its pruned fp16 safetensors from"
+    " https://huggingface.co/Kijai/DynamiCrafter_pruned"
+)
+WANTED_SKETCH = "ToonCrafter's sketch_encoder.ckpt from https://huggingface.co/Doubiiu/ToonCrafter"
+WANTED_IMAGE_ENCODER = (
+    "the picture encoder of OpenCLIP ViT-H/14 (CLIP-ViT-H-14-laion2B-s32B-b79K) from"
+    " https://huggingface.co/laion/CLIP-ViT-H-14-laion2B-s32B-b79K"
+)
+WANTED_TEXT_ENCODER = (
+    "the text encoder of Stable Diffusion 2.1 from https://huggingface.co/stabilityai/stable-diffusion-2-1"
+)
+
+_TEXT, _PICTURE = "cond_stage_model.model.", "embedder.model.visual."
+_SKETCH_PREFIXES = ("control_model.", "")
+
+Network = TypeVar("Network", bound=nn.Module)
+
+
+@dataclass(frozen=True)
+class ModelSizes:
+    """Sizes of all networks; the defaults are the public ones."""
+
+    unet: UNetConfiguration = field(default_factory=UNetConfiguration)
+    resampler: ResamplerConfiguration = field(default_factory=ResamplerConfiguration)
+    autoencoder: AutoencoderConfiguration = field(default_factory=AutoencoderConfiguration)
+    sketch: SketchEncoderConfiguration = field(default_factory=SketchEncoderConfiguration)
+    image_encoder: ImageEncoderConfiguration = field(default_factory=ImageEncoderConfiguration)
+    text_encoder: TextEncoderConfiguration = field(default_factory=TextEncoderConfiguration)
+
+
+@dataclass(frozen=True, eq=False)
+class InterpolationModels:
+    """The networks, on the CPU.
+
+    Attributes:
+        unet: draws the clip.
+        resampler: tells it what is in the first keyframe.
+        autoencoder: float32; pictures to latents and back.
+        sketch: reads the sketches; None without its file.
+        image_encoder: looks at the first keyframe; None where the files given hold none.
+        empty_prompt: embedding of no words, shape [1, 77, c]; None where the files given hold no text encoder.
+    """
+
+    unet: InterpolationUNet
+    resampler: ImageResampler
+    autoencoder: DualReferenceAutoencoder
+    sketch: SketchEncoder | None = None
+    image_encoder: ImageEncoder | None = None
+    empty_prompt: Tensor | None = None
+
+    @property
+    def dtype(self) -> torch.dtype:
+        """In which all but the autoencoder compute."""
+        return next(self.unet.parameters()).dtype
+
+
+def load_models(
+    model: Path,
+    *,
+    sketch: Path | None = None,
+    image_encoder: Path | None = None,
+    text_encoder: Path | None = None,
+    dtype: torch.dtype = torch.float32,
+    sizes: ModelSizes | None = None,
+) -> InterpolationModels:
+    """Load all networks. Tensors already in the wanted precision stay mapped from their files.
+
+    Args:
+        model: ToonCrafter's file, .ckpt or .safetensors.
+        sketch: its sketch encoder, .ckpt or .safetensors.
+        image_encoder: the picture encoder, where the model's file holds none.
+        text_encoder: the text encoder, where the model's file holds none; only the empty prompt's embedding is kept.
+        dtype: in which all but the autoencoder compute.
+        sizes: of the networks; the public ones by default.
+
+    Raises:
+        CheckpointError: a file is missing, damaged or another one; it tells what is wrong and what is wanted.
+    """
+    sizes = sizes or ModelSizes()
+    tensors = read_checkpoint(model, wanted=WANTED_MODEL)
+    for network in (InterpolationUNet, ImageResampler, DualReferenceAutoencoder):
+        if not any(name.startswith(network.prefix) for name in tensors):
+            raise CheckpointError(
+                f"{model} does not fit: nothing in it is called {network.prefix}*. Wanted: {WANTED_MODEL}"
+            )
+
+    def part(build: Callable[[], Network], prefix: str, kept: torch.dtype) -> Network:
+        return _made(build, below(tensors, prefix), kept, model, WANTED_MODEL)
+
+    return InterpolationModels(
+        part(lambda: InterpolationUNet(sizes.unet), InterpolationUNet.prefix, dtype),
+        part(lambda: ImageResampler(sizes.resampler), ImageResampler.prefix, dtype),
+        part(lambda: DualReferenceAutoencoder(sizes.autoencoder), DualReferenceAutoencoder.prefix, torch.float32),
+        None if sketch is None else _sketch_encoder(sketch, sizes.sketch, dtype),
+        _image_encoder(tensors, model, image_encoder, sizes.image_encoder, dtype),
+        _empty_prompt(tensors, model, text_encoder, sizes.text_encoder, dtype),
+    )
+
+
+def _made(
+    build: Callable[[], Network], tensors: Mapping[str, Tensor], dtype: torch.dtype, file: Path, wanted: str
+) -> Network:
+    network = build_without_storage(build)
+    shapes = {name: tuple(tensor.shape) for name, tensor in network.state_dict().items()}
+    check_names(shapes, {name: tuple(each.shape) for name, each in tensors.items()}, file=str(file), wanted=wanted)
+    assign(network, {name: each.to(dtype) for name, each in tensors.items()}, file=str(file), wanted=wanted)
+    return network
+
+
+def _sketch_encoder(file: Path, config: SketchEncoderConfiguration, dtype: torch.dtype) -> SketchEncoder:
+    tensors = read_checkpoint(file, wanted=WANTED_SKETCH)
+    prefix = next(each for each in _SKETCH_PREFIXES if any(name.startswith(each) for name in tensors))
+    return _made(lambda: SketchEncoder(config), below(tensors, prefix), dtype, file, WANTED_SKETCH)
+
+
+def _image_encoder(
+    tensors: Mapping[str, Tensor], model: Path, file: Path | None, config: ImageEncoderConfiguration, dtype: torch.dtype
+) -> ImageEncoder | None:
+    """From the model's own file, or else from a separate one, by OpenCLIP's names or those of transformers."""
+    own = below(tensors, _PICTURE)
+    if not own and file is None:
+        return None
+    if own or file is None:
+        named = from_open_clip(own)
+        return _made(lambda: ImageEncoder(config), named, dtype, model, WANTED_IMAGE_ENCODER)
+    given = read_checkpoint(file, wanted=WANTED_IMAGE_ENCODER)
+    named = from_open_clip(below(given, "visual.")) or {
+        name: each
+        for name, each in given.items()
+        if name.startswith(("vision_model.", "visual_projection.")) and not name.endswith("position_ids")
+    }
+    return _made(lambda: ImageEncoder(config), named, dtype, file, WANTED_IMAGE_ENCODER)
+
+
+def _empty_prompt(
+    tensors: Mapping[str, Tensor], model: Path, file: Path | None, config: TextEncoderConfiguration, dtype: torch.dtype
+) -> Tensor | None:
+    """Computed once in full precision; the text encoder itself is not kept."""
+    given, source = below(tensors, _TEXT), model
+    if not given:
+        if file is None:
+            return None
+        given, source = read_checkpoint(file, wanted=WANTED_TEXT_ENCODER), file
+    weights = text_weights(given, config.layers)
+    encoder = _made(lambda: TextEncoder(config), weights, torch.float32, source, WANTED_TEXT_ENCODER)
+    with torch.no_grad():
+        return encoder(empty_prompt(config.tokens)).to(dtype)

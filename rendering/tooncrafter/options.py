@@ -1,0 +1,57 @@
+"""Settings of the interpolation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...physics.errors import require
+
+__all__ = ["CLIP_GAP", "SOLVERS", "TRAINED_HEIGHT", "TRAINED_WIDTH", "InterpolationOptions"]
+
+TRAINED_WIDTH, TRAINED_HEIGHT = 512, 320
+"""What ToonCrafter was trained with [px]."""
+
+CLIP_GAP = 15
+"""Frames from one keyframe to the next in the clips that it was trained with."""
+
+SOLVERS = ("ddim", "dpm++ 2m")
+"""How noise becomes a picture: as the original does it, and in fewer steps."""
+
+
+@dataclass(frozen=True)
+class InterpolationOptions:
+    """Settings; the defaults are those that ToonCrafter is used with, and the paper's control scale.
+
+    Attributes:
+        steps: of the solver, for each pair of keyframes.
+        solver: one of ``SOLVERS``.
+        eta: share of the noise that DDIM draws anew in each step, 0 to 1.
+        guidance: how closely frames follow prompt and picture; 1 is not at all strengthened, and twice as fast.
+        guidance_rescale: share of the guided prediction whose contrast is brought back, 0 to 1.
+        frame_rate: what the network is told of it: low for large motion between keyframes [1/s].
+        control_scale: how closely frames follow the sketches; 0 ignores them.
+        area: of the pictures that the networks work on [px^2].
+        pairs_together: pairs of keyframes that are drawn at once; fewer need less memory.
+        seed: of the noise.
+    """
+
+    steps: int = 50
+    solver: str = SOLVERS[0]
+    eta: float = 1.0
+    guidance: float = 7.5
+    guidance_rescale: float = 0.7
+    frame_rate: int = 10
+    control_scale: float = 0.1
+    area: int = TRAINED_WIDTH * TRAINED_HEIGHT
+    pairs_together: int = 1
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        require("steps", self.steps, 1 <= self.steps <= 1000, "1 to 1000")
+        require("solver", self.solver, self.solver in SOLVERS, f"one of {', '.join(SOLVERS)}")
+        require("eta", self.eta, 0 <= self.eta <= 1, "0 to 1")
+        require("guidance", self.guidance, self.guidance >= 1, "1 or more")
+        require("guidance_rescale", self.guidance_rescale, 0 <= self.guidance_rescale <= 1, "0 to 1")
+        require("frame_rate", self.frame_rate, self.frame_rate >= 1, "1 or more")
+        require("control_scale", self.control_scale, self.control_scale >= 0, "0 or more")
+        require("pairs_together", self.pairs_together, self.pairs_together >= 1, "1 or more")
