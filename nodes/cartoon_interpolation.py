@@ -141,6 +141,7 @@ def tooncrafter_backend(choice: dict[str, Any]) -> ToonCrafterInterpolator:
 
     device = model_management.get_torch_device()
     models = _models(choice, device)
+    _check_encoders(choice, models)
     return ToonCrafterInterpolator(
         models,
         options=_options(choice),
@@ -149,6 +150,20 @@ def tooncrafter_backend(choice: dict[str, Any]) -> ToonCrafterInterpolator:
         prompts=_prompts(choice, models),
         **_watched(device),
     )
+
+
+def _check_encoders(choice: dict[str, Any], models: InterpolationModels) -> None:
+    """Raise where the model's file holds no encoder and none is connected."""
+    held = {"clip": models.empty_prompt, "clip_vision": models.image_encoder}
+    loaders = {
+        "clip": "Load CLIP with the text encoder of Stable Diffusion 2.1",
+        "clip_vision": "Load CLIP Vision with CLIP-ViT-H-14-laion2B-s32B-b79K",
+    }
+    for name, own in held.items():
+        if own is None and choice.get(name) is None:
+            raise InvalidInputError(
+                f"{choice['tooncrafter_model']} is pruned: connect {name}, from {loaders[name]}, or choose model.ckpt."
+            )
 
 
 def _missing(name: str, file: str) -> str:
