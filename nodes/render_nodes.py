@@ -11,7 +11,8 @@ from comfy_api.latest import io
 from .defaults import default_of
 from .model_files import find_model_file
 from .progress import host_progress
-from .sketch_video import sketch_video_frames, sketch_video_inputs
+from .sketch_video import sketch_video_frames
+from .sketch_video_inputs import sketch_video_inputs
 from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of, pictures_of
 from .wires import MaskedMotion, MotionWire
 
