@@ -1,4 +1,4 @@
-"""The paper's interpolation as a choice of the node Interpolate: its options, and the backend that they make."""
+"""The paper's interpolation as a choice of the node Interpolate: the backend that its inputs make."""
 
 from __future__ import annotations
 
@@ -7,13 +7,12 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from comfy_api.latest import io
-
 from ..physics.errors import InvalidInputError, require
-from ..rendering.tooncrafter.options import SOLVERS, InterpolationOptions
-from .computing import PRECISIONS, dtype_of, host_placement
+from ..rendering.tooncrafter.options import InterpolationOptions
+from .computing import dtype_of, host_placement
 from .progress import host_preview, host_progress
-from .tooncrafter_files import TOONCRAFTER, model_choices, model_file, sketch_model_choices, sketch_model_file
+from .tooncrafter_files import TOONCRAFTER, model_file, sketch_model_file
+from .tooncrafter_inputs import AREAS
 
 if TYPE_CHECKING:
     import torch
@@ -23,108 +22,7 @@ if TYPE_CHECKING:
     from ..rendering.tooncrafter.models import InterpolationModels
     from ..rendering.tooncrafter.sampler import SampledStep
 
-__all__ = ["missing_tooncrafter_files", "tooncrafter_backend", "tooncrafter_inputs"]
-
-_AREAS = {"512 x 320": 512 * 320, "768 x 512": 768 * 512}
-_USUAL = InterpolationOptions()
-
-
-def tooncrafter_inputs() -> list[Any]:
-    """The inputs that this choice brings."""
-    return [
-        io.Image.Input(
-            "sketches",
-            optional=True,
-            tooltip="From Warp Sketch: dark lines on white, one for each frame. Without them nothing leads the model.",
-        ),
-        io.Combo.Input(
-            "tooncrafter_model",
-            options=model_choices(),
-            tooltip="ToonCrafter: model.ckpt or its pruned fp16 safetensors, in models/checkpoints.",
-        ),
-        io.Combo.Input(
-            "sketch_model",
-            options=sketch_model_choices(),
-            tooltip="ToonCrafter's sketch_encoder.ckpt, in models/controlnet. Needed only with sketches.",
-        ),
-        io.Float.Input(
-            "control_scale",
-            default=_USUAL.control_scale,
-            min=0.0,
-            max=2.0,
-            step=0.05,
-            tooltip="How closely in-betweens follow the sketches [0 to 2]. The paper takes 0.1; 0 ignores them.",
-        ),
-        io.Int.Input(
-            "noise_from",
-            default=_USUAL.seed,
-            min=0,
-            max=2**32 - 1,
-            tooltip="Seed of the noise: another number gives other in-betweens, the same one the same ones.",
-        ),
-        io.Int.Input(
-            "steps",
-            default=_USUAL.steps,
-            min=1,
-            max=200,
-            tooltip="Sampling steps for each pair of keyframes; time grows with them. 50 is usual.",
-        ),
-        io.Combo.Input(
-            "solver",
-            options=list(SOLVERS),
-            default=_USUAL.solver,
-            tooltip="ddim: as published, 50 steps. dpm++ 2m: close to it in 15 to 20 steps.",
-        ),
-        io.Float.Input(
-            "guidance",
-            default=_USUAL.guidance,
-            min=1.0,
-            max=30.0,
-            step=0.1,
-            tooltip="How closely in-betweens follow prompt and keyframes [1 to 30]; 1 takes half the time.",
-        ),
-        io.Int.Input(
-            "fs",
-            default=_USUAL.frame_rate,
-            min=1,
-            max=60,
-            tooltip="What the model is told of the frame rate [1/s]: lower for larger motion. The video's own stays.",
-        ),
-        io.Combo.Input(
-            "working_size",
-            options=list(_AREAS),
-            default=next(iter(_AREAS)),
-            tooltip="Area that the model works on [px], in the keyframes' proportions; trained at 512 x 320.",
-        ),
-        io.Int.Input(
-            "pairs_together",
-            default=_USUAL.pairs_together,
-            min=1,
-            max=16,
-            tooltip="Pairs of keyframes that are drawn at once; fewer need less memory.",
-        ),
-        io.Combo.Input(
-            "precision",
-            options=list(PRECISIONS),
-            default=PRECISIONS[0],
-            tooltip="auto: 16 bits where the device computes faster with them.",
-        ),
-        io.String.Input(
-            "prompt",
-            default="",
-            tooltip="What happens between the keyframes, in words; usually empty. Words need a clip.",
-        ),
-        io.Clip.Input(
-            "clip",
-            optional=True,
-            tooltip="Stable Diffusion 2.1's text encoder, from Load CLIP. Left out: the one in model.ckpt.",
-        ),
-        io.ClipVision.Input(
-            "clip_vision",
-            optional=True,
-            tooltip="CLIP-ViT-H-14, from Load CLIP Vision. Left out: the one in model.ckpt.",
-        ),
-    ]
+__all__ = ["missing_tooncrafter_files", "tooncrafter_backend"]
 
 
 def missing_tooncrafter_files(choice: dict[str, Any]) -> list[str]:
@@ -141,6 +39,7 @@ def tooncrafter_backend(choice: dict[str, Any]) -> ToonCrafterInterpolator:
 
     device = model_management.get_torch_device()
     models = _models(choice, device)
+    _check_encoders(choice, models)
     return ToonCrafterInterpolator(
         models,
         options=_options(choice),
@@ -151,6 +50,20 @@ def tooncrafter_backend(choice: dict[str, Any]) -> ToonCrafterInterpolator:
     )
 
 
+def _check_encoders(choice: dict[str, Any], models: InterpolationModels) -> None:
+    """Raise where the model's file holds no encoder and none is connected."""
+    held = {"clip": models.empty_prompt, "clip_vision": models.image_encoder}
+    loaders = {
+        "clip": "Load CLIP with the text encoder of Stable Diffusion 2.1",
+        "clip_vision": "Load CLIP Vision with CLIP-ViT-H-14-laion2B-s32B-b79K",
+    }
+    for name, own in held.items():
+        if own is None and choice.get(name) is None:
+            raise InvalidInputError(
+                f"{choice['tooncrafter_model']} is pruned: connect {name}, from {loaders[name]}, or choose model.ckpt."
+            )
+
+
 def _missing(name: str, file: str) -> str:
     return f"{file} is missing: {TOONCRAFTER[name]}"
 
@@ -158,7 +71,7 @@ def _missing(name: str, file: str) -> str:
 def _options(choice: dict[str, Any]) -> InterpolationOptions:
     same = ("steps", "solver", "guidance", "control_scale", "pairs_together")
     chosen = {name: choice[name] for name in same}
-    area, seed = _AREAS[choice["working_size"]], choice["noise_from"]
+    area, seed = AREAS[choice["working_size"]], choice["noise_from"]
     return InterpolationOptions(area=area, seed=seed, frame_rate=choice["fs"], **chosen)
 
 

@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
-from .cartoon_interpolation import missing_tooncrafter_files, tooncrafter_backend, tooncrafter_inputs
+from .cartoon_interpolation import missing_tooncrafter_files, tooncrafter_backend
 from .literals import chosen, refusal, whole_numbers_of
 from .model_files import find_model_file
 from .progress import host_progress
-from .sketch_video import sketch_video_frames, sketch_video_inputs
+from .sketch_video import sketch_video_frames
+from .sketch_video_inputs import sketch_video_inputs
 from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of, pictures_of
+from .tooncrafter_inputs import tooncrafter_inputs
 from .wires import MaskedMotion, MotionWire
 
 if TYPE_CHECKING:
