@@ -41,7 +41,8 @@ class Material(io.ComfyNode):
 
     @classmethod
     def execute(cls, preset: dict[str, Any] | None = None) -> io.NodeOutput:
-        name, values = chosen(preset, "preset", (*PRESETS, _CUSTOM))
+        name, given = chosen(preset, "preset", (*PRESETS, _CUSTOM))
+        values = {key: value for key, value in given.items() if value is not None}  # optional ones may be left out
         if "stretch_limit" in values:
             values["stretch_limit"] = values["stretch_limit"] or None
         return io.NodeOutput(PhysicalMaterial(**values) if name == _CUSTOM else preset_material(name, **values))
@@ -134,6 +135,7 @@ def _shared_inputs(material: PhysicalMaterial) -> list[io.Input]:
             max=10.0,
             step=0.01,
             display_name="stretch limit",
+            optional=True,
             tooltip="How many times as far as drawn a point gets from where the part is held, at most [1]: 1.06 hardly"
             " stretches and yet bends; 0 for no limit.",
         ),
@@ -144,6 +146,7 @@ def _shared_inputs(material: PhysicalMaterial) -> list[io.Input]:
             max=100.0,
             step=0.1,
             display_name="wind response",
+            optional=True,
             tooltip="How strongly wind and strokes act on it [1]: 1 is ordinary, 3 light as a ribbon, 0.5 heavy, 0 not"
             " at all.",
         ),

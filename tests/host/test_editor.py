@@ -218,7 +218,7 @@ def test_zoom_and_pan_keep_what_is_drawn_in_place(editor: EditorPage) -> None:
 def test_the_large_view_edits_the_same_scene(editor: EditorPage) -> None:
     small = editor.pixel()
     editor.press("expand")
-    assert editor.pixel() < small / 2
+    assert editor.pixel() < 0.6 * small
     editor.page.page.keyboard.press("w")
     editor.drag((300, 200), (900, 300))
     stroke = assert_drawn(editor, strokes=1)["strokes"][0]
