@@ -96,7 +96,7 @@ def build_functions(ti: Any) -> SimpleNamespace:
         largest = 0.5 * (square + ti.sqrt(ti.max(square * square - 4.0 * j * j, 0.0)))  # singular value squared
         bulk = ti.max(largest + magnitude(2.0 * j - 1.0), magnitude(j - 1.0))
         shear, pressure = elements[n, 4], elements[n, 5]
-        return elements[n, 6] * (shear + pressure * bulk)
+        return elements[n, 6] * (shear + pressure * bulk) / (shear + 2.0 * pressure)
 
     @ti.func
     def highest_frequency(solid: any_value, state: any_value, first: ti.i32, end: ti.i32):

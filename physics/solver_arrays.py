@@ -36,7 +36,7 @@ class Solid(NamedTuple):
         corners: vertices at the corners of the triangles of each block, int32, shape [n, 3, 16]; a part's last block
             is filled up with triangles that have no stiffness.
         elements: of each of these triangles the row-major inverse of its rest edge columns [1/side], 2 mu V,
-            lambda V, and the omega^2 at rest to plan with over 2 mu V + 2 lambda V, float32, shape [n, 7, 16].
+            lambda V, and the omega^2 at rest to plan with [1/s^2], float32, shape [n, 7, 16].
         first_slots: where each vertex's slots begin, int32, shape [v + 1].
         slots: where the forces on a vertex are among ``State.corner_forces`` seen as pairs, one slot for each of its
             triangles, int32, shape [3 t].
@@ -88,10 +88,8 @@ class Solid(NamedTuple):
         corners = np.zeros((filled, 3), dtype=np.int32)
         corners[:] = np.repeat(starts[:-1, 0], LANES * np.diff(first_blocks))[:, None]
         elements = np.zeros((filled, 7), dtype=np.float32)
-        shear, pressure, squared = stiffness.T
-        growth = np.divide(squared, shear + 2 * pressure, out=np.zeros_like(squared), where=shear > 0)
-        corners[lanes] = triangles
-        elements[lanes] = np.column_stack([inverse_edges, shear, pressure, growth])
+        elements[:, 4] = 1.0  # divides in the estimate of the step, where all else is 0
+        corners[lanes], elements[lanes] = triangles, np.column_stack([inverse_edges, stiffness])
         pairs = (lanes // LANES * 3)[:, None] * LANES + LANES * np.arange(3) + (lanes % LANES)[:, None]
         order = np.argsort(triangles.ravel(), kind="stable")
         per_vertex = np.bincount(triangles.ravel(), minlength=len(vertices))
