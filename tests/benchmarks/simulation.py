@@ -163,11 +163,14 @@ def speeds(contestants: dict[str, Advance], problem: Problem, substeps: int, rou
     """Million triangle updates a second of each, the best of the rounds."""
     pieces: dict[str, int] = {}
     for name, advance in contestants.items():
-        seconds = timed(lambda advance=advance: displacement_after(advance, problem, substeps))
-        pieces[name] = substeps * max(1, min(400, round(_PIECE_SECONDS / seconds)))
+        seconds = timed(lambda advance=advance: displacement_after(advance, problem, 20 * substeps)) / 20
+        pieces[name] = substeps * max(1, min(2000, round(_PIECE_SECONDS / seconds)))
     best = dict.fromkeys(contestants, np.inf)
+    order = list(contestants)
     for _ in range(rounds):
-        for name, advance in contestants.items():
+        order = order[1:] + order[:1]  # nobody always comes after the same one
+        for name in order:
+            advance = contestants[name]
             u, v = problem.displacement.copy(), np.zeros_like(problem.displacement)
             time.sleep(_PAUSE_SECONDS)
             seconds = timed(partial(advance, u, v, pieces[name]))
