@@ -18,6 +18,8 @@ __all__ = ["FlowInterpolator"]
 _OCCLUSION = 2.0
 # Flow below this is the noise of a still picture [px].
 _STILL = 0.1
+# What differs by no more than this, as far as this around it, has not moved [of 1], [px].
+_SAME, _AROUND = 2.5 / 255, 8
 
 
 class FlowInterpolator:
@@ -50,8 +52,14 @@ def _flow(start: FloatImage, end: FloatImage) -> FloatImage:
         return np.zeros((*greys[0].shape, 2), np.float32)
     search = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM)
     flow = search.calc(greys[0], greys[1], None)
-    flow[cv2.magnitude(*cv2.split(flow)) < _STILL] = 0
+    flow[(cv2.magnitude(*cv2.split(flow)) < _STILL) | ~_changed(start, end)] = 0
     return flow
+
+
+def _changed(start: FloatImage, end: FloatImage) -> NDArray[np.bool_]:
+    """Where two pictures differ, and near it, shape [h, w]: flow that is found elsewhere leaks from what moves."""
+    different = (np.abs(end - start).max(axis=2) > _SAME).astype(np.uint8)
+    return cv2.dilate(different, np.ones((2 * _AROUND + 1,) * 2, np.uint8)).astype(bool)
 
 
 def _fetch(picture: FloatImage, displacement: FloatImage) -> FloatImage:

@@ -216,9 +216,11 @@ def test_zoom_and_pan_keep_what_is_drawn_in_place(editor: EditorPage) -> None:
 
 
 def test_the_large_view_edits_the_same_scene(editor: EditorPage) -> None:
+    window = editor.page.page.viewport_size["width"]
     small = editor.pixel()
+    assert 1280 / small < 0.5 * window
     editor.press("expand")
-    assert editor.pixel() < 0.6 * small
+    assert 1280 / editor.pixel() > 0.75 * window  # beside the panel with the numbers
     editor.page.page.keyboard.press("w")
     editor.drag((300, 200), (900, 300))
     stroke = assert_drawn(editor, strokes=1)["strokes"][0]

@@ -207,6 +207,18 @@ def test_flow_follows_a_thing_over_a_still_background() -> None:
     assert np.abs(followed.astype(int) - drawn(4))[still].max() <= 2
 
 
+def test_flow_leaves_what_stands_still_as_it_is() -> None:
+    """Lone marks beside a part that is drawn anew: what flow is found there must not take them along."""
+    random = np.random.default_rng(3)
+    marks = np.full((240, 400, 3), 120, np.uint8)
+    marks[random.integers(0, 240, 40), random.integers(200, 400, 40)] = 255
+    keyframes = [marks.copy(), marks.copy()]
+    for keyframe in keyframes:
+        keyframe[:, :180] = cv2.resize(random.integers(0, 256, (30, 24, 3), np.uint8), (180, 240))
+    for frame in list(interpolate(keyframes, [0, 4], backend="flow"))[1:4]:
+        np.testing.assert_array_equal(frame[:, 200:], marks[:, 200:])
+
+
 def test_without_a_motion_the_default_is_flow(frames: list[NDArray[np.uint8]]) -> None:
     keyframes, indices = [frames[0], frames[2]], [0, 2]
     default = list(interpolate(keyframes, indices))
