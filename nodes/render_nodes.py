@@ -12,7 +12,7 @@ from .cartoon_interpolation import missing_tooncrafter_files, tooncrafter_backen
 from .literals import chosen, refusal, whole_numbers_of
 from .model_files import find_model_file
 from .progress import host_progress
-from .sketch_video import sketch_video_frames
+from .sketch_video import missing_sketch_video_files, sketch_video_frames
 from .sketch_video_inputs import sketch_video_inputs
 from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of, pictures_of
 from .tooncrafter_inputs import tooncrafter_inputs
@@ -66,6 +66,11 @@ class Render(io.ComfyNode):
                 io.Image.Output("plate", display_name="clean_plate", tooltip="The picture without the moving parts."),
             ],
         )
+
+    @classmethod
+    def validate_inputs(cls, renderer: dict[str, Any] | None = None, **others: Any) -> bool | str:
+        # Before the simulation, not after it. The host hands over what a choice brings only if every input is taken.
+        return missing_sketch_video_files(renderer or {}) or True
 
     @classmethod
     def execute(

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..rendering.svd.models import SketchVideoModels
     from ..rendering.svd.sampler import SampledStep
 
-__all__ = ["sketch_video_frames"]
+__all__ = ["missing_sketch_video_files", "sketch_video_frames"]
 
 FloatImage = NDArray[np.float32]
 
@@ -78,15 +78,21 @@ def _options(choice: dict[str, Any]) -> SketchVideoOptions:
     return SketchVideoOptions(area=AREAS[choice["working_size"]], seed=choice["noise_from"], **chosen)
 
 
+def missing_sketch_video_files(choice: dict[str, Any]) -> str:
+    """What to tell about the chosen model files that are not there, with where to get them; empty if none."""
+    find = {"svd_model": svd_file, "lvcd_model": lvcd_file}
+    missing = [name for name, file in find.items() if choice.get(name) and file(choice[name]) is None]
+    told = " ".join(f"{choice[name]} is missing: {SKETCH_VIDEO[name]}" for name in missing)
+    return f"{told} Or set renderer to composite, which needs no model." if told else ""
+
+
 def _files(choice: dict[str, Any]) -> tuple[Path, Path]:
     """The chosen model files."""
     from ..physics.errors import InvalidInputError
 
     svd, lvcd = svd_file(choice["svd_model"]), lvcd_file(choice["lvcd_model"])
     if svd is None or lvcd is None:
-        missing = [name for name, path in {"svd_model": svd, "lvcd_model": lvcd}.items() if path is None]
-        told = " ".join(f"{choice[name]} is missing: {SKETCH_VIDEO[name]}" for name in missing)
-        raise InvalidInputError(f"{told} Or set renderer to composite, which needs no model.")
+        raise InvalidInputError(missing_sketch_video_files(choice))
     return svd, lvcd
 
 
