@@ -20,6 +20,8 @@ __all__ = ["ContactOptions", "build_contact_functions"]
 _YIELDING = 0.5  # part of the thickness that gives way at first, so that pushes do not set light vertices ringing
 _RETURN = 0.01  # part of it that comes back in a step
 _FORESIGHT = 24.0  # ticks that a list of candidates is good for, if so many do not reach over several edges
+_STALE = 0.25  # of a mean edge, that vertices may move until the nearest edges are looked for again
+_SLACK = 0.05  # of a mean edge, for speed that is gained meanwhile
 
 
 class ContactOptions(NamedTuple):
@@ -32,7 +34,7 @@ class ContactOptions(NamedTuple):
 
 def build_contact_functions(ti: Any) -> SimpleNamespace:
     """The functions that the contact kernel is made of, by name."""
-    vec2, vec4, int4 = ti.types.vector(2, ti.f32), ti.types.vector(4, ti.f32), ti.types.vector(4, ti.i32)
+    vec2, vec4, int2 = ti.types.vector(2, ti.f32), ti.types.vector(4, ti.f32), ti.types.vector(2, ti.i32)
     slots_i, slots_f = ti.types.vector(LIST_LENGTH, ti.i32), ti.types.vector(LIST_LENGTH, ti.f32)
     any_value = ti.template()
 
@@ -147,12 +149,12 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
         options: any_value,
         n: ti.i32,
         e: ti.i32,
-        ahead: ti.f32,
-        soon: ti.f32,
+        time: ti.f32,
     ):
         """List point n and edge e as a contact if they may meet in the time ahead."""
         edges = ti.static(surface.edges)
         i, own, part = surface.points[n], surface.point_parts[n], surface.edge_parts[e]
+        approach, slack = surface.speeds[own] + surface.speeds[part], _SLACK * surface.spacing[part]
         p, a, b = place(solid, state, i), place(solid, state, edges[e][0]), place(solid, state, edges[e][1])
         t = along(p, a, b)
         away, normal = offset(p, a, b), normal_of(solid, state, edges, e)
@@ -176,20 +178,21 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
         if part == own:
             deep = 0.6 * surface.spacing[own]
         if signed > 0.0 - deep and wanted > 0.0 - deep:
-            if signed - wanted < soon:
+            if signed - wanted < approach * TICK + slack:
                 surface.touching[own] = 1
                 surface.touching[part] = 1
             count = ti.cast(surface.memory[1], ti.i32)
-            if signed - wanted < ahead and count < surface.contacts.shape[0]:
-                surface.contacts[count] = int4(i, edges[e][0], edges[e][1], 0)
+            if signed - wanted < approach * time + slack and count < surface.contacts.shape[0]:
+                surface.contacts[count] = int2(n, e)
                 surface.contact_data[count] = vec4(normal[0], normal[1], t, wanted)
                 surface.memory[1] = ti.cast(count + 1, ti.f32)
 
     @ti.func
     def look_around(
-        surface: any_value, solid: any_value, state: any_value, options: any_value, ahead: ti.f32, soon: ti.f32
+        surface: any_value, solid: any_value, state: any_value, options: any_value, fastest: ti.f32, time: ti.f32
     ):
         """List the contacts among the candidates, or find how far all is from any."""
+        ahead, soon = 2.0 * fastest * time, 2.0 * fastest * TICK
         width, nearest_square = 0.0, 1e6
         for part in range(surface.spacing.shape[0]):
             width = ti.max(width, 2.0 * surface.spacing[part])
@@ -222,59 +225,102 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
                                     parts[j], best[j], nearest[j] = part, distance, e
                 for j in ti.static(range(LIST_LENGTH)):
                     if parts[j] >= 0:
-                        add_contact(surface, solid, state, options, n, nearest[j], ahead, soon)
+                        add_contact(surface, solid, state, options, n, nearest[j], time)
         gap = ti.sqrt(nearest_square) - ti.max(options.thickness, width)
         surface.memory[2] = ti.min(gap, surface.memory[0] - 2.0 * ti.sqrt(moved))
 
     @ti.func
+    def measure_speeds(surface: any_value, state: any_value):
+        """Take note of the fastest boundary vertex of each part; returns the speed of the fastest of all."""
+        speeds = ti.static(surface.speeds)
+        fastest = 0.0
+        for part in range(speeds.shape[0]):
+            speeds[part] = 0.0
+        for n in range(surface.points.shape[0]):
+            part = surface.point_parts[n]
+            speeds[part] = ti.max(speeds[part], state.velocity[surface.points[n]].norm_sqr())
+        for part in range(speeds.shape[0]):
+            # What is led faster than that would have it look everywhere.
+            speeds[part] = ti.min(ti.sqrt(speeds[part]), 2.0 * SPEED_FLOOR)
+            fastest = ti.max(fastest, speeds[part])
+        return fastest
+
+    @ti.func
     def find_contacts(surface: any_value, solid: any_value, state: any_value, options: any_value, time: ti.f32):
         """List the contacts that may come about in the time ahead, and mark the parts that may touch in a tick."""
-        fastest = 0.0
-        for n in range(surface.points.shape[0]):
-            fastest = ti.max(fastest, state.velocity[surface.points[n]].norm_sqr())
-        fastest = ti.min(ti.sqrt(fastest), 2.0 * SPEED_FLOOR)  # what is led faster would have it look everywhere
-        ahead, soon = 2.0 * fastest * time, 2.0 * fastest * TICK
+        fastest = measure_speeds(surface, state)
+        ahead = 2.0 * fastest * time
         if surface.memory[1] < 0.0 or surface.memory[2] < 2.0 * ahead:
-            look_around(surface, solid, state, options, ahead, soon)
+            look_around(surface, solid, state, options, fastest, time)
         surface.memory[2] = surface.memory[2] - ahead
+        narrowest = 1e6
+        for part in range(surface.spacing.shape[0]):
+            narrowest = ti.min(narrowest, surface.spacing[part])
+        return _STALE * narrowest / ti.max(fastest, 1e-6)
+
+    @ti.func
+    def steps_in(interval: ti.i32, intervals: ti.i32, steps: ti.i32):
+        """How many of its steps of a tick a part takes in one of so many intervals: they are spread evenly."""
+        return (interval + 1) * steps // intervals - interval * steps // intervals
+
+    @ti.func
+    def put_contact_apart(
+        surface: any_value, solid: any_value, state: any_value, options: any_value, c: ti.i32, dt: ti.f32
+    ):
+        """Project positions and velocities along a contact's normal, weighted by the inverse masses."""
+        u, v = ti.static(state.displacement, state.velocity)
+        pair, data = surface.contacts[c], surface.contact_data[c]
+        i, a, b = surface.points[pair[0]], surface.edges[pair[1]][0], surface.edges[pair[1]][1]
+        normal, t, wanted = vec2(data[0], data[1]), data[2], data[3]
+        wi, wa, wb = solid.vertices[i][2], solid.vertices[a][2], solid.vertices[b][2]
+        weight = wi + (1.0 - t) * (1.0 - t) * wa + t * t * wb
+        if weight > 0.0:
+            gap = normal.dot(place(solid, state, i) - (1.0 - t) * place(solid, state, a) - t * place(solid, state, b))
+            push = ti.max(wanted - _YIELDING * options.thickness - gap, 0.0)
+            push = push + _RETURN * ti.max(wanted - gap - push, 0.0)
+            if push > 0.0:
+                shift = push / weight * normal
+                u[i] = u[i] + wi * shift
+                u[a] = u[a] - (1.0 - t) * wa * shift
+                u[b] = u[b] - t * wb * shift
+            relative = v[i] - (1.0 - t) * v[a] - t * v[b]
+            approach = relative.dot(normal)
+            # What is still apart may come as near as it wants to be, but no nearer.
+            missing = 0.0 - approach - ti.max(gap - wanted, 0.0) / dt
+            if missing > 0.0:
+                impulse = missing * normal
+                slide = relative - approach * normal
+                speed = slide.norm()
+                if speed > 0.0:
+                    impulse = impulse - slide * ti.min(options.friction * missing / speed, 1.0)
+                impulse = impulse / weight
+                v[i] = v[i] + wi * impulse
+                v[a] = v[a] - (1.0 - t) * wa * impulse
+                v[b] = v[b] - t * wb * impulse
 
     @ti.func
     def put_apart(
-        surface: any_value, solid: any_value, state: any_value, options: any_value, interval: ti.f32, passes: ti.i32
+        surface: any_value,
+        solid: any_value,
+        state: any_value,
+        options: any_value,
+        interval: ti.i32,
+        intervals: ti.i32,
+        passes: ti.i32,
     ):
-        """Project positions and velocities along the contacts' normals, weighted by the inverse masses."""
-        u, v = ti.static(state.displacement, state.velocity)
+        """Put apart the pairs of parts of which the stiffer one has just taken a step.
+
+        The other may move only at the end of its longer step, for which nothing may come too near.
+        """
+        steps = ti.static(surface.steps)
         for _sweep in range(passes):
             for c in range(ti.cast(surface.memory[1], ti.i32)):
-                contact, data = surface.contacts[c], surface.contact_data[c]
-                i, a, b = contact[0], contact[1], contact[2]
-                normal, t, wanted = vec2(data[0], data[1]), data[2], data[3]
-                wi, wa, wb = solid.vertices[i][2], solid.vertices[a][2], solid.vertices[b][2]
-                weight = wi + (1.0 - t) * (1.0 - t) * wa + t * t * wb
-                if weight > 0.0:
-                    gap = normal.dot(
-                        place(solid, state, i) - (1.0 - t) * place(solid, state, a) - t * place(solid, state, b)
-                    )
-                    push = ti.max(wanted - _YIELDING * options.thickness - gap, 0.0)
-                    push = push + _RETURN * ti.max(wanted - gap - push, 0.0)
-                    if push > 0.0:
-                        shift = push / weight * normal
-                        u[i] = u[i] + wi * shift
-                        u[a] = u[a] - (1.0 - t) * wa * shift
-                        u[b] = u[b] - t * wb * shift
-                    relative = v[i] - (1.0 - t) * v[a] - t * v[b]
-                    approach = relative.dot(normal)
-                    # What is still apart may come as near as it wants to be, but no nearer.
-                    missing = 0.0 - approach - ti.max(gap - wanted, 0.0) / interval
-                    if missing > 0.0:
-                        impulse = missing * normal
-                        slide = relative - approach * normal
-                        speed = slide.norm()
-                        if speed > 0.0:
-                            impulse = impulse - slide * ti.min(options.friction * missing / speed, 1.0)
-                        impulse = impulse / weight
-                        v[i] = v[i] + wi * impulse
-                        v[a] = v[a] - (1.0 - t) * wa * impulse
-                        v[b] = v[b] - t * wb * impulse
+                pair = surface.contacts[c]
+                one, other = steps[surface.point_parts[pair[0]]], steps[surface.edge_parts[pair[1]]]
+                more, fewer = ti.max(one, other), ti.min(one, other)
+                if fewer == 0:  # a collider
+                    fewer = more
+                if steps_in(interval, intervals, more) > 0:
+                    put_contact_apart(surface, solid, state, options, c, TICK / fewer)
 
-    return SimpleNamespace(find_contacts=find_contacts, put_apart=put_apart)
+    return SimpleNamespace(find_contacts=find_contacts, put_apart=put_apart, steps_in=steps_in)
