@@ -179,8 +179,8 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
             deep = 0.6 * surface.spacing[own]
         if signed > 0.0 - deep and wanted > 0.0 - deep:
             if signed - wanted < approach * TICK + slack:
-                surface.touching[own] = 1
-                surface.touching[part] = 1
+                surface.touching[own] = ti.max(surface.touching[own], 1)
+                surface.touching[part] = ti.max(surface.touching[part], 1)
             count = ti.cast(surface.memory[1], ti.i32)
             if signed - wanted < approach * time + slack and count < surface.contacts.shape[0]:
                 surface.contacts[count] = int2(n, e)

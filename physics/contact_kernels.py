@@ -45,7 +45,8 @@ def build_contact_kernel(ti: Any) -> Any:
             squared = highest_frequency(solid, state, first[1] & SMALL, end[1] & SMALL)
             count = substeps_at(squared, solid.substeps[part])
             surface.steps[part] = count
-            if surface.touching[part] == 1:
+            if surface.touching[part] > 0:
+                surface.touching[part] = 2
                 most = ti.max(most, count)
             begin_tick(first[0], end[0], tick, TICK / count, solid, state, drive)
         return most
@@ -65,7 +66,7 @@ def build_contact_kernel(ti: Any) -> Any:
         for part in range(solid.substeps.shape[0]):
             count = surface.steps[part]
             before, steps = interval * count // intervals, steps_in(interval, intervals, count)
-            if surface.touching[part] == 0:
+            if surface.touching[part] < 2:
                 before, steps = 0, ti.select(interval == 0, count, 0)
             first, end = solid.starts[part], solid.starts[part + 1]
             for step in range(before, before + steps):

@@ -48,7 +48,7 @@ class ContactSurface(NamedTuple):
         contacts: a point and the edge that it may touch, int32, shape [c, 2].
         contact_data: the normal, where on the edge, and the distance to keep, float32, shape [c, 4].
         speeds: of the fastest boundary vertex of each part [side/s], float32, shape [p].
-        touching: whether each part is near to another, int32, shape [p].
+        touching: 1 for parts near to another, and 2 if they take the steps of this tick beside others, int32, shape [p].
         steps: substeps of each part in this tick, 0 for colliders, int32, shape [p].
         memory: how far the candidates foresee [side], the number of contacts (-1: not yet found), how far everything
             is from any [side], and how long the list of contacts is good [s], float32, shape [4].
