@@ -35,6 +35,7 @@ class ContactSurface(NamedTuple):
         points: vertices on a boundary, ascending, int32, shape [n].
         point_parts: connected part of each, colliders counted after all parts, int32, shape [n].
         edges: boundary edges in the winding of their triangles, int32, shape [e, 2].
+        edge_points: the numbers of its ends among the points, int32, shape [e, 2].
         neighbours: boundary edge before each, which ends where it begins, and the one after it, int32, shape [e, 2].
         edge_parts: connected part of each, int32, shape [e].
         bodies: body of each part, -1 for colliders, int32, shape [p].
@@ -44,11 +45,12 @@ class ContactSurface(NamedTuple):
         overlaps: distance that it keeps from each, negative inside [side], float32, shape [o].
         heads, order: room for the kernel's spatial hash.
         first_candidates, candidates: for each point the edges that it may come near to for a while.
-        marks: where each point was when they were listed [side], float32, shape [n, 2].
+        places: where each point was when contacts were last looked for [side], float32, shape [n, 2].
+        marks: where it was when the candidates were listed [side], float32, shape [n, 2].
         contacts: a point and the edge that it may touch, int32, shape [c, 2].
         contact_data: the normal, where on the edge, and the distance to keep, float32, shape [c, 4].
         speeds: of the fastest boundary vertex of each part [side/s], float32, shape [p].
-        touching: 1 for parts near to another, and 2 if they take the steps of this tick beside others, int32, shape [p].
+        touching: 1 for parts near to another, 2 if they take the steps of this tick beside others, int32, shape [p].
         steps: substeps of each part in this tick, 0 for colliders, int32, shape [p].
         memory: how far the candidates foresee [side], the number of contacts (-1: not yet found), how far everything
             is from any [side], and how long the list of contacts is good [s], float32, shape [4].
@@ -57,6 +59,7 @@ class ContactSurface(NamedTuple):
     points: Int32Array
     point_parts: Int32Array
     edges: Int32Array
+    edge_points: Int32Array
     neighbours: Int32Array
     edge_parts: Int32Array
     bodies: Int32Array
@@ -68,6 +71,7 @@ class ContactSurface(NamedTuple):
     order: Int32Array
     first_candidates: Int32Array
     candidates: Int32Array
+    places: Float32Array
     marks: Float32Array
     contacts: Int32Array
     contact_data: Float32Array
@@ -109,6 +113,7 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         points=points,
         point_parts=point_parts,
         edges=every,
+        edge_points=np.searchsorted(points, every).astype(np.int32),
         neighbours=_neighbours(every),
         edge_parts=part_of_edge,
         bodies=bodies,
@@ -120,6 +125,7 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         order=np.zeros(len(every), np.int32),
         first_candidates=np.zeros(len(points) + 1, np.int32),
         candidates=np.zeros(_CANDIDATES * len(points), np.int32),
+        places=np.zeros((len(points), 2), np.float32),
         marks=np.zeros((len(points), 2), np.float32),
         contacts=np.zeros((room, 2), np.int32),
         contact_data=np.zeros((room, 4), np.float32),
@@ -154,8 +160,9 @@ def _signed_distances(points: FloatArray, starts: FloatArray, ends: FloatArray) 
 
 def _boundary_edges(triangles: Int32Array) -> Int32Array:
     half = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    _, inverse, counts = np.unique(np.sort(half, axis=1), axis=0, return_inverse=True, return_counts=True)
-    return half[counts[inverse.reshape(-1)] == 1]
+    low, high = half.min(axis=1).astype(np.int64), half.max(axis=1)
+    _, inverse, counts = np.unique(low << 32 | high, return_inverse=True, return_counts=True)
+    return half[counts[inverse] == 1]
 
 
 def _neighbours(edges: Int32Array) -> Int32Array:
