@@ -1,9 +1,9 @@
 # mypy: ignore-errors
 """The Taichi kernel of bodies that touch: boundary vertices are kept out of the boundary edges of other parts.
 
-Parts that may touch go through a tick in the same steps, after each of which they are put apart; the others take their
-own. From pairs that are too near, velocities and positions are projected along the edge's normal, so that
-momentum stays. Friction acts on what slides along the edge.
+Every part takes its own steps through a tick, those of parts that may touch side by side; after each they are put
+apart. From pairs that are too near, velocities and positions are projected along the edge's normal, so that momentum
+stays. Friction acts on what slides along the edge.
 """
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
@@ -20,7 +20,7 @@ from .stepping import TICK
 __all__ = ["build_contact_kernel"]
 
 _LAST_PASSES = 4  # at the end of a tick; within it one a step is enough
-_LIST_INTERVALS = 4  # for which a list of contacts is good
+_LEAST_INTERVALS = 4  # for which a list of contacts has to do
 
 
 def build_contact_kernel(ti: Any) -> Any:
@@ -32,8 +32,7 @@ def build_contact_kernel(ti: Any) -> Any:
         functions.substeps_at,
     )
     begin_tick, move_vertices, record = functions.begin_tick, functions.move_vertices, functions.record
-    find_contacts, put_apart = contact.find_contacts, contact.put_apart
-    pairs4 = ti.types.ndarray(dtype=ti.types.vector(4, ti.i32), ndim=1)
+    find_contacts, put_apart, steps_in = contact.find_contacts, contact.put_apart, contact.steps_in
 
     @ti.func
     def plan_tick(
@@ -46,37 +45,34 @@ def build_contact_kernel(ti: Any) -> Any:
             squared = highest_frequency(solid, state, first[1] & SMALL, end[1] & SMALL)
             count = substeps_at(squared, solid.substeps[part])
             surface.steps[part] = count
-            if surface.touching[part] == 1:
+            if surface.touching[part] > 0:
+                surface.touching[part] = 2
                 most = ti.max(most, count)
-        for part in range(solid.substeps.shape[0]):
-            if surface.touching[part] == 1:
-                surface.steps[part] = most
-            first, end = solid.starts[part][0], solid.starts[part + 1][0]
-            begin_tick(first, end, tick, TICK / surface.steps[part], solid, state, drive)
+            begin_tick(first[0], end[0], tick, TICK / count, solid, state, drive)
         return most
 
     @ti.func
     def advance_interval(
         tick: ti.i32,
         interval: ti.i32,
+        intervals: ti.i32,
         solid: ti.template(),
         state: ti.template(),
         drive: ti.template(),
         pairs: ti.template(),
         surface: ti.template(),
     ):
-        """A step of the parts that may touch; those that touch nothing take all of a tick's in the first interval."""
+        """At most a step of each part that may touch; those that touch nothing take all of a tick's at once."""
         for part in range(solid.substeps.shape[0]):
-            count, steps = surface.steps[part], 1
-            if surface.touching[part] == 0:
-                steps = count
-            taken = interval * steps
-            if taken < count:
-                first, end = solid.starts[part], solid.starts[part + 1]
-                for step in range(taken, taken + steps):
-                    for n in range(first[1] & SMALL, end[1] & SMALL):
-                        add_forces(solid, state, n)
-                    move_vertices(first[0], end[0], tick, step, count, solid, state, drive, pairs)
+            count = surface.steps[part]
+            before, steps = interval * count // intervals, steps_in(interval, intervals, count)
+            if surface.touching[part] < 2:
+                before, steps = 0, ti.select(interval == 0, count, 0)
+            first, end = solid.starts[part], solid.starts[part + 1]
+            for step in range(before, before + steps):
+                for n in range(first[1] & SMALL, end[1] & SMALL):
+                    add_forces(solid, state, n)
+                move_vertices(first[0], end[0], tick, step, count, solid, state, drive, pairs)
 
     @ti.func
     def advance_tick(
@@ -91,19 +87,21 @@ def build_contact_kernel(ti: Any) -> Any:
         intervals = plan_tick(tick, solid, state, drive, surface)
         dt = TICK / intervals
         if surface.memory[1] < 0.0:
-            find_contacts(surface, solid, state, options, TICK)
+            surface.memory[3] = find_contacts(surface, solid, state, options, TICK)
+        left = ti.max(surface.memory[3], _LEAST_INTERVALS * dt)  # time for which the list of contacts is good
         for interval in range(intervals):
-            # A list holds for some intervals; the last tick's own is good for the first ones.
-            if interval > 0 and interval % _LIST_INTERVALS == 0:
-                find_contacts(surface, solid, state, options, dt * ti.min(_LIST_INTERVALS, intervals - interval))
-            advance_interval(tick, interval, solid, state, drive, pairs, surface)
+            if left < 0.5 * dt:
+                left = find_contacts(surface, solid, state, options, TICK - interval * dt)
+                left = ti.max(left, _LEAST_INTERVALS * dt)
+            advance_interval(tick, interval, intervals, solid, state, drive, pairs, surface)
+            left = left - dt
             if intervals > 1:
-                put_apart(surface, solid, state, options, dt, 1)
+                put_apart(surface, solid, state, options, interval, intervals, 1)
         # A frame may follow, in which nothing shall be inside anything.
         for part in range(surface.touching.shape[0]):
             surface.touching[part] = 0
-        find_contacts(surface, solid, state, options, TICK)
-        put_apart(surface, solid, state, options, dt, _LAST_PASSES)
+        surface.memory[3] = find_contacts(surface, solid, state, options, TICK)
+        put_apart(surface, solid, state, options, 0, 1, _LAST_PASSES)
         record(0, state.displacement.shape[0], tick, state, drive)
 
     @ti.kernel
@@ -141,6 +139,7 @@ def build_contact_kernel(ti: Any) -> Any:
         points: types.integers,
         point_parts: types.integers,
         edges: types.pairs,
+        edge_points: types.pairs,
         neighbours: types.pairs,
         edge_parts: types.integers,
         bodies: types.integers,
@@ -152,9 +151,11 @@ def build_contact_kernel(ti: Any) -> Any:
         order: types.integers,
         first_candidates: types.integers,
         candidates: types.integers,
+        places: types.vectors,
         marks: types.vectors,
-        contacts: pairs4,
+        contacts: types.pairs,
         contact_data: types.vectors4,
+        speeds: types.scalars,
         touching: types.integers,
         steps: types.integers,
         memory: types.scalars,
@@ -201,6 +202,7 @@ def build_contact_kernel(ti: Any) -> Any:
                         points,
                         point_parts,
                         edges,
+                        edge_points,
                         neighbours,
                         edge_parts,
                         bodies,
@@ -212,9 +214,11 @@ def build_contact_kernel(ti: Any) -> Any:
                         order,
                         first_candidates,
                         candidates,
+                        places,
                         marks,
                         contacts,
                         contact_data,
+                        speeds,
                         touching,
                         steps,
                         memory,

@@ -1,8 +1,8 @@
 """Bodies that touch, and their way through time.
 
-A part that is near to nothing takes its own steps through a tick as without contact. All others go through it in step
-with the stiffest of them and are put apart in every step: bodies pushed out of each other more rarely would gain energy
-from the overlap of a whole interval.
+Every part takes its own steps through a tick as without contact. Two parts that may touch are put apart in every step
+of the stiffer one: bodies pushed out of each other more rarely would gain energy from the overlap of a whole interval.
+The softer one, which may stand still meanwhile, is foreseen to move at the end of its own step.
 """
 
 from __future__ import annotations

@@ -25,6 +25,7 @@ LIST_LENGTH = 4
 _CANDIDATES = 48  # edges around a vertex, on average over all, that are remembered at most
 _LEAST_SPACING = 2.0  # [px] between the points of a collider's outline
 _SMALLEST_COLLIDER = 4.0  # [px^2]
+_PAIRS_AT_ONCE = 1 << 17  # of a point and an edge, each some 100 bytes
 
 
 class ContactSurface(NamedTuple):
@@ -34,6 +35,7 @@ class ContactSurface(NamedTuple):
         points: vertices on a boundary, ascending, int32, shape [n].
         point_parts: connected part of each, colliders counted after all parts, int32, shape [n].
         edges: boundary edges in the winding of their triangles, int32, shape [e, 2].
+        edge_points: the numbers of its ends among the points, int32, shape [e, 2].
         neighbours: boundary edge before each, which ends where it begins, and the one after it, int32, shape [e, 2].
         edge_parts: connected part of each, int32, shape [e].
         bodies: body of each part, -1 for colliders, int32, shape [p].
@@ -43,18 +45,21 @@ class ContactSurface(NamedTuple):
         overlaps: distance that it keeps from each, negative inside [side], float32, shape [o].
         heads, order: room for the kernel's spatial hash.
         first_candidates, candidates: for each point the edges that it may come near to for a while.
-        marks: where each point was when they were listed [side], float32, shape [n, 2].
-        contacts: a vertex and the two of the edge that it may touch, int32, shape [c, 4]; the last is unused.
+        places: where each point was when contacts were last looked for [side], float32, shape [n, 2].
+        marks: where it was when the candidates were listed [side], float32, shape [n, 2].
+        contacts: a point and the edge that it may touch, int32, shape [c, 2].
         contact_data: the normal, where on the edge, and the distance to keep, float32, shape [c, 4].
-        touching: whether each part is near to another, int32, shape [p].
-        steps: substeps of each part in this tick, int32, shape [p].
-        memory: how far the candidates foresee [side], the number of contacts (-1: not yet found), and
-            how far everything is from any [side], float32, shape [3].
+        speeds: of the fastest boundary vertex of each part [side/s], float32, shape [p].
+        touching: 1 for parts near to another, 2 if they take the steps of this tick beside others, int32, shape [p].
+        steps: substeps of each part in this tick, 0 for colliders, int32, shape [p].
+        memory: how far the candidates foresee [side], the number of contacts (-1: not yet found), how far everything
+            is from any [side], and how long the list of contacts is good [s], float32, shape [4].
     """
 
     points: Int32Array
     point_parts: Int32Array
     edges: Int32Array
+    edge_points: Int32Array
     neighbours: Int32Array
     edge_parts: Int32Array
     bodies: Int32Array
@@ -66,9 +71,11 @@ class ContactSurface(NamedTuple):
     order: Int32Array
     first_candidates: Int32Array
     candidates: Int32Array
+    places: Float32Array
     marks: Float32Array
     contacts: Int32Array
     contact_data: Float32Array
+    speeds: Float32Array
     touching: Int32Array
     steps: Int32Array
     memory: Float32Array
@@ -106,6 +113,7 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         points=points,
         point_parts=point_parts,
         edges=every,
+        edge_points=np.searchsorted(points, every).astype(np.int32),
         neighbours=_neighbours(every),
         edge_parts=part_of_edge,
         bodies=bodies,
@@ -117,33 +125,44 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         order=np.zeros(len(every), np.int32),
         first_candidates=np.zeros(len(points) + 1, np.int32),
         candidates=np.zeros(_CANDIDATES * len(points), np.int32),
+        places=np.zeros((len(points), 2), np.float32),
         marks=np.zeros((len(points), 2), np.float32),
-        contacts=np.zeros((room, 4), np.int32),
+        contacts=np.zeros((room, 2), np.int32),
         contact_data=np.zeros((room, 4), np.float32),
+        speeds=np.zeros(len(bodies), np.float32),
         touching=np.ones(len(bodies), np.int32),
-        steps=np.zeros(parts, np.int32),
-        memory=np.array([0.0, -1.0, 0.0], np.float32),
+        steps=np.zeros(len(bodies), np.int32),
+        memory=np.array([0.0, -1.0, 0.0, 0.0], np.float32),
     )
     return surface, still
 
 
 def signed_distances(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
     """Distance of points from closed outlines, negative inside by the even-odd rule, shape [n]."""
-    distance, inside = np.full(len(points), np.inf), np.zeros(len(points), dtype=bool)
-    for a, b in zip(starts, ends, strict=True):
-        edge, offset = b - a, points - a
-        t = np.clip(offset @ edge / max(edge @ edge, 1e-30), 0.0, 1.0)
-        distance = np.minimum(distance, np.linalg.norm(offset - t[:, None] * edge, axis=1))
-        if a[1] != b[1]:
-            spans = (a[1] > points[:, 1]) != (b[1] > points[:, 1])
-            inside ^= spans & (points[:, 0] < a[0] + edge[0] * offset[:, 1] / edge[1])
-    return np.where(inside, -distance, distance)
+    at_once = max(1, _PAIRS_AT_ONCE // max(len(starts), 1))
+    pieces = [
+        _signed_distances(points[first : first + at_once], starts, ends) for first in range(0, len(points), at_once)
+    ]
+    return np.concatenate(pieces) if pieces else np.zeros(0)
+
+
+def _signed_distances(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
+    """The same with every edge beside every point in memory."""
+    edge_x, edge_y = (ends - starts).T
+    x, y = points[:, :1] - starts[:, 0], points[:, 1:] - starts[:, 1]  # from the edges' starts, shape [n, e]
+    t = np.clip((x * edge_x + y * edge_y) / np.maximum(edge_x**2 + edge_y**2, 1e-30), 0.0, 1.0)
+    square = (x - t * edge_x) ** 2 + (y - t * edge_y) ** 2
+    spans = (y < 0) != (points[:, 1:] < ends[:, 1])
+    crossed = spans & (x < edge_x * (y / np.where(edge_y == 0.0, 1.0, edge_y)))
+    distance = np.sqrt(square.min(axis=1, initial=np.inf))
+    return np.where(crossed.sum(axis=1) % 2 == 1, -distance, distance)
 
 
 def _boundary_edges(triangles: Int32Array) -> Int32Array:
     half = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    _, inverse, counts = np.unique(np.sort(half, axis=1), axis=0, return_inverse=True, return_counts=True)
-    return half[counts[inverse.reshape(-1)] == 1]
+    low, high = half.min(axis=1).astype(np.int64), half.max(axis=1)
+    _, inverse, counts = np.unique(low << 32 | high, return_inverse=True, return_counts=True)
+    return half[counts[inverse] == 1]
 
 
 def _neighbours(edges: Int32Array) -> Int32Array:

@@ -94,10 +94,9 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
     require("frames", frames, frames >= 1, "at least 1")
     duration = (frames - 1) / scene.frame_rate
     alive = sum(most_alive(stroke, horizon=duration) for stroke in scene.strokes)
-    # Bodies that touch go through time in step.
-    substeps = system.substeps if scene.contact is None else CONTACT_WORK * system.substeps.max()
     triangles = np.diff(system.starts[:, 1])
-    elastic = substeps * triangles.astype(np.float64)
+    factor = 1.0 if scene.contact is None else CONTACT_WORK
+    elastic = factor * system.substeps * triangles
     chosen = schedule(triangles, system.substeps, threads=None if scene.contact is None else 1)
     work = math.ceil(duration / TICK) * (float(elastic.sum()) + PARTICLE_WORK * alive * int(system.free.sum()))
     return SimulationPlan(

@@ -31,7 +31,7 @@ T = TypeVar("T")
 
 _POLL_SECONDS = 0.2
 _PATIENCE = 1000  # hundredths of a second
-_LAST_SECONDS = 2.0  # that the end of the process waits for a kernel which still runs
+_LAST_SECONDS = 30.0  # that the end of the process waits for a kernel which still runs: some 15 ms on an idle machine
 _QUIET = {"ENABLE_TAICHI_HEADER_PRINT": "0", "TI_SKIP_VERSION_CHECK": "ON"}
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import threading
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -23,6 +25,12 @@ _SMOOTHING_ROUNDS = 3
 _CROWDING = 2.5
 _SHORTEST_EDGE = 0.25
 _MOST_NEW_POINTS = 4
+_LAST_SECONDS = 30.0
+
+# Held while the library triangulates. The end of the process takes it for good: a thread that came back from the
+# library after that would find no interpreter, and abort.
+_at_work = threading.Lock()
+atexit.register(_at_work.acquire, timeout=_LAST_SECONDS)
 
 
 class CrossingEdgesError(Exception):
@@ -98,21 +106,22 @@ def _delaunay(
     import pythoncdt as cdt
 
     points = np.concatenate([boundary, seeds])
-    work = cdt.Triangulation(cdt.VertexInsertionOrder.AUTO, cdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0)
-    work.insert_vertices(points)
-    try:
-        work.insert_edges(edges)
-    except RuntimeError as error:
-        raise CrossingEdgesError(str(error)) from error
-    outer = work.collect_outer_triangles_and_holes()
-    if min_angle is not None:
-        shortest = _SHORTEST_EDGE * float(np.hypot(*(boundary[edges[:, 1]] - boundary[edges[:, 0]]).T).min())
-        angle = cdt.deg_to_rad(min_angle)
-        most = _MOST_NEW_POINTS * len(points)
-        work.refine_triangles(most, cdt.RefinementCriterion.SMALLEST_ANGLE, angle, outer, shortest)
-    work.finalize_triangulation(outer)
-    found = work.vertices_array()
-    return np.stack([found["x"], found["y"]], axis=1), work.triangles_array()["vertices"].astype(np.int64)
+    with _at_work:
+        work = cdt.Triangulation(cdt.VertexInsertionOrder.AUTO, cdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0)
+        work.insert_vertices(points)
+        try:
+            work.insert_edges(edges)
+        except RuntimeError as error:
+            raise CrossingEdgesError(str(error)) from error
+        outer = work.collect_outer_triangles_and_holes()
+        if min_angle is not None:
+            shortest = _SHORTEST_EDGE * float(np.hypot(*(boundary[edges[:, 1]] - boundary[edges[:, 0]]).T).min())
+            angle = cdt.deg_to_rad(min_angle)
+            most = _MOST_NEW_POINTS * len(points)
+            work.refine_triangles(most, cdt.RefinementCriterion.SMALLEST_ANGLE, angle, outer, shortest)
+        work.finalize_triangulation(outer)
+        found = work.vertices_array()
+        return np.stack([found["x"], found["y"]], axis=1), work.triangles_array()["vertices"].astype(np.int64)
 
 
 def _centred(points: FloatArray, triangles: IndexArray, field: SpacingField) -> FloatArray:
