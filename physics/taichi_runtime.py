@@ -23,6 +23,7 @@ from types import CodeType, FrameType
 from typing import Any, ParamSpec, TypeVar, cast
 
 from .errors import PhysAnimatorError
+from .taichi_reading import quick_reading
 
 __all__ = ["compiled", "run"]
 
@@ -92,7 +93,7 @@ class _TaichiThread:
         if threading.current_thread() is not self._thread:
             raise RuntimeError("compiled() must be called inside a job of run()")
         taichi = self._initialised()
-        self._during_job.enter_context(_unwrapped_positions())
+        self._during_job.enter_context(quick_reading())
         if build not in self._kernels:
             self._kernels[build] = build(taichi)
         return cast(T, self._kernels[build])
@@ -214,35 +215,6 @@ def _without_announcement(module: Any) -> Iterator[None]:
         yield
     finally:
         del module.print
-
-
-class _Unwrapped:
-    """Stands in for ``textwrap.TextWrapper``."""
-
-    def __init__(self, width: int) -> None:
-        """The width does not matter."""
-
-    def wrap(self, text: str) -> list[str]:
-        """The text as one line, none where it is empty."""
-        return [text.rstrip()] if text.strip() else []
-
-
-@contextmanager
-def _unwrapped_positions() -> Iterator[None]:
-    """Taichi wraps the source line of every expression that it reads, in case it has to tell of an error there.
-
-    That takes more than a third of the time from the start to the first result.
-    """
-    module: Any = sys.modules.get("taichi.lang.ast.ast_transformer_utils")
-    original = getattr(module, "TextWrapper", None)
-    if original is None:
-        yield
-        return
-    module.TextWrapper = _Unwrapped
-    try:
-        yield
-    finally:
-        module.TextWrapper = original
 
 
 _taichi_thread = _TaichiThread()

@@ -1,0 +1,84 @@
+"""Taichi reads the same source in less time, and is left as it was."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from physanimator.physics import taichi_runtime
+from physanimator.physics.taichi_reading import quick_reading
+
+
+def plain(x: int) -> int:
+    return x
+
+
+@functools.lru_cache(
+    maxsize=4,
+)
+def decorated(
+    x: int,
+) -> int:
+    """Of several lines.
+
+    One is empty.
+    """
+
+    return x
+
+
+def nested() -> Callable[[int], int]:
+    @functools.wraps(plain)
+    def inner(x: int) -> int:
+        return x + 1  # the last one
+
+    return inner
+
+
+@pytest.fixture(scope="module")
+def reader() -> Any:
+    from taichi.lang import kernel_impl
+
+    return kernel_impl
+
+
+@pytest.mark.parametrize("function", [plain, decorated.__wrapped__, inspect.unwrap(nested(), stop=lambda f: True)])
+def test_the_lines_of_a_function_are_those_that_python_finds(reader: Any, function: Any) -> None:
+    code = function.__code__
+    expected = inspect.getsourcelines(code)
+    with quick_reading():
+        assert reader.getsourcelines(function) == expected
+        assert reader.getsourcefile(function) == inspect.getsourcefile(code)
+
+
+def test_a_function_without_a_file_is_left_to_python(reader: Any) -> None:
+    names: dict[str, Any] = {}
+    exec("def made(x):\n    return x", names)
+    with quick_reading(), pytest.raises(OSError, match="source"):
+        reader.getsourcelines(names["made"])
+
+
+def test_taichi_is_left_as_it_was(reader: Any) -> None:
+    from taichi.lang.ast.ast_transformer_utils import ASTTransformerContext
+
+    before = reader.getsourcelines, reader.getsourcefile, ASTTransformerContext.get_pos_info
+    with quick_reading():
+        assert reader.getsourcelines is not before[0]
+    with pytest.raises(ZeroDivisionError), quick_reading():
+        _ = 1 / 0
+    assert before == (reader.getsourcelines, reader.getsourcefile, ASTTransformerContext.get_pos_info)
+
+
+def test_an_error_in_a_kernel_names_its_line() -> None:
+    def build(ti: Any) -> Any:
+        @ti.kernel
+        def wrong() -> ti.i32:
+            return missing  # noqa: F821
+
+        return wrong
+
+    with pytest.raises(Exception, match=r'test_taichi_reading.py", line \d+, in wrong'):
+        taichi_runtime.run(lambda: taichi_runtime.compiled(build)())
