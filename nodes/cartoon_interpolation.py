@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -84,7 +85,17 @@ def _models(choice: dict[str, Any], device: torch.device) -> InterpolationModels
         if sketch is None:
             raise InvalidInputError(_missing("sketch_model", choice["sketch_model"]))
     times = tuple(file.stat().st_mtime for file in (model, sketch) if file)
-    return _loaded(model, sketch, times, dtype_of(choice["precision"], device))
+    models = _loaded(model, sketch, times, dtype_of(choice["precision"], device))
+    return models if models.empty_prompt is not None else _with_kept_prompt(models, model)
+
+
+def _with_kept_prompt(models: InterpolationModels, model: Path) -> InterpolationModels:
+    """With the empty prompt that an earlier run has kept beside the model's file, if any."""
+    from ..rendering.tooncrafter.kept_prompt import kept_prompt
+
+    config = models.unet.config
+    kept = kept_prompt(model, (1, config.text_tokens, config.context_dim))
+    return replace(models, empty_prompt=None if kept is None else kept.to(models.dtype))
 
 
 @lru_cache(maxsize=1)
@@ -105,6 +116,11 @@ def _prompts(choice: dict[str, Any], models: InterpolationModels) -> tuple[torch
     config = models.unet.config
     shape, expected = tuple(empty.shape), (1, config.text_tokens, config.context_dim)
     require("clip", f"embeddings of shape {shape}", shape == expected, f"Stable Diffusion 2.1's, of shape {expected}")
+    model = model_file(choice["tooncrafter_model"])
+    if models.empty_prompt is None and model is not None:
+        from ..rendering.tooncrafter.kept_prompt import keep_prompt
+
+        keep_prompt(model, empty)
     return prompt[:, : config.text_tokens], empty
 
 

@@ -20,6 +20,7 @@ from .configuration import (
     SketchEncoderConfiguration,
     UNetConfiguration,
 )
+from .kept_prompt import keep_prompt, kept_prompt
 from .resampler import ImageResampler
 from .sketch_encoder import SketchEncoder
 from .text_encoder import TextEncoder, TextEncoderConfiguration, empty_prompt, text_weights
@@ -99,7 +100,8 @@ def load_models(
         model: ToonCrafter's file, .ckpt or .safetensors.
         sketch: its sketch encoder, .ckpt or .safetensors.
         image_encoder: the picture encoder, where the model's file holds none.
-        text_encoder: the text encoder, where the model's file holds none; only the empty prompt's embedding is kept.
+        text_encoder: the text encoder, where the model's file holds none; only the empty prompt's embedding is kept,
+            beside the model's file, so that the next time none is needed.
         dtype: in which all but the autoencoder compute.
         sizes: of the networks; the public ones by default.
 
@@ -165,7 +167,10 @@ def _image_encoder(
 def _empty_prompt(
     tensors: Mapping[str, Tensor], model: Path, file: Path | None, config: TextEncoderConfiguration, dtype: torch.dtype
 ) -> Tensor | None:
-    """Computed once in full precision; the text encoder itself is not kept."""
+    """Computed once in full precision and kept beside the model's file; the text encoder itself is not kept."""
+    kept = kept_prompt(model, (1, config.tokens, config.width)) if file is None else None
+    if kept is not None:
+        return kept.to(dtype)
     given, source = below(tensors, _TEXT), model
     if not given:
         if file is None:
@@ -174,4 +179,6 @@ def _empty_prompt(
     weights = text_weights(given, config.layers)
     encoder = _made(lambda: TextEncoder(config), weights, torch.float32, source, WANTED_TEXT_ENCODER)
     with torch.no_grad():
-        return encoder(empty_prompt(config.tokens)).to(dtype)
+        embedding = encoder(empty_prompt(config.tokens))
+    keep_prompt(model, embedding)
+    return embedding.to(dtype)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 from pathlib import Path
 
 import pytest
 import random_tooncrafter as tiny
 import torch
 from physanimator.rendering.checkpoints import CheckpointError
+from physanimator.rendering.tooncrafter.kept_prompt import keep_prompt, kept_prompt_file
 from physanimator.rendering.tooncrafter.models import InterpolationModels, load_models
 from physanimator.rendering.tooncrafter.text_encoder import TextEncoder, empty_prompt
 
@@ -75,6 +78,39 @@ def test_encoders_in_files_of_their_own(
     assert_holds(models, weights, through=torch.float16)
     assert models.image_encoder is not None
     torch.testing.assert_close(models.empty_prompt, empty_prompt_by(weights))
+
+
+def test_the_empty_prompt_is_kept_for_runs_without_a_text_encoder(
+    weights: Weights, pruned_file: Path, tmp_path: Path
+) -> None:
+    model = tmp_path / "pruned.safetensors"
+    shutil.copy(pruned_file, model)
+    assert load_models(model, sizes=tiny.TINY).empty_prompt is None
+    text = tiny.write_text_encoder(tmp_path / "text.safetensors", weights)
+    load_models(model, text_encoder=text, sizes=tiny.TINY)
+    text.unlink()
+    torch.testing.assert_close(load_models(model, sizes=tiny.TINY).empty_prompt, empty_prompt_by(weights))
+
+
+@pytest.mark.parametrize("spoil", ["older", "damaged", "of another shape"])
+def test_a_kept_prompt_that_does_not_fit_is_left_alone(pruned_file: Path, tmp_path: Path, spoil: str) -> None:
+    model = tmp_path / "pruned.safetensors"
+    shutil.copy(pruned_file, model)
+    sizes = tiny.TINY.text_encoder
+    keep_prompt(model, torch.ones(1, sizes.tokens, sizes.width))
+    assert load_models(model, sizes=tiny.TINY).empty_prompt is not None
+    if spoil == "older":
+        os.utime(kept_prompt_file(model), (0, 0))
+    elif spoil == "damaged":
+        kept_prompt_file(model).write_bytes(b"no weights")
+    else:
+        keep_prompt(model, torch.ones(1, sizes.tokens, sizes.width + 1))
+    assert load_models(model, sizes=tiny.TINY).empty_prompt is None
+
+
+def test_nothing_is_kept_where_nothing_can_be_written(tmp_path: Path) -> None:
+    keep_prompt(tmp_path / "no folder" / "model.ckpt", torch.ones(1, 2, 3))
+    assert not list(tmp_path.iterdir())
 
 
 def test_swapped_files_are_named(full_file: Path, sketch_file: Path) -> None:
