@@ -10,7 +10,9 @@ from physanimator.rendering.drawings.configuration import InformativeDrawingsCon
 from physanimator.rendering.drawings.informative_drawings import InformativeDrawings
 from physanimator.rendering.drawings.strips import draw_in_strips
 
-CASES = [(case, net) for case in reference.cases("informative_drawings") for net in reference.fixtures().cases[case]["nets"]]
+CASES = [
+    (case, net) for case in reference.cases("informative_drawings") for net in reference.fixtures().cases[case]["nets"]
+]
 
 
 def network(case: str, net: str) -> InformativeDrawings:
