@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
 from .defaults import default_of
+from .drawing_network import drawing_network_inputs, missing_drawing_file, network_sketch
 from .progress import host_progress
 from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of
 from .wires import FlowWire
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ExtractSketch", "WarpSketch"]
 
+_GAUSSIANS, _NETWORK = "difference of Gaussians", "drawing network"
+
 
 class ExtractSketch(io.ComfyNode):
     @classmethod
@@ -29,7 +32,7 @@ class ExtractSketch(io.ComfyNode):
             node_id="PhysAnimator_ExtractSketch",
             display_name="Extract Sketch",
             category="PhysAnimator/sketch",
-            description="Draws the illustration's lines on white paper. Works without any model file.",
+            description="Draws the illustration's lines on white paper: without any model file, or by a network.",
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 io.Float.Input(
@@ -38,7 +41,7 @@ class ExtractSketch(io.ComfyNode):
                     min=0.5,
                     max=50.0,
                     step=0.1,
-                    tooltip="Width of the lines to look for [px].",
+                    tooltip="Width of the lines to look for [px]; not for a network.",
                 ),
                 io.Float.Input(
                     "threshold",
@@ -55,7 +58,7 @@ class ExtractSketch(io.ComfyNode):
                     min=0.0,
                     max=20.0,
                     step=0.5,
-                    tooltip="Length over which lines are smoothed along their own direction [px].",
+                    tooltip="Length over which lines are smoothed along their own direction [px]; not for a network.",
                 ),
                 io.Int.Input(
                     "smallest_speck",
@@ -64,23 +67,42 @@ class ExtractSketch(io.ComfyNode):
                     max=100_000,
                     tooltip="Connected lines with less area than this are left out [px^2].",
                 ),
+                io.DynamicCombo.Input(
+                    "extractor",
+                    options=[
+                        io.DynamicCombo.Option(_GAUSSIANS, []),
+                        io.DynamicCombo.Option(_NETWORK, drawing_network_inputs()),
+                    ],
+                    optional=True,
+                    tooltip=f"{_GAUSSIANS}: needs no model. {_NETWORK}: informative drawings or Anime2Sketch, for which"
+                    " a model file is needed.",
+                ),
             ],
             outputs=[io.Image.Output(display_name="sketch", tooltip="Dark lines on white paper.")],
         )
 
     @classmethod
+    def validate_inputs(cls, extractor: dict[str, Any] | None = None, **others: Any) -> bool | str:
+        # The host hands over what a choice brings only to a function that takes every input.
+        return missing_drawing_file(extractor or {}) or True
+
+    @classmethod
     def execute(
-        cls, image: torch.Tensor, line_width: float, threshold: float, coherence: float, smallest_speck: int
+        cls,
+        image: torch.Tensor,
+        line_width: float,
+        threshold: float,
+        coherence: float,
+        smallest_speck: int,
+        extractor: dict[str, Any] | None = None,
     ) -> io.NodeOutput:
         from ..rendering.sketch import extract_sketch
 
-        sketch = extract_sketch(
-            picture_of(image),
-            line_width=line_width,
-            threshold=threshold,
-            coherence=coherence,
-            smallest_speck=smallest_speck,
-        )
+        picture, kept = picture_of(image), {"threshold": threshold, "smallest_speck": smallest_speck}
+        if extractor is not None and extractor["extractor"] == _NETWORK:
+            sketch = network_sketch(picture, extractor, **kept)
+        else:
+            sketch = extract_sketch(picture, line_width=line_width, coherence=coherence, **kept)
         return io.NodeOutput(batch_of_pictures([sketch], 1))
 
 

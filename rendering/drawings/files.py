@@ -15,7 +15,7 @@ class DrawingFile:
         name: of the file.
         draws: what its lines look like.
         page: where to get it.
-        licence: of the weights, or of the work that they come from.
+        licence: what is known of it.
     """
 
     name: str
@@ -25,13 +25,13 @@ class DrawingFile:
 
 
 _ANNOTATORS = "https://huggingface.co/lllyasviel/Annotators"
-_INFORMATIVE = "https://github.com/carolineec/informative-drawings (its licence: MIT)"
-_ANIME = "https://github.com/Mukosame/Anime2Sketch (its licence: MIT)"
+_INFORMATIVE = "see there; informative-drawings itself is under the MIT licence"
+_ANIME = "see there; Anime2Sketch itself is under the MIT licence"
 
 DRAWING_FILES = (
-    DrawingFile("sk_model.pth", "fine lines", _ANNOTATORS, f"after {_INFORMATIVE}"),
-    DrawingFile("sk_model2.pth", "coarse lines", _ANNOTATORS, f"after {_INFORMATIVE}"),
-    DrawingFile("netG.pth", "lines of anime", _ANNOTATORS, f"after {_ANIME}"),
+    DrawingFile("sk_model.pth", "fine lines", _ANNOTATORS, _INFORMATIVE),
+    DrawingFile("sk_model2.pth", "coarse lines", _ANNOTATORS, _INFORMATIVE),
+    DrawingFile("netG.pth", "lines of anime", _ANNOTATORS, _ANIME),
 )
 """The usual one first."""
 

@@ -42,8 +42,9 @@ def draw_in_strips(network: InformativeDrawings, picture: Tensor, *, rows: int) 
     full = stage(_Kept(picture), network.model0[1], reflect=3)
     features = stage(stage(full, network.model1[0]), network.model1[3]).whole()
     for block in network.model2:
-        inner = stage(_Kept(features), block.conv_block[1], reflect=1).whole()
-        features += stage(_Kept(inner), block.conv_block[5], reflect=1).whole(activated=False)
+        layers = block.get_submodule("conv_block")
+        inner = stage(_Kept(features), layers.get_submodule("1"), reflect=1).whole()
+        features += stage(_Kept(inner), layers.get_submodule("5"), reflect=1).whole(activated=False)
     full = stage(stage(_Kept(features), network.model3[0]), network.model3[3])
     drawing = torch.cat(list(stage(full, network.model4[1], reflect=3).strips()), dim=2)
     return drawing.sigmoid_() if network.config.sigmoid else drawing

@@ -96,7 +96,7 @@ def test_lost_residual_blocks_are_missed(tmp_path: Path) -> None:
 
 def test_another_network_s_file_names_missing_and_surplus(tmp_path: Path) -> None:
     torch.save({"encoder.conv.weight": torch.zeros(3)}, tmp_path / "other.pth")
-    with pytest.raises(CheckpointError, match="24 missing: model0.1.weight.*1 not wanted: encoder.conv.weight"):
+    with pytest.raises(CheckpointError, match=r"24 missing: model0\.1\.weight.*1 not wanted: encoder\.conv\.weight"):
         load_drawer(tmp_path / "other.pth")
 
 
