@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import torch
 
     from ..physics.flow import FlowSequence
-    from ..rendering.warp import WarpMode
+    from ..rendering.sketch_warping import WarpMode
 
 __all__ = ["ExtractSketch", "WarpSketch"]
 
@@ -109,7 +109,7 @@ class ExtractSketch(io.ComfyNode):
 class WarpSketch(io.ComfyNode):
     @classmethod
     def define_schema(cls) -> io.Schema:
-        from ..rendering.warp import WARP_MODES, warp_sketch
+        from ..rendering.sketch_warping import WARP_MODES, warped_sketches
 
         return io.Schema(
             node_id="PhysAnimator_WarpSketch",
@@ -122,36 +122,51 @@ class WarpSketch(io.ComfyNode):
                 io.Combo.Input(
                     "mode",
                     options=list(WARP_MODES),
-                    default=default_of(warp_sketch, "mode"),
-                    tooltip="Where several pixels meet, the one that moved further shows: 'paper' in proportion to"
-                    " how far it moved, 'softmax' far more decidedly.",
+                    default=default_of(warped_sketches, "mode"),
+                    tooltip="layered: each body's lines move with its mesh and lie over the still ones in depth order."
+                    " paper, softmax: single pixels move, and where several meet the one that moved further shows, in"
+                    " proportion to how far or far more decidedly.",
                 ),
                 io.Float.Input(
                     "blur_sigma",
-                    default=default_of(warp_sketch, "blur_sigma"),
+                    default=default_of(warped_sketches, "blur_sigma"),
                     min=0.0,
                     max=100.0,
                     step=0.1,
                     tooltip="Width of the Gaussian blur that hides broken contours [px]; 0 for none.",
                 ),
+                io.Image.Input(
+                    "lines_behind",
+                    optional=True,
+                    tooltip="Sketch of the clean plate: lines that show where a body leaves. Only layered takes it;"
+                    " without it paper is there.",
+                ),
             ],
             outputs=[
                 io.Image.Output(display_name="sketches", tooltip="One sketch a frame."),
                 io.Mask.Output(
-                    display_name="holes", tooltip="White where nothing came to lie: no line is known there."
+                    display_name="holes", tooltip="White where nothing came to lie: what is behind a body shows there."
                 ),
             ],
         )
 
     @classmethod
-    def execute(cls, sketch: torch.Tensor, flow: FlowSequence, mode: WarpMode, blur_sigma: float) -> io.NodeOutput:
-        from ..rendering.warp import warp_sketch
+    def execute(
+        cls,
+        sketch: torch.Tensor,
+        flow: FlowSequence,
+        mode: WarpMode,
+        blur_sigma: float,
+        lines_behind: torch.Tensor | None = None,
+    ) -> io.NodeOutput:
+        from ..rendering.sketch_warping import warped_sketches
 
         drawing, report = picture_of(sketch, name="sketch").mean(axis=2), host_progress()
+        behind = None if lines_behind is None else picture_of(lines_behind, name="lines_behind").mean(axis=2)
         sketches, holes = picture_batch(len(flow)), mask_batch(len(flow))
-        for number, field in enumerate(flow, start=1):
-            warped = warp_sketch(drawing, field, mode=mode, blur_sigma=blur_sigma)
-            sketches.put(warped.sketch)
-            holes.put(warped.holes)
+        warped = warped_sketches(drawing, flow, mode=mode, behind=behind, blur_sigma=blur_sigma)
+        for number, each in enumerate(warped, start=1):
+            sketches.put(each.sketch)
+            holes.put(each.holes)
             report(number, len(flow))
         return io.NodeOutput(sketches.tensor, holes.tensor)
