@@ -5,7 +5,7 @@ Each measure is fed the frames one after the other, so that a long clip is never
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -65,7 +65,7 @@ def measure_clip(
     motion: Motion,
     *,
     drawing: NDArray[Any] | None = None,
-    sketches: Sequence[NDArray[Any]] | None = None,
+    sketches: Iterable[NDArray[Any]] | None = None,
     progress: Progress | None = None,
 ) -> ClipMetrics:
     """Measure a clip of a motion.
@@ -82,8 +82,7 @@ def measure_clip(
         InvalidInputError: sizes or numbers do not fit together.
     """
     count = len(motion)
-    if sketches is not None:
-        require("sketches", len(sketches), len(sketches) == count, f"one for each of {count} frames")
+    driving = None if sketches is None else iter(sketches)
     maps = RestMaps(motion)
     reference = None if drawing is None else _checked(drawing, motion)
     errors, degree, drift, distances = FlowWarpError(maps), DynamicDegree(), None, []
@@ -96,8 +95,10 @@ def measure_clip(
         errors.add(frame)
         drift.add(frame)
         degree.add(frame)
-        if sketches is not None:
-            distances.append(chamfer_distance(extract_sketch(frame), sketches[done - 1]))
+        if driving is not None:
+            sketch = next(driving, None)
+            require("sketches", done - 1, sketch is not None, f"one for each of {count} frames")
+            distances.append(chamfer_distance(extract_sketch(frame), np.asarray(sketch)))
         if progress is not None:
             progress(done, count)
     require("frames", done, done == count, f"one for each of the motion's {count} frames")
