@@ -93,9 +93,20 @@ class _Stage:
 
     def whole(self, *, activated: bool = True) -> Tensor:
         """All rows, shape [1, c, h, w]."""
-        values = torch.cat(list(self.strips()), dim=2)
-        values = functional.instance_norm(values)
+        values = self._gathered()
+        variance, mean = torch.var_mean(values, dim=(2, 3), correction=0, keepdim=True)
+        values.sub_(mean).mul_((variance + _EPSILON).rsqrt())
         return values.relu_() if activated else values
+
+    def _gathered(self) -> Tensor:
+        """The convolution alone, all rows in memory once, shape [1, c, h, w]."""
+        first = 0
+        for strip in self.strips():
+            if not first:
+                values = strip.new_empty((*strip.shape[:2], self.height, strip.shape[3]))
+            values[:, :, first : first + strip.shape[2]] = strip
+            first += strip.shape[2]
+        return values
 
     @cached_property
     def _statistics(self) -> tuple[Tensor, Tensor]:
