@@ -8,7 +8,7 @@ what is at a quarter of the size is kept.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 from typing import Protocol
 
@@ -94,8 +94,8 @@ class _Stage:
     def whole(self, *, activated: bool = True) -> Tensor:
         """All rows, shape [1, c, h, w]."""
         values = self._gathered()
-        variance, mean = torch.var_mean(values, dim=(2, 3), correction=0, keepdim=True)
-        values.sub_(mean).mul_((variance + _EPSILON).rsqrt())
+        mean, scale = _statistics_of(values.split(self.step, dim=2))
+        values.sub_(mean).mul_(scale)
         return values.relu_() if activated else values
 
     def _gathered(self) -> Tensor:
@@ -110,19 +110,7 @@ class _Stage:
 
     @cached_property
     def _statistics(self) -> tuple[Tensor, Tensor]:
-        """Mean, and one over the standard deviation, of each channel over the whole picture, shape [1, c, 1, 1]."""
-        count, mean, squares = 0, torch.zeros(()), torch.zeros(())
-        for strip in self.strips():
-            variance, here = (x.double() for x in torch.var_mean(strip.float(), dim=(2, 3), correction=0, keepdim=True))
-            added = strip.shape[2] * strip.shape[3]
-            if not count:
-                mean, squares = torch.zeros_like(here), torch.zeros_like(here)
-            away = here - mean
-            squares = squares + variance * added + away * away * (count * added / (count + added))
-            mean = mean + away * (added / (count + added))
-            count += added
-        scale = (squares / count + _EPSILON).rsqrt()
-        return mean.to(strip.dtype), scale.to(strip.dtype)
+        return _statistics_of(self.strips())
 
     def _convolved(self, first: int, end: int) -> Tensor:
         layer = self.layer
@@ -149,6 +137,25 @@ class _Stage:
         start, stop = int(wanted.min()), int(wanted.max()) + 1
         given = self.below.rows(start, stop)
         return given[:, :, (wanted - start).to(given.device)]
+
+
+def _statistics_of(strips: Iterable[Tensor]) -> tuple[Tensor, Tensor]:
+    """Mean, and one over the standard deviation, of each channel over the whole picture, shape [1, c, 1, 1].
+
+    Means and squares of the strips are put together in double precision (Chan, Golub and LeVeque, 1979).
+    """
+    count, mean, squares = 0, torch.zeros(()), torch.zeros(())
+    for strip in strips:
+        variance, here = (x.double() for x in torch.var_mean(strip.float(), dim=(2, 3), correction=0, keepdim=True))
+        added = strip.shape[2] * strip.shape[3]
+        if not count:
+            mean, squares = torch.zeros_like(here), torch.zeros_like(here)
+        away = here - mean
+        squares = squares + variance * added + away * away * (count * added / (count + added))
+        mean = mean + away * (added / (count + added))
+        count += added
+    scale = (squares / count + _EPSILON).rsqrt()
+    return mean.to(strip.dtype), scale.to(strip.dtype)
 
 
 _EPSILON = 1e-5

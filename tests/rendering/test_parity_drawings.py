@@ -33,7 +33,7 @@ def test_drawing(case: str, net: str) -> None:
 
 
 @pytest.mark.parametrize(("case", "net"), CASES)
-@pytest.mark.parametrize("rows", [4, 20])
+@pytest.mark.parametrize("rows", [12, 40])
 def test_drawing_in_strips(case: str, net: str, rows: int) -> None:
     with torch.no_grad():
         drawing = draw_in_strips(network(case, net), reference.inputs(case)["image"], rows=rows)
