@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 from . import __version__
 
 if TYPE_CHECKING:
-    from .physics.collision import Contact
     from .rendering.animation import StageProgress
 
 __all__ = ["main"]
@@ -51,7 +50,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    from .rendering.command_options import add_animate, add_demo, add_figure
+    from .rendering.command_options import add_animate, add_demo, add_figure, add_measure
 
     parser = argparse.ArgumentParser(
         prog="physanimator", description="Set parts of a still illustration in motion.", allow_abbrev=False
@@ -62,10 +61,11 @@ def _parser() -> argparse.ArgumentParser:
         ("animate", _animate, add_animate, "animate an illustration"),
         ("demo", _demo, add_demo, "animate the bundled example"),
         ("figure", _figure, add_figure, "draw a figure that explains the controls"),
+        ("measure", _measure, add_measure, "measure a clip against the motion that it should show"),
         ("schema", _schema, None, "print the JSON Schema of scene files"),
     ):
         command = commands.add_parser(name, help=summary, allow_abbrev=False)
-        command.set_defaults(run=run)
+        command.set_defaults(run=run, command=name)
         if add_options is not None:
             add_options(command)
     return parser
@@ -128,43 +128,31 @@ def _figure(options: argparse.Namespace) -> None:
 
 
 def _animate(options: argparse.Namespace) -> None:
-    from .physics.errors import InvalidInputError
-    from .physics.json_text import read_json
+    from .rendering.command_inputs import check_inputs, read_inputs
     from .rendering.command_outputs import check_outputs
-    from .rendering.images import load_image, load_mask
 
-    if not options.mask and not options.points:
-        raise InvalidInputError("animate needs --mask or --points to know what moves. Got: neither")
-    wind = {"attach": options.attach, "wind_strength": options.wind, "wind_angle": options.wind_angle}
-    wind["turbulence"] = options.turbulence
-    changes = {name: value for name, value in wind.items() if value is not None}
-    if options.scene and changes:
-        raise InvalidInputError("--attach, --wind, --wind-angle and --turbulence work without --scene. Got: both")
+    check_inputs(options)
     check_outputs(options)
-    scene = read_json(_text(options.scene, "scene")) if options.scene else None
-    image = load_image(options.image)
-    height, width = image.shape[:2]
-    _run(
-        options,
-        image,
-        masks=[load_mask(path, width=width, height=height) for path in options.mask],
-        points=[_text(path, "points") for path in options.points],
-        scene=scene,
-        preset=options.preset,
-        sway=options.sway,
-        spacing=options.spacing,
-        contact=_contact(options, scene),
-        colliders=[load_mask(path, width=width, height=height) for path in options.collider],
-        **changes,
-    )
+    image, inputs = read_inputs(options)
+    _run(options, image, **inputs)
 
 
-def _contact(options: argparse.Namespace, scene: Any) -> Contact | None:
-    """The usual contact, unless the scene has its own."""
-    from .physics.collision import Contact
+def _measure(options: argparse.Namespace) -> None:
+    from .pipeline import animate
+    from .rendering.command_inputs import check_inputs, read_inputs
+    from .rendering.command_measures import check_measures, measured, table
+    from .rendering.images import load_image
 
-    wanted = options.contact or options.collider
-    return Contact() if wanted and not (isinstance(scene, dict) and scene.get("contact")) else None
+    check_inputs(options)
+    check_measures(options)
+    image, inputs = read_inputs(options)
+    plate = load_image(options.plate) if options.plate else None
+    timing = {"frames": options.frames, "loop": options.loop, "skip": options.skip, "frame_rate": options.fps}
+    with ExitStack() as bars:
+        progress = None if options.quiet else _progress_bars(bars)
+        animation = animate(image, plate=plate, progress=progress, **timing, **inputs)
+        found = measured(options, animation, progress)
+    print(table(found, as_json=options.json))
 
 
 def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
@@ -194,16 +182,6 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
         report(animation)
     if not options.quiet:
         print(f"{options.output}: {len(animation)} frames at {animation.motion.frame_rate:g} frames a second")
-
-
-def _text(path: str, name: str) -> str:
-    from .physics.errors import InvalidInputError
-
-    try:
-        return Path(path).read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not text"
-        raise InvalidInputError(f"{name} must be a readable text file. Got: {path}: {reason}") from None
 
 
 def _progress_bars(stack: ExitStack) -> StageProgress:

@@ -9,6 +9,7 @@ from .contact_nodes import Contact
 from .example_nodes import ExampleIllustration
 from .flow_nodes import OpticalFlow, PreviewFlow
 from .mask_nodes import MaskToMesh, SegmentByPoints
+from .metric_nodes import Metrics
 from .motion_nodes import PreviewMotion, Simulate
 from .paint_nodes import PaintMaterial
 from .preview_server import register_routes
@@ -47,6 +48,7 @@ NODES: list[type[io.ComfyNode]] = [
     WarpSketch,
     Render,
     Interpolate,
+    Metrics,
 ]
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
 from .defaults import default_of
+from .drawing_network import drawing_network_inputs, missing_drawing_file, network_sketch
 from .progress import host_progress
 from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of
 from .wires import FlowWire
@@ -15,9 +16,11 @@ if TYPE_CHECKING:
     import torch
 
     from ..physics.flow import FlowSequence
-    from ..rendering.warp import WarpMode
+    from ..rendering.sketch_warping import WarpMode
 
 __all__ = ["ExtractSketch", "WarpSketch"]
+
+_GAUSSIANS, _NETWORK = "difference of Gaussians", "drawing network"
 
 
 class ExtractSketch(io.ComfyNode):
@@ -29,7 +32,7 @@ class ExtractSketch(io.ComfyNode):
             node_id="PhysAnimator_ExtractSketch",
             display_name="Extract Sketch",
             category="PhysAnimator/sketch",
-            description="Draws the illustration's lines on white paper. Works without any model file.",
+            description="Draws the illustration's lines on white paper: without any model file, or by a network.",
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 io.Float.Input(
@@ -38,7 +41,7 @@ class ExtractSketch(io.ComfyNode):
                     min=0.5,
                     max=50.0,
                     step=0.1,
-                    tooltip="Width of the lines to look for [px].",
+                    tooltip="Width of the lines to look for [px]; not for a network.",
                 ),
                 io.Float.Input(
                     "threshold",
@@ -55,7 +58,7 @@ class ExtractSketch(io.ComfyNode):
                     min=0.0,
                     max=20.0,
                     step=0.5,
-                    tooltip="Length over which lines are smoothed along their own direction [px].",
+                    tooltip="Length over which lines are smoothed along their own direction [px]; not for a network.",
                 ),
                 io.Int.Input(
                     "smallest_speck",
@@ -64,30 +67,49 @@ class ExtractSketch(io.ComfyNode):
                     max=100_000,
                     tooltip="Connected lines with less area than this are left out [px^2].",
                 ),
+                io.DynamicCombo.Input(
+                    "extractor",
+                    options=[
+                        io.DynamicCombo.Option(_GAUSSIANS, []),
+                        io.DynamicCombo.Option(_NETWORK, drawing_network_inputs()),
+                    ],
+                    optional=True,
+                    tooltip=f"{_GAUSSIANS}: needs no model. {_NETWORK}: informative drawings or Anime2Sketch, for which"
+                    " a model file is needed.",
+                ),
             ],
             outputs=[io.Image.Output(display_name="sketch", tooltip="Dark lines on white paper.")],
         )
 
     @classmethod
+    def validate_inputs(cls, extractor: dict[str, Any] | None = None, **others: Any) -> bool | str:
+        # The host hands over what a choice brings only to a function that takes every input.
+        return missing_drawing_file(extractor or {}) or True
+
+    @classmethod
     def execute(
-        cls, image: torch.Tensor, line_width: float, threshold: float, coherence: float, smallest_speck: int
+        cls,
+        image: torch.Tensor,
+        line_width: float,
+        threshold: float,
+        coherence: float,
+        smallest_speck: int,
+        extractor: dict[str, Any] | None = None,
     ) -> io.NodeOutput:
         from ..rendering.sketch import extract_sketch
 
-        sketch = extract_sketch(
-            picture_of(image),
-            line_width=line_width,
-            threshold=threshold,
-            coherence=coherence,
-            smallest_speck=smallest_speck,
-        )
+        picture, kept = picture_of(image), {"threshold": threshold, "smallest_speck": smallest_speck}
+        if extractor is not None and extractor["extractor"] == _NETWORK:
+            sketch = network_sketch(picture, extractor, **kept)
+        else:
+            sketch = extract_sketch(picture, line_width=line_width, coherence=coherence, **kept)
         return io.NodeOutput(batch_of_pictures([sketch], 1))
 
 
 class WarpSketch(io.ComfyNode):
     @classmethod
     def define_schema(cls) -> io.Schema:
-        from ..rendering.warp import WARP_MODES, warp_sketch
+        from ..rendering.sketch_warping import WARP_MODES, warped_sketches
 
         return io.Schema(
             node_id="PhysAnimator_WarpSketch",
@@ -100,36 +122,51 @@ class WarpSketch(io.ComfyNode):
                 io.Combo.Input(
                     "mode",
                     options=list(WARP_MODES),
-                    default=default_of(warp_sketch, "mode"),
-                    tooltip="Where several pixels meet, the one that moved further shows: 'paper' in proportion to"
-                    " how far it moved, 'softmax' far more decidedly.",
+                    default=default_of(warped_sketches, "mode"),
+                    tooltip="layered: each body's lines move with its mesh and lie over the still ones in depth order."
+                    " paper, softmax: single pixels move, and where several meet the one that moved further shows, in"
+                    " proportion to how far or far more decidedly.",
                 ),
                 io.Float.Input(
                     "blur_sigma",
-                    default=default_of(warp_sketch, "blur_sigma"),
+                    default=default_of(warped_sketches, "blur_sigma"),
                     min=0.0,
                     max=100.0,
                     step=0.1,
                     tooltip="Width of the Gaussian blur that hides broken contours [px]; 0 for none.",
                 ),
+                io.Image.Input(
+                    "lines_behind",
+                    optional=True,
+                    tooltip="Sketch of the clean plate: lines that show where a body leaves. Only layered takes it;"
+                    " without it paper is there.",
+                ),
             ],
             outputs=[
                 io.Image.Output(display_name="sketches", tooltip="One sketch a frame."),
                 io.Mask.Output(
-                    display_name="holes", tooltip="White where nothing came to lie: no line is known there."
+                    display_name="holes", tooltip="White where nothing came to lie: what is behind a body shows there."
                 ),
             ],
         )
 
     @classmethod
-    def execute(cls, sketch: torch.Tensor, flow: FlowSequence, mode: WarpMode, blur_sigma: float) -> io.NodeOutput:
-        from ..rendering.warp import warp_sketch
+    def execute(
+        cls,
+        sketch: torch.Tensor,
+        flow: FlowSequence,
+        mode: WarpMode,
+        blur_sigma: float,
+        lines_behind: torch.Tensor | None = None,
+    ) -> io.NodeOutput:
+        from ..rendering.sketch_warping import warped_sketches
 
         drawing, report = picture_of(sketch, name="sketch").mean(axis=2), host_progress()
+        behind = None if lines_behind is None else picture_of(lines_behind, name="lines_behind").mean(axis=2)
         sketches, holes = picture_batch(len(flow)), mask_batch(len(flow))
-        for number, field in enumerate(flow, start=1):
-            warped = warp_sketch(drawing, field, mode=mode, blur_sigma=blur_sigma)
-            sketches.put(warped.sketch)
-            holes.put(warped.holes)
+        warped = warped_sketches(drawing, flow, mode=mode, behind=behind, blur_sigma=blur_sigma)
+        for number, each in enumerate(warped, start=1):
+            sketches.put(each.sketch)
+            holes.put(each.holes)
             report(number, len(flow))
         return io.NodeOutput(sketches.tensor, holes.tensor)

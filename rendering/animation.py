@@ -91,13 +91,12 @@ class Animation:
         """The line drawing of the illustration, warped along the motion: float32 0..1, shape [h, w], lines dark."""
         from ..physics.flow import FlowSequence
         from .sketch import extract_sketch
-        from .warp import warp_sketch
+        from .sketch_warping import warped_sketches
 
         def drawn() -> Iterator[Image]:
-            sketch = extract_sketch(self.image)
-            fields = FlowSequence(self.motion)
-            for t in self.shown:
-                yield warp_sketch(sketch, fields.flow(t)).sketch
+            sketch, behind = extract_sketch(self.image), extract_sketch(self.renderer.plate)
+            warped = warped_sketches(sketch, FlowSequence(self.motion), self.shown, behind=behind)
+            yield from (each.sketch for each in warped)
 
         return self._measured("sketch", drawn(), progress)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-__all__ = ["add_animate", "add_demo", "add_figure"]
+__all__ = ["add_animate", "add_demo", "add_figure", "add_measure"]
 
 
 def add_animate(parser: argparse.ArgumentParser) -> None:
@@ -41,6 +41,31 @@ def add_figure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--output", "-o", metavar="OUT", required=True, help="picture to write (PNG, JPEG, WebP)")
     parser.add_argument("--quiet", "-q", action="store_true", help="no progress bar")
+
+
+def add_measure(parser: argparse.ArgumentParser) -> None:
+    """All that ``physanimator measure`` takes."""
+    parser.description = (
+        "Measure a clip against the motion that it should show: the options that made it make the motion again."
+    )
+    parser.add_argument("image", metavar="IMAGE", help="the illustration (PNG, JPEG, WebP)")
+    _add_parts(parser)
+    _add_direction(parser)
+    clip = parser.add_argument_group("what is measured")
+    clip.add_argument(
+        "--clip",
+        metavar="CLIP",
+        help="video, animated picture or folder with one picture a frame, of the illustration's size (default: what"
+        " animate would draw)",
+    )
+    _add_timing(clip)
+    clip.add_argument("--plate", metavar="IMAGE", help="the illustration without its moving parts, if you have it")
+    clip.add_argument("--fid", metavar="FILE", help="also the Frechet inception distance; file of Inception's weights")
+    clip.add_argument("--reference", metavar="CLIP", help="clip or folder that --fid compares with")
+    clip.add_argument("--video-score", metavar="FOLDER", help="also VideoScore's grades; folder of the model")
+    clip.add_argument("--description", metavar="TEXT", help="what the clip shows, for --video-score")
+    parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
+    parser.add_argument("--quiet", "-q", action="store_true", help="no progress bars")
 
 
 def _add_parts(parser: argparse.ArgumentParser) -> None:
@@ -109,17 +134,10 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
         help=".mp4, .webm (the moving parts, transparent), .gif, .webp, .apng, or a folder ending in / for"
         " numbered PNG files" + (f" (default: {output})" if output else ""),
     )
-    drawing.add_argument("--frames", metavar="N", type=int, help="number of frames (default: 72, or the loop's)")
-    drawing.add_argument(
-        "--loop", metavar="SECONDS", type=float, help="make a seamless loop of this length (its first frame moves, too)"
-    )
-    drawing.add_argument(
-        "--skip", metavar="N", type=int, default=0, help="leave out the first N frames, in which the motion settles in"
-    )
+    _add_timing(drawing)
     drawing.add_argument(
         "--width", metavar="PX", type=int, help="width of what is written (default: the illustration's)"
     )
-    drawing.add_argument("--fps", metavar="F", type=float, help="frames a second (default: the scene's, or 24)")
     drawing.add_argument(
         "--background",
         choices=("picture", "transparent"),
@@ -134,6 +152,17 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
     drawing.add_argument(
         "--preview", metavar="OUT", help="also write the animation with meshes, pins and strokes on it"
     )
+
+
+def _add_timing(group: argparse._ArgumentGroup) -> None:
+    group.add_argument("--frames", metavar="N", type=int, help="number of frames (default: 72, or the loop's)")
+    group.add_argument(
+        "--loop", metavar="SECONDS", type=float, help="make a seamless loop of this length (its first frame moves, too)"
+    )
+    group.add_argument(
+        "--skip", metavar="N", type=int, default=0, help="leave out the first N frames, in which the motion settles in"
+    )
+    group.add_argument("--fps", metavar="F", type=float, help="frames a second (default: the scene's, or 24)")
 
 
 def _add_data(parser: argparse.ArgumentParser) -> None:

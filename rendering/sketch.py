@@ -1,9 +1,10 @@
 """Line drawings from illustrations, without a network: a flow-based extended difference of Gaussians.
 
 After Kang, Lee and Chui, "Flow-based image abstraction" (2009), and Winnemoeller, Kyprianidis and Olsen, "XDoG"
-(2012). Two changes suit drawn art. Both Gaussians weigh the same, so that flat areas and even gradients answer with
+(2012). Three changes suit drawn art. Both Gaussians weigh the same, so that flat areas and even gradients answer with
 0 at any brightness: black hair comes out as its contour, not as a black shape. And every colour channel is asked, so
-that a contour between two colours of equal brightness is found too.
+that a contour between two colours of equal brightness is found too. And a line that fades is followed to its end, while
+what is faint throughout is left out, as an edge detector with two thresholds does it (Canny, 1986).
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..physics.errors import require
 
-__all__ = ["extract_sketch"]
+__all__ = ["cleaned", "extract_sketch", "picture_of"]
 
 FloatImage = NDArray[np.float32]
 
@@ -25,6 +26,8 @@ _SURROUND = 1.6
 # Answer to a black line of the nominal width on white: the shares of both Gaussians within it, erf(1 / sqrt 2) and
 # erf(1 / (1.6 sqrt 2)).
 _PEAK = 0.683 - 0.468
+# Shares of the threshold above which a line is followed, and which it must reach somewhere.
+_FOLLOWED, _REACHED = 0.5, 2.0
 # Brightness below which equal differences rather than equal ratios look equal.
 _DARK = 0.25
 
@@ -44,7 +47,7 @@ def extract_sketch(
         image: RGB, uint8 or float in 0..1, shape [h, w, 3].
         line_width: width of the lines that answer most [px].
         threshold: how much darker than its surroundings a line must be, where 1 is black on white; higher leaves
-            faint lines out.
+            faint lines out. A line may fade to half of it, and must somewhere reach twice as much.
         sharpness: how fast a line turns from grey to black above the threshold.
         coherence: length over which lines are smoothed along their own direction [px]; 0 leaves them as they are.
         smallest_speck: connected lines of fewer pixels are left out [px^2].
@@ -55,7 +58,7 @@ def extract_sketch(
     Raises:
         InvalidInputError: the picture or a parameter is unusable.
     """
-    picture = _as_float(image)
+    picture = picture_of(image)
     require("line_width", line_width, 0.5 <= line_width <= 50, "0.5 to 50 px")
     require("threshold", threshold, 0 < threshold < 1, "above 0 and below 1")
     require("sharpness", sharpness, 0 < sharpness < np.inf, "above 0")
@@ -66,11 +69,37 @@ def extract_sketch(
     response = _darkness(_evened(picture), sigma)
     if coherence > 0:
         response = _smoothed_along_lines(response, _tangents(picture, 2 * sigma), coherence)
-    density = np.tanh(np.maximum(response - threshold, 0) * sharpness)
-    return 1 - _without_specks(density, smallest_speck)
+    density = np.tanh(np.maximum(response - _FOLLOWED * threshold, 0) * sharpness)
+    return 1 - density * _lines(response, threshold, smallest_speck)
 
 
-def _as_float(image: NDArray[Any]) -> FloatImage:
+def cleaned(density: FloatImage, *, threshold: float, smallest_speck: int) -> FloatImage:
+    """A sketch from the lines that someone else has drawn, by the same rules.
+
+    Args:
+        density: how dark, paper 0 and lines towards 1, shape [h, w].
+        threshold: see :func:`extract_sketch`.
+        smallest_speck: see :func:`extract_sketch`.
+
+    Returns:
+        sketch, paper 1 and lines towards 0, float32, shape [h, w].
+
+    Raises:
+        InvalidInputError: a parameter is unusable.
+    """
+    require("threshold", threshold, 0 < threshold < 1, "above 0 and below 1")
+    require("smallest_speck", smallest_speck, smallest_speck >= 0, "at least 0 px^2")
+    faintest = np.float32(_FOLLOWED * threshold)
+    ink = np.clip((density - faintest) / (1 - faintest), 0, 1).astype(np.float32)
+    return 1 - ink * _lines(density, threshold, smallest_speck)
+
+
+def picture_of(image: NDArray[Any]) -> FloatImage:
+    """An RGB picture, uint8 or float in 0..1, shape [h, w, 3], as float32 in 0..1.
+
+    Raises:
+        InvalidInputError: it is no such picture.
+    """
     picture = np.asarray(image)
     shape_ok = picture.ndim == 3 and picture.shape[2] == 3 and picture.size > 0
     require("image", f"shape {picture.shape}", shape_ok, "an RGB picture of shape [h, w, 3]")
@@ -96,10 +125,14 @@ def _darkness(picture: FloatImage, sigma: float) -> FloatImage:
 
 
 def _tangents(picture: FloatImage, sigma: float) -> FloatImage:
-    """Unit vectors along the edges, from the smoothed structure tensor, shape [h, w, 2]."""
-    grey = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY)
-    dx, dy = cv2.Sobel(grey, cv2.CV_32F, 1, 0), cv2.Sobel(grey, cv2.CV_32F, 0, 1)
-    xx, yy, xy = (_blurred(product, sigma) for product in (dx * dx, dy * dy, dx * dy))
+    """Unit vectors along the edges, from the smoothed structure tensor of all channels, shape [h, w, 2]."""
+    xx, yy, xy = (np.zeros(picture.shape[:2], dtype=np.float32) for _ in range(3))
+    for channel in cv2.split(picture):
+        dx, dy = cv2.Sobel(channel, cv2.CV_32F, 1, 0), cv2.Sobel(channel, cv2.CV_32F, 0, 1)
+        cv2.accumulateSquare(dx, xx)
+        cv2.accumulateSquare(dy, yy)
+        cv2.accumulateProduct(dx, dy, xy)
+    xx, yy, xy = (_blurred(product, sigma) for product in (xx, yy, xy))
     # The tangent is the eigenvector of the smaller eigenvalue: half the double angle, turned by a right angle.
     angle = 0.5 * np.arctan2(2 * xy, xx - yy)
     return np.dstack([-np.sin(angle), np.cos(angle)])
@@ -121,9 +154,12 @@ def _smoothed_along_lines(response: FloatImage, tangents: FloatImage, length: fl
     return total / np.float32(weights)
 
 
-def _without_specks(density: FloatImage, smallest: int) -> FloatImage:
-    lines = (density > 0.05).astype(np.uint8)
-    _, labels, stats, _ = cv2.connectedComponentsWithStats(lines, connectivity=8)
-    keep = stats[:, cv2.CC_STAT_AREA] >= smallest
+def _lines(response: FloatImage, threshold: float, smallest: int) -> NDArray[np.bool_]:
+    """True on connected lines that are large enough and somewhere dark enough, shape [h, w]."""
+    followed = (response > _FOLLOWED * threshold).astype(np.uint8)
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(followed, connectivity=8)
+    keep = np.zeros(len(stats), dtype=bool)
+    keep[labels[response > _REACHED * threshold]] = True
+    keep &= stats[:, cv2.CC_STAT_AREA] >= smallest
     keep[0] = False
-    return density * keep[labels]
+    return keep[labels]

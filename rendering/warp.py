@@ -20,12 +20,12 @@ from ..physics.errors import require
 from ..physics.flow import FlowField
 from .splatting import splat, split_fragments
 
-__all__ = ["WARP_MODES", "WarpMode", "WarpedSketch", "forward_warp", "warp_sketch"]
+__all__ = ["SPLAT_MODES", "SplatMode", "WarpedSketch", "forward_warp", "warp_sketch"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
-WarpMode = Literal["paper", "softmax"]
-WARP_MODES: tuple[WarpMode, ...] = get_args(WarpMode)
+SplatMode = Literal["paper", "softmax"]
+SPLAT_MODES: tuple[SplatMode, ...] = get_args(SplatMode)
 
 # Weight of a pixel at rest beside one that moved by one pixel.
 _REST_WEIGHT = 0.001
@@ -91,7 +91,7 @@ def warp_sketch(
     sketch: NDArray[Any],
     field: FlowField,
     *,
-    mode: WarpMode = "paper",
+    mode: SplatMode = "paper",
     alpha: float = 15.0,
     border: int = 2,
     blur_sigma: float = 0.8,
@@ -116,7 +116,7 @@ def warp_sketch(
     require("sketch", f"shape {sketch.shape}", sketch.ndim == 2, "of shape [h, w]")
     same_size = field.inside.shape == sketch.shape
     require("flow", f"{field.inside.shape[::-1]} px", same_size, f"of the sketch's size, {width} x {height} px")
-    require("mode", mode, mode in WARP_MODES, f"one of {', '.join(WARP_MODES)}")
+    require("mode", mode, mode in SPLAT_MODES, f"one of {', '.join(SPLAT_MODES)}")
     require("alpha", alpha, 0 < alpha <= 80, "above 0 and at most 80")
     require("border", border, 0 <= border <= 20, "0 to 20 px")
     require("blur_sigma", blur_sigma, 0 <= blur_sigma <= 100, "0 to 100 px")
@@ -170,7 +170,7 @@ def _with_contours(flow: FloatImage, inside: Mask, lines: FloatImage, border: in
     return extended
 
 
-def _importance(flow: FloatImage, mode: WarpMode, alpha: float) -> FloatImage:
+def _importance(flow: FloatImage, mode: SplatMode, alpha: float) -> FloatImage:
     """Weight of each pixel, shape [h, w]."""
     length = cv2.magnitude(*cv2.split(flow))
     if mode == "paper":

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.sketch import extract_sketch
+from physanimator.rendering.sketch import cleaned, extract_sketch
 
 HEIGHT, WIDTH = 80, 120
 
@@ -76,6 +76,28 @@ def test_a_higher_threshold_leaves_faint_lines_out() -> None:
     image[39:41] = 170
     assert extract_sketch(image)[39, 60] < 0.5
     assert (extract_sketch(image, threshold=0.4) == 1).all()
+
+
+def test_a_line_that_fades_is_followed_to_its_end_and_one_that_is_faint_throughout_is_not() -> None:
+    image = page()
+    fading = np.linspace(120, 245, 80).astype(np.uint8)
+    image[19:21, 20:100] = fading[None, :, None]
+    image[59:61, 60:100] = fading[None, 40:, None]
+    sketch, faint = extract_sketch(image), extract_sketch(image, threshold=0.15)
+    assert (sketch[19:21, 22:94] < 0.99).all()
+    assert (faint[19:21, 22:80] < 0.99).all()
+    assert (faint[55:65] == 1).all()
+
+
+def test_a_drawing_from_elsewhere_is_cleaned_by_the_same_rules() -> None:
+    density = np.full((HEIGHT, WIDTH), 0.02, np.float32)
+    density[20, 10:100] = np.linspace(0.9, 0.05, 90)
+    density[40, 10:100] = 0.05
+    density[60:62, 60:62] = 1
+    sketch = cleaned(density, threshold=0.06, smallest_speck=24)
+    assert sketch[20, 10] < 0.15
+    assert (sketch[20, 10:100] < 1).all()
+    assert (sketch[30:] == 1).all()
 
 
 def test_float_pictures_give_the_same_sketch() -> None:

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.flow import FlowField
-from physanimator.rendering.warp import WARP_MODES, forward_warp, warp_sketch
+from physanimator.rendering.warp import SPLAT_MODES, forward_warp, warp_sketch
 
 HEIGHT, WIDTH = 60, 90
 
@@ -29,7 +29,7 @@ def body() -> NDArray[np.bool_]:
     return inside
 
 
-@pytest.mark.parametrize("mode", WARP_MODES)
+@pytest.mark.parametrize("mode", SPLAT_MODES)
 def test_no_motion_is_the_identity_exactly(mode: str) -> None:
     sketch = noise(HEIGHT, WIDTH)
     warped = warp_sketch(sketch, field_of(body(), 0, 0), mode=mode, blur_sigma=0)
@@ -69,7 +69,7 @@ def test_the_heavier_of_two_pixels_that_meet_shows() -> None:
     np.testing.assert_array_equal(coverage, [[0, 1, 2]])
 
 
-@pytest.mark.parametrize("mode", WARP_MODES)
+@pytest.mark.parametrize("mode", SPLAT_MODES)
 def test_lines_at_rest_survive_and_old_lines_do_not_stay(mode: str) -> None:
     sketch = np.ones((HEIGHT, WIDTH), np.float32)
     sketch[10] = 0  # above the body

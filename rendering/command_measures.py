@@ -1,0 +1,79 @@
+"""What the command ``measure`` computes and prints."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..physics.errors import InvalidInputError, require
+from .learned_metrics.files import FID_FILE, VIDEO_SCORE_FOLDER, require_file
+
+if TYPE_CHECKING:
+    from .animation import Animation, StageProgress
+
+__all__ = ["check_measures", "measured", "table"]
+
+UNITS = {"sketch_adherence": "px", "dynamic_degree": "px/frame"}
+"""Units of the measures that have one."""
+
+Measures = dict[str, float | None]
+
+
+def check_measures(options: argparse.Namespace) -> None:
+    """Refuse what cannot be measured, before any long work.
+
+    Raises:
+        InvalidInputError: the message names the option or the file.
+    """
+    if options.clip is not None and not Path(options.clip).exists():
+        raise InvalidInputError(f"--clip must be a video or a folder of pictures. Got: {options.clip}")
+    if (options.fid is None) != (options.reference is None):
+        raise InvalidInputError("--fid and --reference need each other. Got: one of them")
+    if (options.video_score is None) != (options.description is None):
+        raise InvalidInputError("--video-score and --description need each other. Got: one of them")
+    if options.fid is not None:
+        require_file(Path(options.fid), FID_FILE)
+        require("--reference", options.reference, Path(options.reference).exists(), "a clip or a folder of pictures")
+    if options.video_score is not None:
+        require_file(Path(options.video_score), VIDEO_SCORE_FOLDER)
+
+
+def measured(options: argparse.Namespace, animation: Animation, progress: StageProgress | None) -> Measures:
+    """Every measure by its name."""
+    from .clip_reading import read_clip
+    from .metrics import measure_clip
+
+    def frames() -> Iterator[Any]:
+        return animation.frames() if options.clip is None else read_clip(options.clip)
+
+    found: Measures = measure_clip(
+        frames(),
+        animation.shown_motion,
+        drawing=animation.image,
+        sketches=animation.sketches(),
+        progress=None if progress is None else lambda done, total: progress("measure", done, total),
+    ).as_dict()
+    if options.fid is not None:
+        from .learned_metrics.fid import frechet_inception_distance
+
+        found["fid"] = frechet_inception_distance(frames(), read_clip(options.reference), Path(options.fid))
+    if options.video_score is not None:
+        from .learned_metrics.video_score import video_score
+
+        grades = video_score(list(frames()), options.description, Path(options.video_score))
+        found |= {f"video_score_{name}": grade for name, grade in grades.items()}
+    return found
+
+
+def table(found: Measures, *, as_json: bool) -> str:
+    """Measures as text."""
+    if as_json:
+        return json.dumps(found, indent=2)
+    return "\n".join(f"{name:<36}{_shown(name, value)}" for name, value in found.items())
+
+
+def _shown(name: str, value: float | None) -> str:
+    return "-" if value is None else f"{value:.5g} {UNITS.get(name, '')}".rstrip()
