@@ -34,7 +34,7 @@ _RENAMED = (
     (r"^mask_decoder\.output_upscaling\.0\.", "mask_decoder.upscale_conv1."),
     (r"^mask_decoder\.output_upscaling\.1\.", "mask_decoder.upscale_layer_norm."),
     (r"^mask_decoder\.output_upscaling\.3\.", "mask_decoder.upscale_conv2."),
-    (r"^(mask_decoder\.transformer\..*?)\.?norm(\d|_final_attn)\.", r"\1.layer_norm\2."),
+    (r"^(mask_decoder\.transformer\.(?:.*\.)?)norm(\d|_final_attn)\.", r"\1layer_norm\2."),
 )
 _PERCEPTRON = re.compile(
     r"^(mask_decoder\.(?:output_hypernetworks_mlps\.\d+|iou_prediction_head))\.layers\.(\d+)\.(.*)$"
