@@ -22,6 +22,7 @@ Lab = NDArray[np.uint8]
 _LINES_LEFT = (1.0, 0.5, 0.25)
 """How much of the lines' darkness each cut sees."""
 _LINE = 0.7
+_WIDEST = 4
 _SQUARE = np.ones((3, 3), np.uint8)
 
 
@@ -74,8 +75,11 @@ def window_of(mask: Mask, *, margin: int) -> tuple[slice, slice]:
 
 
 def _drawn_lines(lab: Lab) -> Mask:
-    """The drawn lines with their soft rims; none where the picture holds nothing else."""
-    lines = cv2.dilate((extract_sketch(cv2.cvtColor(lab, cv2.COLOR_Lab2RGB)) < _LINE).astype(np.uint8), _SQUARE) > 0
+    """The thin drawn lines with their soft rims; none where the picture holds nothing else."""
+    dark = (extract_sketch(cv2.cvtColor(lab, cv2.COLOR_Lab2RGB)) < _LINE).astype(np.uint8)
+    # What is wider than a line is a surface, such as the gap between two locks.
+    wide = cv2.dilate(cv2.morphologyEx(dark, cv2.MORPH_OPEN, np.ones((_WIDEST,) * 2, np.uint8)), _SQUARE)
+    lines = cv2.dilate(dark & (1 - wide), _SQUARE) > 0
     return lines if not lines.all() else np.zeros_like(lines)
 
 
