@@ -2,15 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..physics.errors import InvalidInputError, require
+from ..physics.query_points import QueryPoint
 
-__all__ = ["Box", "checked_box", "checked_points"]
+__all__ = ["Box", "Prompt", "checked_box", "checked_points", "prompts_of"]
 
 Box = tuple[float, float, float, float]
 """x0, y0, x1, y1 [px]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Prompt:
+    """What is said about one object.
+
+    Attributes:
+        points: x and y [px], shape [k, 2]; may be empty if there is a box.
+        labels: 1 for a point on the object, 0 for one beside it, shape [k].
+        box: x0, y0, x1, y1 [px] around the object.
+    """
+
+    points: ArrayLike = field(default_factory=lambda: np.zeros((0, 2)))
+    labels: ArrayLike = ()
+    box: Box | None = None
 
 
 def checked_points(
@@ -54,3 +73,23 @@ def checked_box(box: Box, width: int, height: int) -> Box:
     inside = max(x0, 0) < min(x1, width) and max(y0, 0) < min(y1, height)
     require("box", box, inside, f"x0, y0, x1, y1 with an area inside the picture of {width} x {height} px")
     return max(x0, 0.0), max(y0, 0.0), min(x1, float(width)), min(y1, float(height))
+
+
+def prompts_of(points: Sequence[QueryPoint], boxes: Sequence[Box] = ()) -> list[Prompt]:
+    """One prompt for each part that has a point or a box, in the order of their numbers.
+
+    Args:
+        points: with the number of the part that each is about.
+        boxes: of part 0, part 1 and so on; may be fewer than the parts.
+
+    Raises:
+        InvalidInputError: there is neither a point nor a box.
+    """
+    parts = sorted({point.part for point in points} | set(range(len(boxes))))
+    require("points", "none", bool(parts), "at least one point, or a box")
+    prompts = []
+    for part in parts:
+        own = [point for point in points if point.part == part]
+        box = boxes[part] if part < len(boxes) else None
+        prompts.append(Prompt([(each.x, each.y) for each in own], [each.positive for each in own], box))
+    return prompts

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import transformers
 SIDE, PATCH = 64, 8
 
 _PROMPTS = {"hidden_size": 16, "image_size": SIDE, "patch_size": PATCH, "mask_input_channels": 4}
-_DECODER = {"hidden_size": 16, "mlp_dim": 24, "num_attention_heads": 2, "iou_head_hidden_dim": 16}
+_DECODER = {"hidden_size": 16, "mlp_dim": 24, "num_attention_heads": 8, "iou_head_hidden_dim": 16}
 _VISION = {
     "hidden_size": 32,
     "num_hidden_layers": 2,
@@ -94,3 +95,43 @@ def _built(name: str) -> Any:
 def _sixteenth(configs: dict[str, Any]) -> dict[str, Any]:
     """For networks whose coarsest features have a sixteenth of the square's side."""
     return configs | {"prompt_encoder_config": _PROMPTS | {"patch_size": 16}}
+
+
+def original_names(tensors: dict[str, Any]) -> dict[str, Any]:
+    """SAM's weights as its authors name them, with the extra entries of their files left out.
+
+    Args:
+        tensors: of a network that ``random_network("sam")`` made, by the names of transformers.
+    """
+    renamed = {}
+    for name, tensor in tensors.items():
+        if name != "prompt_encoder.shared_embedding.positional_embedding":
+            for new, old in _ORIGINAL:
+                name = re.sub(new, old, name)
+            renamed[name] = tensor
+    return renamed
+
+
+_ORIGINAL = (
+    (r"^shared_image_embedding\.positional_embedding$", "prompt_encoder.pe_layer.positional_encoding_gaussian_matrix"),
+    (r"^vision_encoder\.neck\.conv1", "image_encoder.neck.0"),
+    (r"^vision_encoder\.neck\.layer_norm1", "image_encoder.neck.1"),
+    (r"^vision_encoder\.neck\.conv2", "image_encoder.neck.2"),
+    (r"^vision_encoder\.neck\.layer_norm2", "image_encoder.neck.3"),
+    (r"^vision_encoder\.patch_embed\.projection", "image_encoder.patch_embed.proj"),
+    (r"^vision_encoder\.layers", "image_encoder.blocks"),
+    (r"^vision_encoder", "image_encoder"),
+    (r"\.layer_norm(\d|_final_attn)", r".norm\1"),
+    (r"\.point_embed\.", ".point_embeddings."),
+    (r"\.mask_embed\.conv1", ".mask_downscaling.0"),
+    (r"\.mask_embed\.norm1", ".mask_downscaling.1"),
+    (r"\.mask_embed\.conv2", ".mask_downscaling.3"),
+    (r"\.mask_embed\.norm2", ".mask_downscaling.4"),
+    (r"\.mask_embed\.conv3", ".mask_downscaling.6"),
+    (r"\.upscale_conv1", ".output_upscaling.0"),
+    (r"\.upscale_layer_norm", ".output_upscaling.1"),
+    (r"\.upscale_conv2", ".output_upscaling.3"),
+    (r"(mlps\.\d|prediction_head)\.layers\.0\.", r"\1.layers.1."),
+    (r"(mlps\.\d|prediction_head)\.proj_in\.", r"\1.layers.0."),
+    (r"(mlps\.\d|prediction_head)\.proj_out\.", r"\1.layers.2."),
+)

@@ -3,40 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import torch
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from torch import Tensor, nn
 
 from ...physics.errors import InvalidInputError, require
-from ..mask_cleanup import clean_mask
-from ..prompts import Box, checked_box, checked_points
+from ..prompts import Prompt, checked_box, checked_points
 from .families import Family
 from .pictures import Square
 from .weights import load_network
 
-__all__ = ["Prompt", "SamSegmenter"]
+__all__ = ["SamSegmenter"]
 
 Mask = NDArray[np.bool_]
-
-
-@dataclass(frozen=True, eq=False)
-class Prompt:
-    """What is said about one object.
-
-    Attributes:
-        points: x and y [px], shape [k, 2]; may be empty if there is a box.
-        labels: 1 for a point on the object, 0 for one beside it, shape [k].
-        box: x0, y0, x1, y1 [px] around the object.
-    """
-
-    points: ArrayLike = field(default_factory=lambda: np.zeros((0, 2)))
-    labels: ArrayLike = ()
-    box: Box | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,23 +43,12 @@ class SamSegmenter:
         network, family = load_network(path, dtype=dtype)
         return SamSegmenter(network.to(device), family, torch.device(device))
 
-    def segment(
-        self,
-        image: NDArray[np.uint8],
-        prompts: Sequence[Prompt],
-        *,
-        smallest_speck: int = 0,
-        largest_hole: int = 0,
-        smoothing: float = 0.0,
-    ) -> tuple[list[Mask], list[float]]:
+    def segment(self, image: NDArray[np.uint8], prompts: Sequence[Prompt]) -> tuple[list[Mask], list[float]]:
         """One mask for each object: of the network's answers the one that it holds for the best.
 
         Args:
             image: RGB, shape [h, w, 3].
             prompts: one for each object.
-            smallest_speck: connected parts of fewer pixels are left out [px^2].
-            largest_hole: gaps of up to so many pixels are filled [px^2].
-            smoothing: radius of the bays and spikes of the edge that are evened out [px].
 
         Returns:
             masks, shape [h, w] each, and the intersection over union that the network expects of each.
@@ -94,12 +67,7 @@ class SamSegmenter:
                 answer = self.network(**seen, **inputs, multimask_output=True)
                 expected = answer.iou_scores[0, 0].float()
                 best = int(expected.argmax())
-                logits = square.logits(answer.pred_masks[0, 0, best : best + 1])[0]
-                masks.append(
-                    clean_mask(
-                        logits > 0, smallest_speck=smallest_speck, largest_hole=largest_hole, smoothing=smoothing
-                    )
-                )
+                masks.append(square.logits(answer.pred_masks[0, 0, best : best + 1])[0] > 0)
                 scores.append(float(expected[best]))
         return masks, scores
 
