@@ -8,7 +8,7 @@ from typing import Any
 
 from ..physics.errors import InvalidInputError, PhysAnimatorError, require
 
-__all__ = ["PATH_FORMS", "chosen", "keys_of", "numbers_of", "refusal", "times_of", "whole_numbers_of"]
+__all__ = ["PATH_FORMS", "boxes_of", "chosen", "keys_of", "numbers_of", "refusal", "times_of", "whole_numbers_of"]
 
 PATH_FORMS = 'as JSON: [[x, y], ...] or [{"x": .., "y": ..}, ...], as spline editors write it.'
 """How a tooltip says what may be typed for a path."""
@@ -95,6 +95,29 @@ def whole_numbers_of(text: str, *, name: str) -> tuple[int, ...]:
     numbers = numbers_of(text, name=name, like="frame numbers such as 0, 12, 15")
     require(name, text[:60], all(number.is_integer() for number in numbers), "whole numbers")
     return tuple(int(number) for number in numbers)
+
+
+def boxes_of(text: str, *, name: str) -> tuple[tuple[float, float, float, float], ...]:
+    """Boxes from text: one JSON list of four numbers, or a list of such; empty text gives none.
+
+    Args:
+        text: what was typed.
+        name: what the node calls the input.
+
+    Raises:
+        InvalidInputError: the text holds something else.
+    """
+    if not text.strip():
+        return ()
+    try:
+        value = json.loads(text)
+        boxes = value if isinstance(value[0], list) else [value]
+        x_y = [tuple(float(number) for number in box) for box in boxes]
+    except (TypeError, ValueError, KeyError, IndexError):
+        x_y = [()]
+    if not all(len(box) == 4 and box[0] < box[2] and box[1] < box[3] for box in x_y):
+        raise InvalidInputError(f"{name} must be [x0, y0, x1, y1] in pixels, or a list of such. Got: {text[:60]}")
+    return tuple((box[0], box[1], box[2], box[3]) for box in x_y)
 
 
 def keys_of(text: str, *, name: str) -> tuple[tuple[float, float], ...]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from contextlib import nullcontext
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from comfy_api.latest import io, ui
@@ -10,7 +11,8 @@ from comfy_api.latest import io, ui
 from ..physics.errors import MeshingError
 from ..rendering.points import parse_points
 from .defaults import default_of
-from .literals import refusal
+from .literals import boxes_of, chosen, refusal
+from .sam_backend import missing_sam_files, sam_inputs, sam_network
 from .tensors import batch_of_masks, batch_of_pictures, mask_of, picture_of
 from .wires import MaskedMesh, MeshWire
 
@@ -24,6 +26,8 @@ _EMPTY = (
     " in the mask editor, or connect Segment by Points."
 )
 
+_GRABCUT, _SAM = "grabcut", "segment anything"
+
 
 class SegmentByPoints(io.ComfyNode):
     @classmethod
@@ -32,39 +36,101 @@ class SegmentByPoints(io.ComfyNode):
             node_id="PhysAnimator_SegmentByPoints",
             display_name="Segment by Points",
             category="PhysAnimator/mesh",
-            description="Cuts out the part of the picture on which the points lie. Works without any model file.",
+            description="Cuts out the part of the picture on which the points lie, or several parts, each into a mask"
+            " of its own. Works without any model file.",
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 io.String.Input(
                     "points",
                     default="[[640, 360, 1]]",
                     multiline=True,
-                    tooltip="Points in pixels as JSON: [[x, y, 1], ...] with 1 on the part and 0 beside it;"
+                    tooltip="Points in pixels as JSON: [[x, y, 1], ...] with 1 on the part and 0 beside it, and for"
+                    " several parts [[x, y, 1, part], ...] with the part's number, from 0;"
                     ' also [{"x": .., "y": ..}] and {"positive": [...], "negative": [...]} from point editors,'
                     " and a scene document with query_points.",
                 ),
+                io.DynamicCombo.Input(
+                    "backend",
+                    options=[io.DynamicCombo.Option(_GRABCUT, []), io.DynamicCombo.Option(_SAM, sam_inputs())],
+                    optional=True,
+                    tooltip="grabcut: by colours and lines, without any model. segment anything: by a network of the"
+                    " SAM family, for which a model file is needed.",
+                ),
+                io.String.Input(
+                    "box",
+                    default="",
+                    optional=True,
+                    tooltip="Box around the part [px]: [x0, y0, x1, y1]; for several parts a list of boxes, part 0"
+                    " first. May replace the points. Empty: no box.",
+                ),
+                io.Int.Input(
+                    "smallest_speck",
+                    default=0,
+                    min=0,
+                    max=1_000_000,
+                    optional=True,
+                    tooltip="Pieces of a mask with fewer pixels are left out [px]; the largest one always stays.",
+                ),
+                io.Int.Input(
+                    "largest_hole",
+                    default=0,
+                    min=0,
+                    max=1_000_000,
+                    optional=True,
+                    tooltip="Gaps in a mask of up to so many pixels are filled [px].",
+                ),
+                io.Float.Input(
+                    "smoothing",
+                    default=0.0,
+                    min=0.0,
+                    max=100.0,
+                    step=0.5,
+                    optional=True,
+                    tooltip="Radius of the bays and spikes of the edge that are evened out [px]; thin tips suffer.",
+                ),
             ],
             outputs=[
-                io.Mask.Output(display_name="mask", tooltip="White where the part is."),
+                io.Mask.Output(display_name="mask", tooltip="White where the part is; one mask for each part."),
                 io.Image.Output(display_name="preview", tooltip="The part in colour, the rest faded."),
             ],
         )
 
     @classmethod
-    def validate_inputs(cls, points: str | None = None) -> bool | str:
-        return points is None or refusal(lambda: parse_points(points, width=1 << 20, height=1 << 20))
+    def validate_inputs(
+        cls, points: str | None = None, box: str | None = None, backend: dict[str, Any] | None = None, **others: Any
+    ) -> bool | str:
+        # The host hands over the inputs that a choice brings only to a function that takes every input.
+        checks = [lambda: boxes_of(box or "", name="box")]
+        if points is not None and (points.strip() or not box):
+            checks.append(lambda: parse_points(points, width=1 << 20, height=1 << 20))
+        return missing_sam_files(backend or {}) or refusal(*checks)
 
     @classmethod
-    def execute(cls, image: torch.Tensor, points: str) -> io.NodeOutput:
-        from ..rendering.segmentation import segment
+    def execute(
+        cls,
+        image: torch.Tensor,
+        points: str,
+        backend: dict[str, Any] | None = None,
+        box: str = "",
+        smallest_speck: int = 0,
+        largest_hole: int = 0,
+        smoothing: float = 0.0,
+    ) -> io.NodeOutput:
+        from ..rendering.images import to_uint8
+        from ..rendering.part_masks import segment_parts
+        from ..rendering.prompts import prompts_of
 
         picture = picture_of(image)
         height, width = picture.shape[:2]
-        query = parse_points(points, width=width, height=height)
-        mask = segment(picture, [(point.x, point.y) for point in query], [point.positive for point in query])
-        faded = np.where(mask[..., None], picture, 0.75 + 0.25 * picture)
+        boxes = boxes_of(box, name="box")
+        prompts = prompts_of(parse_points(points, width=width, height=height) if points.strip() else [], boxes)
+        name, choice = chosen(backend or {"backend": _GRABCUT}, "backend", (_GRABCUT, _SAM))
+        cleaning = {"smallest_speck": smallest_speck, "largest_hole": largest_hole, "smoothing": smoothing}
+        with sam_network(choice) if name == _SAM else nullcontext() as network:
+            masks = segment_parts(to_uint8(picture), prompts, network=network, **cleaning)
+        faded = np.where(np.logical_or.reduce(masks)[..., None], picture, 0.75 + 0.25 * picture)
         preview = batch_of_pictures([faded], 1)
-        return io.NodeOutput(batch_of_masks([mask], 1), preview, ui=ui.PreviewImage(preview))
+        return io.NodeOutput(batch_of_masks(masks, len(masks)), preview, ui=ui.PreviewImage(preview))
 
 
 class MaskToMesh(io.ComfyNode):

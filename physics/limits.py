@@ -12,6 +12,7 @@ __all__ = [
     "MAX_PAINT",
     "MAX_PARTICLES",
     "MAX_PARTICLES_OF_STROKE",
+    "MAX_PARTS",
     "MAX_POINTS",
     "MAX_QUERY_POINTS",
     "MAX_RIG_POINTS",
@@ -34,6 +35,7 @@ MAX_STROKES = 1_000
 MAX_RIG_POINTS = 1_000
 MAX_PAINT = 200
 MAX_QUERY_POINTS = 1_000
+MAX_PARTS = 100
 
 MAX_POINTS = 10_000
 """Points of one stroke, polygon or keyed path."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .limits import MAX_BODIES
+from .limits import MAX_BODIES, MAX_PARTS
 from .paint import LEAST_FACTOR, MOST_FACTOR, Paint
 from .query_points import QueryPoint
 from .scene_encoding import COLLIDER_TYPES
@@ -23,6 +23,9 @@ def paint_definitions() -> dict[str, Schema]:
             "title": "Positive",
             "description": "true on the wanted part, false beside it.",
         },
+        "part": whole_number(
+            "Part", "Number of the part that is meant, from 0, where several are cut out at once.", 0, MAX_PARTS - 1
+        ),
     }
     paint = {
         "region": {

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .errors import require
-from .limits import LARGEST
+from .limits import LARGEST, MAX_PARTS
 from .points import Scale
 
 __all__ = ["QueryPoint"]
@@ -19,17 +19,20 @@ class QueryPoint:
         x: pixels from the left edge.
         y: pixels from the top edge.
         positive: true for a point on the wanted part, false for one beside it.
+        part: number of the part that is meant, from 0, where several are cut out at once.
     """
 
     x: float
     y: float
     positive: bool = True
+    part: int = 0
 
     def __post_init__(self) -> None:
         for name in ("x", "y"):
             value = getattr(self, name)
             require(name, value, -LARGEST <= value <= LARGEST, f"-{LARGEST} to {LARGEST} px")
+        require("part", self.part, 0 <= self.part <= MAX_PARTS - 1, f"0 to {MAX_PARTS - 1}")
 
     def rescaled(self, scale: Scale) -> QueryPoint:
         """The same point over the picture at another size."""
-        return QueryPoint(self.x * scale[0], self.y * scale[1], self.positive)
+        return replace(self, x=self.x * scale[0], y=self.y * scale[1])

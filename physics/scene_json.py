@@ -203,7 +203,11 @@ def _read_paint(entry: dict[str, Any], path: str) -> Paint:
 
 def query_points_of(document: dict[str, Any]) -> list[QueryPoint]:
     """The query points of a checked document, in pixels of its own size."""
-    return _each("query_points", document, lambda entry, _path: QueryPoint(**_floats(entry)))
+    return _each("query_points", document, _read_query_point)
+
+
+def _read_query_point(entry: dict[str, Any], _path: str) -> QueryPoint:
+    return QueryPoint(**{**_floats(entry), "part": int(entry.get("part", 0))})
 
 
 def _require_small_masks(document: dict[str, Any]) -> None:

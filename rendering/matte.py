@@ -2,8 +2,7 @@
 
 Masks from people and from segmentation are often hard-edged, or end a pixel or two inside the part's drawn outline.
 An outline pixel that stays behind is seen as a ghost, a background pixel that goes along as a halo. So the
-mask is first grown over the outline that runs along it, and hard edges become shares, measured by where the pixel's
-colour lies between the background's colour and the part's.
+mask is first grown over the outline that runs along it, and hard edges become shares that follow the colours.
 """
 
 from __future__ import annotations
@@ -11,6 +10,8 @@ from __future__ import annotations
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+
+from .closed_form import solve_alpha
 
 __all__ = ["fitting_plate", "soft_alpha", "window_around", "with_outline"]
 
@@ -22,12 +23,13 @@ _FAINT = 0.02
 _HARD = 0.75
 _SQUARE = np.ones((3, 3), np.uint8)
 _WIDE = np.ones((7, 7), np.uint8)
+_DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (5, 5))
 _CROSS = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]], np.uint8)
 # An outline is told from the background's own texture by its mean along the edge, over about this length [px].
 _SIGMA = 5.0
 _TOLERANCE = 0.055
-# A smaller share of a pixel outside the mask is taken for the background's own texture.
-_LEAST_SHARE = 0.06
+_HALF = 0.5
+_TRUST_IN_MASK = 0.03
 _SOLID = 0.95
 _LEAST_CONTRAST = 0.1
 # Up to the first difference a soft edge is trusted, from the second on the picture is.
@@ -74,10 +76,10 @@ def with_outline(image: FloatImage, mask: FloatImage, *, reach: int = 5) -> Mask
 def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: Mask) -> FloatImage:
     """Share of each pixel that belongs to a part.
 
-    At hard edges of the mask, and on an outline found outside it, the share is measured from the pixel's colour I,
-    the background's B and the part's F from two pixels further inside: |I - B| / |F - B| within the mask, where any
-    other colour than the background's is the part's, and (I - B)(F - B) / |F - B|^2 beside it. A soft edge is taken
-    as it is, unless the share is much smaller or larger.
+    Along a hard edge of the mask, and on an outline found outside it, the share is what closed-form matting makes of
+    the colours, starting from the mask and, beside it, from the share measured from the pixel's colour I, the
+    background's B and the part's F from two pixels further inside, |I - B| / |F - B|. A soft edge is taken as it is,
+    unless the share so measured is much smaller or larger.
 
     Args:
         image: RGB in 0 to 1, shape [h, w, 3].
@@ -88,29 +90,54 @@ def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: 
     Returns:
         Alpha in 0 to 1, shape [h, w].
     """
-    grown = support & (mask <= _FAINT)
-    alpha = np.where(grown, np.float32(1), np.where(support, mask, np.float32(0)))
-    solid = alpha > _SOLID
+    alpha = np.where(support, np.where(mask > _FAINT, mask, np.float32(1)), np.float32(0))
     outside = ~support
-    rim = outside & _grown(solid, _CROSS) & _hard(alpha, support)
-    edge = solid & _grown(outside, _CROSS) & _hard(alpha, support)
-    soft = support & ~edge & _grown(outside, _WIDE) & _grown(solid, _WIDE) & ~_hard(alpha, support)
-    unsure = rim | edge | soft
-    if not unsure.any():
+    if not support.any() or not outside.any():
         return alpha
-    way, difference = (_inner_colour(image, support) - plate)[unsure], (image - plate)[unsure]
-    length = np.linalg.norm(way, axis=1)
-    distance = np.linalg.norm(difference, axis=1)
-    along = np.einsum("ij,ij->i", difference, way) / np.maximum(length, 1e-6)
-    share = np.clip(np.where(rim[unsure], along, distance) / np.maximum(length, 1e-6), 0, 1)
-    given = alpha[unsure]
+    hard = _hard(alpha, support)
+    body = mask > _HALF
+    unknown = _grown(support, _SQUARE) & (_grown(~body, _DISC) | ~body) & hard
+    share, certain = _share(image, plate, support, unknown & ~body)
+    guess = body.astype(np.float32)
+    guess[unknown & ~body] = np.where(certain, share, 0)
+    solved = _solved(image, alpha, unknown, guess)
+    return _corrected(image, plate, solved, support, ~hard)
+
+
+def _solved(image: FloatImage, alpha: FloatImage, unknown: Mask, guess: FloatImage) -> FloatImage:
+    """Alpha with its unknown pixels solved for, in the window that holds them."""
+    if not unknown.any():
+        return alpha
+    window = window_around(unknown, margin=2)
+    solved = alpha.copy()
+    parts = (np.ascontiguousarray(values[window]) for values in (image, alpha, unknown, guess))
+    solved[window] = solve_alpha(*parts, trust=_TRUST_IN_MASK)
+    return solved
+
+
+def _corrected(image: FloatImage, plate: FloatImage, alpha: FloatImage, support: Mask, where: Mask) -> FloatImage:
+    """Alpha with the soft edges put right that deny much of the picture."""
+    outside = ~support
+    soft = support & where & _grown(outside, _WIDE) & _grown(alpha > _SOLID, _WIDE)
+    if not soft.any():
+        return alpha
+    share, certain = _share(image, plate, support, soft)
+    given = alpha[soft]
     # A soft edge's small differences from its mask are the background's texture.
     doubt = np.clip((np.abs(share - given) - _TRUST) / (_DISBELIEF - _TRUST), 0, 1)
-    weight = np.where(soft[unsure], doubt, np.where(rim[unsure], share > _LEAST_SHARE, 1))
     # Between colours too close to measure it, the share does not show: the mask's word stands.
-    weight = np.where(length > _LEAST_CONTRAST, weight, 0)
-    alpha[unsure] = given + weight * (share - given)
-    return alpha
+    corrected = alpha.copy()
+    corrected[soft] = given + np.where(certain, doubt, 0) * (share - given)
+    return corrected
+
+
+def _share(
+    image: FloatImage, plate: FloatImage, support: Mask, where: Mask
+) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    """The share |I - B| / |F - B| of the pixels in ``where``, and which of them have contrast enough, shape [n]."""
+    length = np.linalg.norm((_inner_colour(image, support) - plate)[where], axis=1)
+    difference = np.linalg.norm((image - plate)[where], axis=1)
+    return np.clip(difference / np.maximum(length, 1e-6), 0, 1), length > _LEAST_CONTRAST
 
 
 def fitting_plate(image: FloatImage, plate: FloatImage, alpha: FloatImage) -> FloatImage:

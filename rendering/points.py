@@ -10,20 +10,22 @@ from typing import Any
 import numpy as np
 
 from ..physics.errors import InvalidInputError, require
+from ..physics.limits import MAX_PARTS
 from ..physics.query_points import QueryPoint
 
 __all__ = ["QueryPoint", "parse_points", "parse_polyline"]
 
-_POINT_FORMS = '{"x": .., "y": ..}, [x, y] or [x, y, label]'
+_POINT_FORMS = '{"x": .., "y": ..}, [x, y], [x, y, label] or [x, y, label, part]'
 _LABELS = {1: True, 0: False, "1": True, "0": False, "positive": True, "negative": False}
 
 
 def parse_points(points: str | Sequence[Any] | Mapping[str, Any], *, width: int, height: int) -> list[QueryPoint]:
     """Query points from text or from already decoded JSON, in pixels.
 
-    Understood are JSON lists of ``{"x", "y"}`` with an optional ``"label"`` (1 on the object, 0 beside it), of
-    ``[x, y]`` or ``[x, y, label]``, an object ``{"positive": [...], "negative": [...]}``, and plain text with one
-    ``x,y`` or ``x,y,label`` a line. A point without a label is positive. A scene document gives its ``query_points``,
+    Understood are JSON lists of ``{"x", "y"}`` with an optional ``"label"`` (1 on the object, 0 beside it) and
+    ``"part"`` (its number, from 0), of ``[x, y]``, ``[x, y, label]`` or ``[x, y, label, part]``, an object
+    ``{"positive": [...], "negative": [...]}``, and plain text with one ``x,y`` or ``x,y,label`` a line. A point
+    without a label is positive, one without a part belongs to part 0. A scene document gives its ``query_points``,
     scaled to the picture.
 
     Args:
@@ -127,8 +129,9 @@ def _from_groups(data: Mapping[str, Any]) -> list[QueryPoint]:
     for group, positive in (("positive", True), ("negative", False)):
         items = data.get(group) or []
         for index, item in enumerate(_one_spline(_decode(items, group), group)):
-            x, y = _coordinates(item, f"{group}[{index}]")
-            found.append(QueryPoint(x, y, positive))
+            name = f"{group}[{index}]"
+            x, y = _coordinates(item, name)
+            found.append(QueryPoint(x, y, positive, _part(item, name)))
     return found
 
 
@@ -146,18 +149,28 @@ def _query_point(item: Any, name: str) -> QueryPoint:
     label: Any = 1
     if isinstance(item, Mapping):
         label = item.get("label", 1)
-    elif len(item) == 3:
+    elif len(item) > 2:
         label = item[2]
     label = label.strip().lower() if isinstance(label, str) else label
     known = isinstance(label, str | int | float) and label in _LABELS
     require(f"{name} label", label, known, "1 (on the object) or 0 (beside it)")
-    return QueryPoint(x, y, _LABELS[label])
+    return QueryPoint(x, y, _LABELS[label], _part(item, name))
+
+
+def _part(item: Any, name: str) -> int:
+    given: Any = item.get("part", 0) if isinstance(item, Mapping) else item[3] if len(item) == 4 else 0
+    try:
+        part = float(given)
+    except (TypeError, ValueError):
+        part = -1.0
+    require(f"{name} part", given, part in range(MAX_PARTS), f"a whole number from 0 to {MAX_PARTS - 1}")
+    return int(part)
 
 
 def _coordinates(item: Any, name: str) -> tuple[float, float]:
     if isinstance(item, Mapping) and {"x", "y"} <= item.keys():
         values = (item["x"], item["y"])
-    elif isinstance(item, Sequence | np.ndarray) and not isinstance(item, str) and len(item) in (2, 3):
+    elif isinstance(item, Sequence | np.ndarray) and not isinstance(item, str) and len(item) in (2, 3, 4):
         values = (item[0], item[1])
     else:
         raise InvalidInputError(f"{name} must be {_POINT_FORMS}. Got: {item}")

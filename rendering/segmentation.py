@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..physics.errors import InvalidInputError, require
+from .outline_cuts import cut_by_majority, grab_cut, window_of
+from .prompts import Box, checked_box, checked_points
 from .sketch import extract_sketch
 from .trimap import trimap_from_points
 
@@ -28,7 +30,7 @@ def segment(
     points: ArrayLike,
     labels: ArrayLike,
     *,
-    box: tuple[float, float, float, float] | None = None,
+    box: Box | None = None,
     tolerance: int = 4,
     iterations: int = 3,
     largest_hole: float = 0.0005,
@@ -56,7 +58,7 @@ def segment(
     """
     picture = _as_uint8(image)
     height, width = picture.shape[:2]
-    seeds, positive = _checked_points(points, labels, width, height)
+    seeds, positive = checked_points(points, labels, width, height)
     require("points", f"{len(seeds)} points", bool(positive.any()) or box is not None, "at least one positive point")
     limit = _box_mask(box, width, height)
     for index in np.flatnonzero(positive):
@@ -72,12 +74,10 @@ def segment(
     at = np.minimum((seeds * small_size / (width, height)).astype(int), np.array(small_size) - 1)
 
     trimap = trimap_from_points(lab, at, positive, small_limit, tolerance, has_box=box is not None)
-    found = _grab_cut(lab, trimap, iterations)
-    found = _connected_to(found, at[positive])
+    found = cut_by_majority(lab, trimap, iterations, at[positive])
     mask = cv2.resize(found.astype(np.float32), (width, height), interpolation=cv2.INTER_LINEAR) > 0.5
     mask = _sharpened(picture, mask, reach=max(2, round(2 / scale)))
     mask = _with_outline(picture, mask) & limit
-    mask = _connected_to(mask, seeds[positive].astype(int))
     return _honouring(_filled(mask, largest_hole) & limit, seeds.astype(int), positive)
 
 
@@ -90,65 +90,13 @@ def _as_uint8(image: NDArray[Any]) -> NDArray[np.uint8]:
     return np.rint(np.clip(picture, 0, 1) * 255).astype(np.uint8)
 
 
-def _checked_points(
-    points: ArrayLike, labels: ArrayLike, width: int, height: int
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    seeds = np.asarray(points, dtype=np.float64).reshape(-1, 2)
-    positive = np.asarray(labels).reshape(-1).astype(bool)
-    require("labels", f"{len(positive)}", len(positive) == len(seeds), f"one per point ({len(seeds)})")
-    for index, (x, y) in enumerate(seeds):
-        if not (0 <= x <= width and 0 <= y <= height):
-            raise InvalidInputError(
-                f"points[{index}] must lie inside the picture of {width} x {height} px. Got: ({x:g}, {y:g})"
-            )
-    seeds = np.minimum(seeds, np.array([width, height]) - 0.5)
-    cells = [tuple(cell) for cell in seeds.astype(int)]
-    clash = {c for c, p in zip(cells, positive, strict=True) if p} & {
-        c for c, p in zip(cells, positive, strict=True) if not p
-    }
-    require("points", sorted(clash), not clash, "either positive or negative, not both at one pixel")
-    return seeds, positive
-
-
-def _box_mask(box: tuple[float, float, float, float] | None, width: int, height: int) -> Mask:
+def _box_mask(box: Box | None, width: int, height: int) -> Mask:
     if box is None:
         return np.ones((height, width), dtype=bool)
-    x0, y0, x1, y1 = box
-    inside = max(x0, 0) < min(x1, width) and max(y0, 0) < min(y1, height)
-    require("box", box, inside, f"x0, y0, x1, y1 with an area inside the picture of {width} x {height} px")
+    x0, y0, x1, y1 = checked_box(box, width, height)
     mask = np.zeros((height, width), dtype=bool)
-    mask[max(0, int(y0)) : int(np.ceil(y1)), max(0, int(x0)) : int(np.ceil(x1))] = True
+    mask[int(y0) : int(np.ceil(y1)), int(x0) : int(np.ceil(x1))] = True
     return mask
-
-
-def _grab_cut(lab: Lab, trimap: NDArray[np.uint8], iterations: int) -> Mask:
-    """GrabCut within the window that is not sure background, the same on every call."""
-    rows, columns = _window(trimap != cv2.GC_BGD, margin=4)
-    found = np.zeros(trimap.shape, dtype=bool)
-    labels = np.ascontiguousarray(trimap[rows, columns])
-    background = (labels == cv2.GC_BGD) | (labels == cv2.GC_PR_BGD)
-    if background.any() and not background.all():
-        # The colour models start from random clusters: without a seed, equal clicks would give unequal masks.
-        cv2.setRNGSeed(0)
-        window = np.ascontiguousarray(lab[rows, columns])
-        models = np.zeros((1, 65)), np.zeros((1, 65))
-        cv2.grabCut(window, labels, None, *models, iterations, cv2.GC_INIT_WITH_MASK)
-    found[rows, columns] = (labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)
-    return found
-
-
-def _window(mask: Mask, *, margin: int) -> tuple[slice, slice]:
-    """Rows and columns that hold the mask and a margin."""
-    left, top, columns, rows = cv2.boundingRect(mask.astype(np.uint8))
-    return slice(max(0, top - margin), top + rows + margin), slice(max(0, left - margin), left + columns + margin)
-
-
-def _connected_to(mask: Mask, points: NDArray[np.int_]) -> Mask:
-    """The components that hold a point; everything where none does or no points are given."""
-    _, labels = cv2.connectedComponents(mask.astype(np.uint8), connectivity=4)
-    chosen = np.unique(labels[points[:, 1], points[:, 0]])
-    chosen = chosen[chosen > 0]
-    return np.isin(labels, chosen) if len(chosen) else mask
 
 
 def _sharpened(picture: NDArray[np.uint8], mask: Mask, *, reach: int) -> Mask:
@@ -162,10 +110,10 @@ def _sharpened(picture: NDArray[np.uint8], mask: Mask, *, reach: int) -> Mask:
     trimap[shell] = cv2.GC_PR_BGD
     trimap[mask] = cv2.GC_PR_FGD
     trimap[core] = cv2.GC_FGD
-    rows, columns = _window(rim, margin=0)
+    rows, columns = window_of(rim, margin=0)
     lab = cv2.cvtColor(np.ascontiguousarray(picture[rows, columns]), cv2.COLOR_RGB2Lab)
     found = np.zeros(mask.shape, dtype=bool)
-    found[rows, columns] = _grab_cut(lab, trimap[rows, columns], 1)
+    found[rows, columns] = grab_cut(lab, trimap[rows, columns], 1)
     return found
 
 
@@ -173,7 +121,7 @@ def _with_outline(picture: NDArray[np.uint8], mask: Mask, *, widest: int = 2) ->
     """The mask with the drawn line around it: the outline belongs to the object."""
     if not mask.any():
         return mask
-    rows, columns = _window(mask, margin=4 * widest)
+    rows, columns = window_of(mask, margin=4 * widest)
     lines = extract_sketch(np.ascontiguousarray(picture[rows, columns])) < 0.5
     grown = mask[rows, columns].astype(np.uint8)
     cross = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))

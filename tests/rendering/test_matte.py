@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from physanimator.rendering.matte import fitting_plate, soft_alpha, window_around, with_outline
 
 SIZE = 96
@@ -55,6 +56,34 @@ def test_a_hard_edge_gets_its_true_shares_back() -> None:
     alpha = soft_alpha(picture, background, mask, mask > 0.5)
     assert np.abs(alpha - disc(25)).max() < 0.16
     assert np.abs(alpha - disc(25)).mean() < 0.1 * np.abs(mask - disc(25)).mean()
+
+
+@pytest.mark.parametrize("change", [0, 1], ids=["exact", "a pixel too large"])
+def test_an_outlined_part_has_no_halo_over_another_background(change: int) -> None:
+    """The part is cut out by a hard mask and laid over white; what it had been drawn over must not show."""
+    background, alpha = textured_background(), disc(28)
+    colour = over(np.broadcast_to(DARK, (SIZE, SIZE, 3)), RED, disc(25))
+    picture = over(background, colour, alpha)
+    mask = (disc(28 + change) > 0.5).astype(np.float32)
+    support = with_outline(picture, mask)
+    found = soft_alpha(picture, background, mask, support)
+    near = abs(RADIUS - 28) < 4
+    assert np.abs(found - alpha)[near].mean() < 0.02
+    assert np.abs(found - alpha)[near].mean() < 0.35 * np.abs(mask - alpha)[near].mean()
+    cut_out = picture - (1 - found[..., None]) * fitting_plate(picture, background, found)
+    over_white = cut_out + 1 - found[..., None]
+    assert np.abs(over_white - over(np.ones((SIZE, SIZE, 3)), colour, alpha))[near].mean() < 0.012
+
+
+def test_a_tip_thinner_than_the_mask_knows_keeps_its_shares() -> None:
+    """A hair that tapers off: a hard mask jumps where the true coverage fades."""
+    width = np.clip((80 - X) / 12, 0, None)
+    alpha = np.clip(width / 2 - abs(Y - 48) + 0.5, 0, 1).astype(np.float32) * (X < 80)
+    picture = over(np.full((SIZE, SIZE, 3), 0.85, np.float32), DARK, alpha)
+    mask = (alpha > 0.5).astype(np.float32)
+    plate = np.full((SIZE, SIZE, 3), 0.85, np.float32)
+    found = soft_alpha(picture, plate, mask, with_outline(picture, mask))
+    assert np.abs(found - alpha).sum() < 0.4 * np.abs(mask - alpha).sum()
 
 
 def test_a_soft_edge_that_denies_much_of_the_part_is_corrected() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import cv2
@@ -9,8 +10,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
+from physanimator.rendering.images import load_image, load_mask
 from physanimator.rendering.segmentation import segment
 
+EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example"
 WIDTH, HEIGHT = 200, 150
 Mask = NDArray[np.bool_]
 
@@ -155,3 +158,28 @@ def test_bad_input(points: Any, labels: Any, options: dict[str, Any], message: s
 def test_a_grey_picture_is_refused() -> None:
     with pytest.raises(InvalidInputError, match="image must be an RGB picture"):
         segment(np.zeros((10, 10), np.uint8), [(5, 5)], [1])
+
+
+CLICKS = {
+    "cape": ([(690, 540), (650, 520), (360, 420), (535, 410)], [1, 1, 0, 0], 0.8),
+    "ribbon": ([(490, 70), (600, 110), (700, 50), (760, 85)], [1, 1, 1, 1], 0.92),
+    "hair": ([(720, 160), (760, 220), (780, 310), (445, 90), (450, 260)], [1, 1, 1, 0, 0], 0.78),
+}
+
+
+@pytest.mark.parametrize("part", CLICKS)
+def test_parts_of_the_example_from_at_most_five_clicks(part: str) -> None:
+    picture = load_image(EXAMPLE / "illustration.png")
+    truth = load_mask(EXAMPLE / f"mask_{part}.png", width=1280, height=720) > 0.5
+    points, labels, least = CLICKS[part]
+    assert overlap(segment(picture, points, labels), truth) > least
+
+
+def test_strands_between_drawn_lines_are_one_lock() -> None:
+    """Six strands of one colour with lines between them, beside a wall of another: one click and one beside."""
+    picture, lock = page(), np.zeros((HEIGHT, WIDTH), bool)
+    lock[20:130, 30:102] = True
+    picture[lock] = (200, 110, 60)
+    for x in range(30, 103, 12):
+        picture[20:130, x - 1 : x + 1] = (60, 20, 20)
+    assert overlap(segment(picture, [(36, 70), (60, 70), (96, 70), (170, 70)], [1, 1, 1, 0]), lock) > 0.9

@@ -18,14 +18,14 @@ export const POINTS = {
   read(text) {
     const data = decoded(text);
     if (!Array.isArray(data) && (data.version || data.query_points)) return parseDocument(text);
-    const listed = Array.isArray(data) ? data.map((one) => pointOf(one)) : grouped(data);
-    return { ...emptyDocument(1280, 720), query_points: listed, sizeless: true };
+    const points = Array.isArray(data) ? data.map((one) => pointOf(one)) : grouped(data);
+    return { ...emptyDocument(1280, 720), query_points: points, sizeless: true };
   },
 
   /** @param {SceneDocument} document */
   write({ sizeless, ...document }) {
     if (!sizeless) return serialise(document);
-    return JSON.stringify(document.query_points.map((/** @type {Item} */ { x, y, positive }) => [x, y, positive ? 1 : 0]));
+    return JSON.stringify(document.query_points.map(listed));
   },
 };
 
@@ -44,9 +44,14 @@ function grouped({ positive = [], negative = [] }) {
   return [...positive.map(pointOf), ...negative.map((/** @type {any} */ one) => ({ ...pointOf(one), positive: false }))];
 }
 
+/** @param {Item} point */
+function listed({ x, y, positive, part }) {
+  return [x, y, positive ? 1 : 0, ...(part ? [part] : [])];
+}
+
 /** @param {any} one @returns {Item} */
 function pointOf(one) {
-  const [x, y, label] = Array.isArray(one) ? one : [one?.x, one?.y, one?.label];
+  const [x, y, label, part] = Array.isArray(one) ? one : [one?.x, one?.y, one?.label, one?.part];
   if (!Number.isFinite(x) || !Number.isFinite(y)) throw new Error("These points are not understood here.");
-  return { x, y, positive: !["0", 0, "negative", false].includes(label) };
+  return { x, y, positive: !["0", 0, "negative", false].includes(label), ...(part ? { part } : {}) };
 }

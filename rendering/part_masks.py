@@ -1,0 +1,69 @@
+"""Masks of several parts at once, by either backend, cleaned."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .mask_cleanup import clean_mask
+from .prompts import Prompt
+from .segmentation import segment
+
+if TYPE_CHECKING:
+    from .sam.segmenter import SamSegmenter
+
+__all__ = ["segment_parts"]
+
+Mask = NDArray[np.bool_]
+
+
+def segment_parts(
+    image: NDArray[np.uint8],
+    prompts: Sequence[Prompt],
+    *,
+    network: SamSegmenter | None = None,
+    smallest_speck: int = 0,
+    largest_hole: int = 0,
+    smoothing: float = 0.0,
+) -> list[Mask]:
+    """One mask for each part.
+
+    Args:
+        image: RGB, shape [h, w, 3].
+        prompts: one for each part.
+        network: a Segment Anything network; None cuts by colours and lines, where the points on the other parts count
+            as points beside.
+        smallest_speck: connected parts of a mask of fewer pixels are left out [px^2].
+        largest_hole: gaps of up to so many pixels are filled [px^2].
+        smoothing: radius of the bays and spikes of the edge that are evened out [px].
+
+    Returns:
+        masks, shape [h, w] each.
+
+    Raises:
+        InvalidInputError: a prompt is empty, contradicts itself, or lies outside the picture.
+    """
+    masks = network.segment(image, prompts)[0] if network else _cut(image, prompts)
+    return [
+        clean_mask(mask, smallest_speck=smallest_speck, largest_hole=largest_hole, smoothing=smoothing)
+        for mask in masks
+    ]
+
+
+def _cut(image: NDArray[np.uint8], prompts: Sequence[Prompt]) -> list[Mask]:
+    masks = []
+    for number, prompt in enumerate(prompts):
+        others = [_on(other) for index, other in enumerate(prompts) if index != number]
+        beside = np.concatenate([np.zeros((0, 2)), *others])
+        points = np.concatenate([np.reshape(prompt.points, (-1, 2)), beside])
+        labels = np.concatenate([np.reshape(prompt.labels, -1), np.zeros(len(beside))])
+        masks.append(segment(image, points, labels, box=prompt.box))
+    return masks
+
+
+def _on(prompt: Prompt) -> NDArray[np.float64]:
+    """The points on a part."""
+    return np.reshape(np.asarray(prompt.points, np.float64), (-1, 2))[np.reshape(prompt.labels, -1).astype(bool)]

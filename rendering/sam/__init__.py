@@ -1,0 +1,1 @@
+"""Masks by the Segment Anything family, with weights that the user has."""
