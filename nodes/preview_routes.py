@@ -41,8 +41,14 @@ class PreviewRoutes:
         threads: on which requests are checked and simulated.
     """
 
-    def __init__(self, store: PreviewStore) -> None:
+    def __init__(self, store: PreviewStore, *, warm_up: Callable[[], None] = lambda: None) -> None:
+        """
+        Args:
+            store: the bodies that previews can be made of.
+            warm_up: gets the solver ready, without waiting for it.
+        """
         self.store = store
+        self._warm_up = warm_up
         self.runs = PreviewRuns()
         self._guard = Guard()
         self._order = itertools.count()
@@ -55,11 +61,17 @@ class PreviewRoutes:
         routes.get("/physanimator/mesh/{key}")(self._guard(self.mesh))
         routes.get("/physanimator/plate/{key}")(self._guard(self.plate))
         routes.post("/physanimator/preview")(self._guard(self.preview))
+        routes.post("/physanimator/warm-up")(self._guard(self.warm_up))
 
     def close(self) -> None:
         """Let the threads end once they have nothing to do."""
         self.threads.shutdown(wait=False)
         self._plates.close()
+
+    async def warm_up(self, _request: web.Request) -> web.StreamResponse:
+        """Get the solver ready: an editor has been opened, and its first preview shall not wait for that."""
+        self._warm_up()
+        return web.Response(status=204, headers=KEEP_NOTHING)
 
     async def mesh(self, request: web.Request) -> web.StreamResponse:
         """The rest shape of the bodies of a key, as ``physics.preview_records`` describes it."""

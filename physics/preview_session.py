@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +19,10 @@ from .preview_limits import MAX_EDITORS, MAX_PREVIEW_WORK
 from .preview_queue import RecordQueue
 from .preview_records import END, ERROR, FRAME, HEADER, FrameEncoder, record
 from .scene import Scene
+from .schedule import TRIANGLES_PER_THREAD
+
+if TYPE_CHECKING:
+    from .mesh import TriangleMesh
 
 __all__ = ["SUPERSEDED", "PreviewRun", "PreviewRuns", "stream", "warm_up"]
 
@@ -175,14 +181,25 @@ def _checking(run: PreviewRun) -> Callable[[int, int], None]:
 
 
 def warm_up() -> None:
-    """Load the kernels and all that a first preview needs, which takes a second once in a process."""
-    from .mesh import TriangleMesh
+    """Load the kernels and all that a first preview needs, which takes some seconds once in a process."""
     from .rig import Circle, RigPoint
     from .scene import Body
     from .simulation import simulate
     from .strokes import EnergyStroke
 
-    corners = np.array([[0.0, 0.0], [8.0, 0.0], [0.0, 8.0], [8.0, 8.0]])
-    mesh = TriangleMesh(corners, np.array([[0, 1, 2], [1, 3, 2]], dtype=np.int32), 8, 8)
+    # A part that a thread computes alone, and one that several may share, for which there is another kernel.
+    small, large = (Body(_grid(cells)) for cells in (1, math.ceil(math.sqrt(TRIANGLES_PER_THREAD)) + 1))
     stroke = EnergyStroke("wind", ((0.0, 4.0), (8.0, 4.0)), 4.0)
-    simulate(Scene((Body(mesh),), (stroke,), (RigPoint((0.0, 0.0), Circle(1.0)),)), frames=2)
+    simulate(Scene((small, large), (stroke,), (RigPoint((0.0, 0.0), Circle(1.0)),)), frames=2)
+
+
+def _grid(cells: int) -> TriangleMesh:
+    """A square of 8 px cut into so many cells each way, of two triangles each."""
+    from .mesh import TriangleMesh
+
+    x, y = np.meshgrid(*2 * [np.linspace(0.0, 8.0, cells + 1)])
+    corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
+    upper = np.column_stack([corner, corner + 1, corner + cells + 1])
+    lower = np.column_stack([corner + 1, corner + cells + 2, corner + cells + 1])
+    triangles = np.concatenate([upper, lower]).astype(np.int32)
+    return TriangleMesh(np.column_stack([x.ravel(), y.ravel()]), triangles, 8, 8)

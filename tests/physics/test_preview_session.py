@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from physanimator.physics import schedule, simulation
 from physanimator.physics.errors import Cancelled
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
@@ -20,7 +21,7 @@ from physanimator.physics.paint import Paint
 from physanimator.physics.preparation import Preparations
 from physanimator.physics.preview_queue import RecordQueue
 from physanimator.physics.preview_records import END, ERROR, FRAME, HEADER, record, split_records
-from physanimator.physics.preview_session import PreviewRun, PreviewRuns, stream
+from physanimator.physics.preview_session import PreviewRun, PreviewRuns, stream, warm_up
 from physanimator.physics.preview_store import PreviewBodies, PreviewStore
 from physanimator.physics.rig import Circle, Polygon, RigPoint, Wave
 from physanimator.physics.scene import Body, Scene
@@ -230,6 +231,15 @@ def kept(seed: int, *, pixels: int = 0) -> PreviewBodies:
     corners = np.random.default_rng(seed).uniform(0, 100, (3, 2))
     picture = np.zeros((pixels, 1, 3), np.uint8) if pixels else None
     return PreviewBodies((Body(TriangleMesh(corners, np.array([[0, 1, 2]]), 100, 100)),), picture)
+
+
+def test_the_kernel_for_shared_parts_is_loaded_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
+    warmed: list[Scene] = []
+    monkeypatch.setattr(schedule, "most_threads", lambda: 2)
+    monkeypatch.setattr(simulation, "simulate", lambda scene, **_: warmed.append(scene))
+    warm_up()
+    planned = simulation.plan(warmed[0], frames=2)
+    assert (planned.alone, planned.shared) == (1, (2,))
 
 
 def test_the_store_keeps_what_was_used_last_within_its_bytes() -> None:

@@ -215,11 +215,11 @@ export class Editor {
   }
 
   #keep() {
+    this.simulate();
     this.text = this.options.format.write(this.document);
     this.notes.show("value", "");
     this.resize(this.document);
     this.options.onChange(this.text);
-    this.simulate();
   }
 
   /**
