@@ -12,6 +12,7 @@ import itertools
 import logging
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 from aiohttp import web
@@ -28,6 +29,7 @@ from .preview_plates import Plates
 __all__ = ["PreviewRoutes"]
 
 _FORGOTTEN = "The server does not hold these bodies any more: run the graph once, then edit on."
+_EXAMPLE = Path(__file__).resolve().parents[1] / "workflows" / "example" / "illustration.png"
 _WRITE_SECONDS = 60.0
 _POLL_SECONDS = 0.25
 
@@ -61,12 +63,17 @@ class PreviewRoutes:
         routes.get("/physanimator/mesh/{key}")(self._guard(self.mesh))
         routes.get("/physanimator/plate/{key}")(self._guard(self.plate))
         routes.post("/physanimator/preview")(self._guard(self.preview))
+        routes.get("/physanimator/example")(self._guard(self.example))
         routes.post("/physanimator/warm-up")(self._guard(self.warm_up))
 
     def close(self) -> None:
         """Let the threads end once they have nothing to do."""
         self.threads.shutdown(wait=False)
         self._plates.close()
+
+    async def example(self, _request: web.Request) -> web.StreamResponse:
+        """The illustration that comes with the pack, to draw on before its node has run."""
+        return web.FileResponse(_EXAMPLE)
 
     async def warm_up(self, _request: web.Request) -> web.StreamResponse:
         """Get the solver ready: an editor has been opened, and its first preview shall not wait for that."""

@@ -159,6 +159,15 @@ def test_an_editor_that_opens_gets_the_solver_ready() -> None:
     in_a_server(test)
 
 
+def test_the_example_is_there_to_be_drawn_on() -> None:
+    async def test(server: Served) -> None:
+        answer = await server.client.get("/physanimator/example")
+        assert answer.status == 200
+        assert Image.open(io.BytesIO(await answer.read())).size == (1280, 720)
+
+    in_a_server(test)
+
+
 def test_without_a_picture_there_is_no_plate() -> None:
     async def test(server: Served) -> None:
         answer = await server.client.get(f"/physanimator/plate/{server.key}")

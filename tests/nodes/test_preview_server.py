@@ -33,5 +33,6 @@ def test_a_host_gets_the_routes_once(monkeypatch: pytest.MonkeyPatch) -> None:
         ("GET", "/physanimator/mesh/{key}"),
         ("GET", "/physanimator/plate/{key}"),
         ("POST", "/physanimator/preview"),
+        ("GET", "/physanimator/example"),
         ("POST", "/physanimator/warm-up"),
     ]

@@ -29,6 +29,7 @@ export function layout(editor) {
     seek: (frame) => editor.commands.seek(frame),
     length: (frames) => editor.commands.setLength(frames),
     select: (reference) => editor.select(reference),
+    retime: (reference, item, done) => editor.commands.retime(reference, item, done),
   });
   const rows = [toolbar.root, place, inspector.root, ...(moves ? [timeline.root] : [])];
   /** @type {HTMLElement} */
