@@ -110,7 +110,8 @@ class PreviewRoutes:
         if stored is None:
             return refused(404, _FORGOTTEN)
         scene, frames = await self._on_a_thread(preview_scene, wanted, stored.bodies)
-        run = self.runs.enter(wanted.editor, order)
+        prepared = await self._on_a_thread(self.runs.prepare, scene)
+        run = self.runs.enter(wanted.editor, order, prepared)
         if run is None:
             return refused(429, BUSY)
         try:

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import Cancelled, PhysAnimatorError
+from .interruption import interruptible
 from .loop import first_frame, periodic
-from .preparation import Preparations, Prepare
+from .preparation import Preparations, Prepare, Prepared
 from .preview_limits import MAX_EDITORS, MAX_PREVIEW_WORK
 from .preview_queue import RecordQueue
 from .preview_records import END, ERROR, FRAME, HEADER, FrameEncoder, record
@@ -41,14 +42,18 @@ class PreviewRun:
         order: later requests have higher numbers.
         prepare: keeps what simulations need before their first step.
         turn: held by whichever run of that editor simulates; the others wait for it.
+        wants: what is prepared for it.
         reason: why it was cancelled; empty while it was not.
+        successor: the later run for which it was cancelled.
     """
 
     editor: str
     order: int
     prepare: Prepare
     turn: threading.Lock
+    wants: Prepared | None = None
     reason: str = ""
+    successor: PreviewRun | None = None
     _cancelled: threading.Event = field(default_factory=threading.Event)
 
     def cancel(self, reason: str) -> None:
@@ -63,6 +68,18 @@ class PreviewRun:
         """
         if self._cancelled.is_set():
             raise Cancelled(self.reason)
+
+    def check_preparing(self) -> None:
+        """As ``check``, but what the latest run needs as well is prepared to its end: else it would begin anew.
+
+        Raises:
+            Cancelled: the run was cancelled, and nobody needs what it prepares.
+        """
+        latest = self
+        while latest.successor is not None:
+            latest = latest.successor
+        if latest is self or latest._cancelled.is_set() or latest.wants is not self.wants:
+            self.check()
 
     def wait_for_turn(self) -> None:
         """Wait until the editor's earlier runs have stopped; release ``turn`` afterwards.
@@ -84,25 +101,28 @@ class PreviewRuns:
             most: editors that may have a run at once.
         """
         self._most = most
-        self._prepare = Preparations(most=2 * most)
+        self.prepare = Preparations(most=2 * most)
         self._runs: dict[str, PreviewRun] = {}
         self._lock = threading.Lock()
 
-    def enter(self, editor: str, order: int) -> PreviewRun | None:
+    def enter(self, editor: str, order: int, wants: Prepared | None = None) -> PreviewRun | None:
         """A new run, for which the editor's earlier one is cancelled; None when too many editors have one.
 
         Args:
             editor: whose it is.
             order: rises with each request. One that was overtaken by a later request is cancelled from the start.
+            wants: what is prepared for it, as ``prepare`` has found or made it.
         """
         with self._lock:
             before = self._runs.get(editor)
             if before is None and len(self._runs) >= self._most:
                 return None
-            run = PreviewRun(editor, order, self._prepare, before.turn if before else threading.Lock())
+            run = PreviewRun(editor, order, self.prepare, before.turn if before else threading.Lock(), wants)
             overtaken = before is not None and before.order > order
             if not overtaken:
                 self._runs[editor] = run
+                if before is not None:
+                    before.successor = run
         stale = run if overtaken else before
         if stale is not None:
             stale.cancel(SUPERSEDED)
@@ -164,14 +184,15 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) ->
         queue.put(record(FRAME, payload), run.check)
         run.check()
 
-    simulate(
-        scene,
-        frames=None if scene.loop else frames,
-        on_frame=send,
-        progress=_checking(run),
-        max_work=MAX_PREVIEW_WORK,
-        prepare=run.prepare,
-    )
+    with interruptible(run.check_preparing):
+        simulate(
+            scene,
+            frames=None if scene.loop else frames,
+            on_frame=send,
+            progress=_checking(run),
+            max_work=MAX_PREVIEW_WORK,
+            prepare=run.prepare,
+        )
     seconds = time.perf_counter() - begun
     return record(END, {"frames": frames, "seconds": seconds, "largest_displacement": largest})
 

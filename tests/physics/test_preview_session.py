@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physanimator.physics import schedule, simulation
+from physanimator.physics import modes, schedule, simulation
 from physanimator.physics.errors import Cancelled
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
@@ -39,7 +39,8 @@ def scene(**changes: Any) -> Scene:
     mesh = TriangleMesh(np.column_stack([x.ravel(), y.ravel()]), triangles, 100, 80)
     body = Body(mesh, Material(youngs_modulus=10.0, damping=4.0))
     stroke = EnergyStroke("wind", ((0.0, 30.0), (100.0, 50.0)), 60.0, speed=200.0, strength=4.0)
-    return Scene((body,), (stroke,), (RigPoint((20.0, 30.0), Circle(15.0)),), **changes)
+    drawn = {"bodies": (body,), "strokes": (stroke,), "rig_points": (RigPoint((20.0, 30.0), Circle(15.0)),)}
+    return Scene(**(drawn | changes))
 
 
 def run_of(runs: PreviewRuns, editor: str = "one") -> PreviewRun:
@@ -185,6 +186,34 @@ def test_cancelling_frees_who_waits_for_room() -> None:
     threading.Timer(0.05, run.cancel, ["gone"]).start()
     with pytest.raises(Cancelled, match="gone"):
         queue.put(bytes(100), run.check)
+
+
+def pinned(radius: float) -> Scene:
+    sways = replace(scene().bodies[0], material=Material(sway_frequency=1.0))
+    return scene(gravity=(0.0, 0.1), bodies=(sways,), rig_points=(RigPoint((20.0, 30.0), Circle(radius)),))
+
+
+@pytest.mark.parametrize("radius", [15.0, 25.0])
+def test_preparing_is_given_up_unless_the_next_run_needs_the_same(
+    radius: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    runs, asked, superseded = PreviewRuns(), 0, pinned(15.0)
+    monkeypatch.setattr(modes, "_DENSE", 0)
+    first = runs.enter("one", next(ORDER), runs.prepare(superseded))
+    assert first is not None
+
+    def check() -> None:
+        nonlocal asked
+        asked += 1
+        if asked == 3:
+            runs.enter("one", next(ORDER), runs.prepare(pinned(radius)))
+        PreviewRun.check_preparing(first)
+
+    monkeypatch.setattr(first, "check_preparing", check)
+    records = streamed(superseded, 3, first)
+    assert json.loads(records[-1][1]) == {"error": "superseded"}
+    assert (asked > 3) == (radius == 15.0)
+    assert ("system" in vars(first.wants)) == (radius == 15.0)
 
 
 def test_preparing_is_shared_where_only_strokes_and_motions_differ() -> None:
