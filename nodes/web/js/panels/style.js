@@ -80,6 +80,13 @@ export const STYLE = `
 .physanimator-dialog { width: 100vw; height: 100vh; max-width: none; max-height: none; margin: 0; padding: 10px; border: 0; background: rgba(0, 0, 0, 0.7); }
 .physanimator-dialog .physanimator-frame { grid-template-columns: minmax(0, 1fr) 252px; }
 .physanimator-dialog .physanimator-frame[data-panel="false"] { grid-template-columns: minmax(0, 1fr) 0; }
+.physanimator-status { position: absolute; left: 6px; top: 6px; max-width: calc(100% - 12px); padding: 2px 7px; border-radius: 5px;
+  color: #fff; background: rgba(16, 18, 24, 0.62); font-size: 11px; font-variant-numeric: tabular-nums; pointer-events: none; }
+.physanimator-status:empty { display: none; }
+.physanimator-empty { padding: 6px 2px; color: var(--physanimator-dim); }
+.physanimator-dialog .physanimator-frame { font-size: 13px; }
+.physanimator-dialog :is(.physanimator-toolbar, .physanimator-bar) button { min-width: 36px; height: 36px; }
+.physanimator-dialog :is(.physanimator-toolbar, .physanimator-bar) svg { width: 22px; height: 22px; }
 .physanimator-dialog .physanimator-lanes { height: 120px; }
 .physanimator-dialog .physanimator-lane { height: 14px; }
 @container (max-width: 519px) {

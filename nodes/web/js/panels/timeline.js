@@ -135,7 +135,8 @@ export class Timeline {
       lane.append(...spans, ...ticks.map((time) => this.#piece("physanimator-tick", time, time, duration)), ...edges);
       return lane;
     });
-    this.lanes.replaceChildren(...lanes, element("div", { className: "physanimator-now" }));
+    const empty = lanes.length ? [] : [element("div", { className: "physanimator-empty" }, ["What you draw appears here, with the times at which it acts."])];
+    this.lanes.replaceChildren(...lanes, ...empty, element("div", { className: "physanimator-now" }));
   }
 
   /**
