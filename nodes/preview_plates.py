@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import os
+import sys
+import threading
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
 
@@ -18,7 +21,7 @@ class Plates:
 
     def __init__(self) -> None:
         self._made: OrderedDict[str, asyncio.Task[bytes]] = OrderedDict()
-        self._thread = ThreadPoolExecutor(1, thread_name_prefix="physanimator-plate")
+        self._thread = ThreadPoolExecutor(1, thread_name_prefix="physanimator-plate", initializer=_give_way)
 
     async def png(self, stored: PreviewBodies) -> bytes:
         """The plate of bodies that have a picture, as a PNG file.
@@ -41,6 +44,12 @@ class Plates:
 
     async def _make(self, stored: PreviewBodies) -> bytes:
         return await asyncio.get_running_loop().run_in_executor(self._thread, _png_of, stored)
+
+
+def _give_way() -> None:
+    """Let previews have the processor first: somebody draws while a plate is made."""
+    if sys.platform == "linux":  # where threads have priorities of their own
+        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), 10)
 
 
 def _png_of(stored: PreviewBodies) -> bytes:

@@ -12,6 +12,7 @@ import itertools
 import logging
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 from aiohttp import web
@@ -28,6 +29,7 @@ from .preview_plates import Plates
 __all__ = ["PreviewRoutes"]
 
 _FORGOTTEN = "The server does not hold these bodies any more: run the graph once, then edit on."
+_EXAMPLE = Path(__file__).resolve().parents[1] / "workflows" / "example" / "illustration.png"
 _WRITE_SECONDS = 60.0
 _POLL_SECONDS = 0.25
 
@@ -41,8 +43,14 @@ class PreviewRoutes:
         threads: on which requests are checked and simulated.
     """
 
-    def __init__(self, store: PreviewStore) -> None:
+    def __init__(self, store: PreviewStore, *, warm_up: Callable[[], None] = lambda: None) -> None:
+        """
+        Args:
+            store: the bodies that previews can be made of.
+            warm_up: gets the solver ready, without waiting for it.
+        """
         self.store = store
+        self._warm_up = warm_up
         self.runs = PreviewRuns()
         self._guard = Guard()
         self._order = itertools.count()
@@ -55,11 +63,22 @@ class PreviewRoutes:
         routes.get("/physanimator/mesh/{key}")(self._guard(self.mesh))
         routes.get("/physanimator/plate/{key}")(self._guard(self.plate))
         routes.post("/physanimator/preview")(self._guard(self.preview))
+        routes.get("/physanimator/example")(self._guard(self.example))
+        routes.post("/physanimator/warm-up")(self._guard(self.warm_up))
 
     def close(self) -> None:
         """Let the threads end once they have nothing to do."""
         self.threads.shutdown(wait=False)
         self._plates.close()
+
+    async def example(self, _request: web.Request) -> web.StreamResponse:
+        """The illustration that comes with the pack, to draw on before its node has run."""
+        return web.FileResponse(_EXAMPLE)
+
+    async def warm_up(self, _request: web.Request) -> web.StreamResponse:
+        """Get the solver ready: an editor has been opened, and its first preview shall not wait for that."""
+        self._warm_up()
+        return web.Response(status=204, headers=KEEP_NOTHING)
 
     async def mesh(self, request: web.Request) -> web.StreamResponse:
         """The rest shape of the bodies of a key, as ``physics.preview_records`` describes it."""
@@ -91,7 +110,8 @@ class PreviewRoutes:
         if stored is None:
             return refused(404, _FORGOTTEN)
         scene, frames = await self._on_a_thread(preview_scene, wanted, stored.bodies)
-        run = self.runs.enter(wanted.editor, order)
+        prepared = await self._on_a_thread(self.runs.prepare, scene)
+        run = self.runs.enter(wanted.editor, order, prepared)
         if run is None:
             return refused(429, BUSY)
         try:

@@ -26,7 +26,7 @@ def register_routes() -> None:
     _registered.set()
     from .preview_routes import PreviewRoutes
 
-    PreviewRoutes(STORE).register(server.routes)
+    PreviewRoutes(STORE, warm_up=warm_up).register(server.routes)
 
 
 def warm_up() -> None:

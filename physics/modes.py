@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .interruption import checkpoint
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -51,7 +53,7 @@ def _mass_scaled(stiffness: csr_array, masses: FloatArray) -> csr_array:
     return (scale @ stiffness @ scale).tocsr()
 
 
-def _eigenvalues(matrix: csr_array, *, count: int, **options: float | str) -> FloatArray | None:
+def _eigenvalues(matrix: csr_array, *, count: int, **options: Any) -> FloatArray | None:
     """Some eigenvalues, ascending; all of them where the matrix is small."""
     if matrix.shape[0] <= _DENSE:
         return np.linalg.eigvalsh(matrix.toarray())
@@ -59,7 +61,25 @@ def _eigenvalues(matrix: csr_array, *, count: int, **options: float | str) -> Fl
 
     start = np.random.default_rng(0).standard_normal(matrix.shape[0])  # always the same, for the same motion each run
     try:
-        found = eigsh(matrix.tocsc(), k=count, v0=start, return_eigenvectors=False, **options)
+        applied = _interruptible(matrix, options.get("sigma"))
+        found = eigsh(applied.pop("matrix"), k=count, v0=start, return_eigenvectors=False, **options, **applied)
     except (ArpackError, RuntimeError):  # no convergence; a factor that is exactly singular
         return None
     return np.sort(found) if np.isfinite(found).all() else None
+
+
+def _interruptible(matrix: csr_array, sigma: float | None) -> dict[str, Any]:
+    """What eigenvalues are found with: the matrix and, near sigma, its shifted inverse; each use is a checkpoint."""
+    from scipy.sparse import eye_array
+    from scipy.sparse.linalg import LinearOperator, splu
+
+    checkpoint()
+    columns = matrix.tocsc()
+    apply = columns.__matmul__ if sigma is None else splu((columns - sigma * eye_array(columns.shape[0])).tocsc()).solve
+
+    def applied(vector: FloatArray) -> FloatArray:
+        checkpoint()
+        return apply(vector)
+
+    operator = LinearOperator(columns.shape, matvec=applied, dtype=columns.dtype)
+    return {"matrix": operator} if sigma is None else {"matrix": columns, "OPinv": operator}

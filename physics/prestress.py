@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from .elasticity import RestShape, deformation_gradients, forces, rotations, stress
 from .errors import SimulationError
+from .interruption import checkpoint
 from .scene import Scene
 from .system import System
 
@@ -107,10 +108,12 @@ def _newton(
 
     wanted = _TOLERANCE * max(float(np.abs(loads).max()), 1e-300)
     for _ in range(_ITERATIONS):
+        checkpoint()
         missing = (forces(rest, drawn.positions, mu, lam) + loads).ravel()[free]
         if np.abs(missing).max(initial=0.0) <= wanted:
             return rest
         matrix = rest_shape_derivative(rest, drawn.positions, mu, lam)[free][:, free].tocsc()
+        checkpoint()
         try:
             change = splu(matrix).solve(-missing)
         except RuntimeError:  # exactly singular
@@ -159,6 +162,7 @@ def is_stable(rest: RestShape, positions: FloatArray, mu: FloatArray, lam: Float
         blocks[:, :, column] = rest.areas[:, None] * np.einsum("tij,tkj->tki", d_piola, gradients).reshape(-1, 6)
     free = np.flatnonzero(np.repeat(~held, 2))
     matrix = _assembled(rest, blocks)[free][:, free].tocsc()
+    checkpoint()
     try:  # without pivoting, the pivots have the signs of the eigenvalues
         factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     except RuntimeError:

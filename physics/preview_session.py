@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .errors import Cancelled, PhysAnimatorError
+from .interruption import interruptible
 from .loop import first_frame, periodic
-from .preparation import Preparations, Prepare
+from .preparation import Preparations, Prepare, Prepared
 from .preview_limits import MAX_EDITORS, MAX_PREVIEW_WORK
 from .preview_queue import RecordQueue
 from .preview_records import END, ERROR, FRAME, HEADER, FrameEncoder, record
 from .scene import Scene
+from .schedule import TRIANGLES_PER_THREAD
+
+if TYPE_CHECKING:
+    from .mesh import TriangleMesh
 
 __all__ = ["SUPERSEDED", "PreviewRun", "PreviewRuns", "stream", "warm_up"]
 
@@ -35,14 +42,18 @@ class PreviewRun:
         order: later requests have higher numbers.
         prepare: keeps what simulations need before their first step.
         turn: held by whichever run of that editor simulates; the others wait for it.
+        wants: what is prepared for it.
         reason: why it was cancelled; empty while it was not.
+        successor: the later run for which it was cancelled.
     """
 
     editor: str
     order: int
     prepare: Prepare
     turn: threading.Lock
+    wants: Prepared | None = None
     reason: str = ""
+    successor: PreviewRun | None = None
     _cancelled: threading.Event = field(default_factory=threading.Event)
 
     def cancel(self, reason: str) -> None:
@@ -57,6 +68,18 @@ class PreviewRun:
         """
         if self._cancelled.is_set():
             raise Cancelled(self.reason)
+
+    def check_preparing(self) -> None:
+        """As ``check``, but what the latest run needs as well is prepared to its end: else it would begin anew.
+
+        Raises:
+            Cancelled: the run was cancelled, and nobody needs what it prepares.
+        """
+        latest = self
+        while latest.successor is not None:
+            latest = latest.successor
+        if latest is self or latest._cancelled.is_set() or latest.wants is not self.wants:
+            self.check()
 
     def wait_for_turn(self) -> None:
         """Wait until the editor's earlier runs have stopped; release ``turn`` afterwards.
@@ -78,25 +101,28 @@ class PreviewRuns:
             most: editors that may have a run at once.
         """
         self._most = most
-        self._prepare = Preparations(most=2 * most)
+        self.prepare = Preparations(most=2 * most)
         self._runs: dict[str, PreviewRun] = {}
         self._lock = threading.Lock()
 
-    def enter(self, editor: str, order: int) -> PreviewRun | None:
+    def enter(self, editor: str, order: int, wants: Prepared | None = None) -> PreviewRun | None:
         """A new run, for which the editor's earlier one is cancelled; None when too many editors have one.
 
         Args:
             editor: whose it is.
             order: rises with each request. One that was overtaken by a later request is cancelled from the start.
+            wants: what is prepared for it, as ``prepare`` has found or made it.
         """
         with self._lock:
             before = self._runs.get(editor)
             if before is None and len(self._runs) >= self._most:
                 return None
-            run = PreviewRun(editor, order, self._prepare, before.turn if before else threading.Lock())
+            run = PreviewRun(editor, order, self.prepare, before.turn if before else threading.Lock(), wants)
             overtaken = before is not None and before.order > order
             if not overtaken:
                 self._runs[editor] = run
+                if before is not None:
+                    before.successor = run
         stale = run if overtaken else before
         if stale is not None:
             stale.cancel(SUPERSEDED)
@@ -158,14 +184,15 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) ->
         queue.put(record(FRAME, payload), run.check)
         run.check()
 
-    simulate(
-        scene,
-        frames=None if scene.loop else frames,
-        on_frame=send,
-        progress=_checking(run),
-        max_work=MAX_PREVIEW_WORK,
-        prepare=run.prepare,
-    )
+    with interruptible(run.check_preparing):
+        simulate(
+            scene,
+            frames=None if scene.loop else frames,
+            on_frame=send,
+            progress=_checking(run),
+            max_work=MAX_PREVIEW_WORK,
+            prepare=run.prepare,
+        )
     seconds = time.perf_counter() - begun
     return record(END, {"frames": frames, "seconds": seconds, "largest_displacement": largest})
 
@@ -175,14 +202,25 @@ def _checking(run: PreviewRun) -> Callable[[int, int], None]:
 
 
 def warm_up() -> None:
-    """Load the kernels and all that a first preview needs, which takes a second once in a process."""
-    from .mesh import TriangleMesh
+    """Load the kernels and all that a first preview needs, which takes some seconds once in a process."""
     from .rig import Circle, RigPoint
     from .scene import Body
     from .simulation import simulate
     from .strokes import EnergyStroke
 
-    corners = np.array([[0.0, 0.0], [8.0, 0.0], [0.0, 8.0], [8.0, 8.0]])
-    mesh = TriangleMesh(corners, np.array([[0, 1, 2], [1, 3, 2]], dtype=np.int32), 8, 8)
+    # A part that a thread computes alone, and one that several may share, for which there is another kernel.
+    small, large = (Body(_grid(cells)) for cells in (1, math.ceil(math.sqrt(TRIANGLES_PER_THREAD)) + 1))
     stroke = EnergyStroke("wind", ((0.0, 4.0), (8.0, 4.0)), 4.0)
-    simulate(Scene((Body(mesh),), (stroke,), (RigPoint((0.0, 0.0), Circle(1.0)),)), frames=2)
+    simulate(Scene((small, large), (stroke,), (RigPoint((0.0, 0.0), Circle(1.0)),)), frames=2)
+
+
+def _grid(cells: int) -> TriangleMesh:
+    """A square of 8 px cut into so many cells each way, of two triangles each."""
+    from .mesh import TriangleMesh
+
+    x, y = np.meshgrid(*2 * [np.linspace(0.0, 8.0, cells + 1)])
+    corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
+    upper = np.column_stack([corner, corner + 1, corner + cells + 1])
+    lower = np.column_stack([corner + 1, corner + cells + 2, corner + cells + 1])
+    triangles = np.concatenate([upper, lower]).astype(np.int32)
+    return TriangleMesh(np.column_stack([x.ravel(), y.ravel()]), triangles, 8, 8)

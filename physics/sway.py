@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .elasticity import RestShape, lame_parameters, lumped_masses, rest_shape, stiffness_matrix
+from .interruption import checkpoint
 from .mesh import TriangleMesh
 from .modes import highest_eigenvalue, lowest_eigenvalue
 from .scene import Body
@@ -93,6 +94,7 @@ def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> t
     rest, part_of_triangle = rest_shape(mesh), mesh.components[mesh.triangles[:, 0]]
     lengths, densities = _lengths(mesh), material.densities(len(modulus))
     for part in np.unique(part_of_triangle[held[mesh.triangles].any(axis=1)]):
+        checkpoint()
         chosen = part_of_triangle == part
         shape, held_here = _part_of(rest, chosen, held)
         mu, lam = lame_parameters(modulus[chosen], material.poisson_ratio)

@@ -12,6 +12,7 @@ and a long kernel stops every other thread, so callers keep their launches to so
 from __future__ import annotations
 
 import atexit
+import inspect
 import os
 import queue
 import sys
@@ -136,6 +137,7 @@ class _TaichiThread:
         if self._closed:  # a program that is made while the process ends would end it with an abort
             raise PhysAnimatorError("Nothing more can be simulated: the process is ending")
         if self._taichi is None:
+            _name_import_machinery()
             with _environment(_QUIET):
                 import taichi
 
@@ -162,6 +164,16 @@ def _new_program(ti: Any) -> Any:
             make_cpu_multithreading_loop=False,
         )
     return ti.lang.impl.get_runtime().prog
+
+
+def _name_import_machinery() -> None:
+    """Tell ``inspect`` to which module the frames of the import machinery belong.
+
+    Taichi asks for the source of such frames some hundred times while it is imported. Each time ``inspect`` would look
+    through all modules of the process, which takes seconds where a host has thousands.
+    """
+    known = getattr(inspect, "modulesbyfile", {})
+    known.setdefault("<frozen importlib._bootstrap>", "_frozen_importlib")
 
 
 def _let_others_finish(function: Any) -> None:

@@ -1,6 +1,8 @@
 """How soon a drawn stroke moves the picture: live previews through the routes' own handlers, on a server of their own.
 
 python tests/benchmarks/preview.py --json
+
+With --browser the same is also measured in the page of the ComfyUI at COMFYUI_PATH, where a pointer draws.
 """
 
 from __future__ import annotations
@@ -15,6 +17,7 @@ import time
 from typing import Any
 
 import numpy as np
+import preview_browser
 import source_tree  # noqa: F401
 from aiohttp import web
 from aiohttp.test_utils import TestClient, TestServer
@@ -113,8 +116,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--json", action="store_true", help="print the whole document instead of a table")
     parser.add_argument("--rounds", type=int, default=15, help="previews of each kind (default 15)")
+    parser.add_argument("--browser", action="store_true", help="also in ComfyUI's page; needs playwright")
     arguments = parser.parse_args()
     result = asyncio.run(measured(arguments.rounds))
+    if arguments.browser:
+        result["browser"] = preview_browser.measured(arguments.rounds)
     if arguments.json:
         print(json.dumps(result, indent=2))
         return
@@ -122,6 +128,11 @@ def main() -> None:
         first, rate = case["pen_up_to_first_frame_ms"], case["simulated_frames_per_second"]
         print(
             f"{name:>18}  first moving frame {first:6.1f} ms  {rate:6.0f} frames/s  {case['bytes_per_frame']:.0f} bytes"
+        )
+    for canvas, case in result.get("browser", {}).items():
+        print(
+            f"{canvas:>18}  first moving frame {case['pen_up_to_first_frame_ms']:6.1f} ms in the browser,"
+            f" at most {case['slowest_first_frame_ms']:.0f} ms"
         )
 
 

@@ -129,6 +129,27 @@ def test_numbers_change_the_selected_item(editor: EditorPage) -> None:
     assert editor.queued()["strokes"][0]["kind"] == "repel"
 
 
+def test_the_edges_of_a_lane_are_dragged(editor: EditorPage) -> None:
+    editor.press("wind")
+    editor.drag((300, 300), (700, 300))
+    mouse = editor.page.page.mouse
+
+    def dragged(edge: str, share: float) -> dict[str, Any]:
+        lane = editor.selector(".physanimator-lane").bounding_box()
+        grip = editor.selector(f'.physanimator-edge[data-edge="{edge}"]').bounding_box()
+        mouse.move(grip["x"] + grip["width"] / 2, grip["y"] + grip["height"] / 2)
+        mouse.down()
+        mouse.move(lane["x"] + share * lane["width"], lane["y"] + 40, steps=5)
+        mouse.up()
+        return assert_drawn(editor, strokes=1)["strokes"][0]
+
+    assert near(dragged("start", 0.25)["start"], 0.75, 0.05)
+    assert near(dragged("end", 0.5)["end"], 1.5, 0.05)
+    assert "end" not in dragged("end", 1.1)
+    editor.press("undo")
+    assert near(editor.value()["strokes"][0]["end"], 1.5, 0.05)
+
+
 def test_points_strokes_and_handles_are_dragged(editor: EditorPage) -> None:
     editor.press("wind")
     editor.drag((300, 300), (700, 300))
@@ -203,7 +224,10 @@ def test_zoom_and_pan_keep_what_is_drawn_in_place(editor: EditorPage) -> None:
     assert zoom < 1.5
     editor.press("pin")
     editor.click(520, 310)
+    left, top = editor.place(520, 310)
     editor.drag((520, 310), (540, 330), button="middle")
+    moved = 20 / zoom
+    assert near(editor.place(520, 310), (left + moved, top + moved), 2)
     editor.focus()
     editor.keys("w")
     page.keyboard.down("Space")
@@ -279,6 +303,12 @@ def test_the_host_s_own_undo_brings_strokes_back(editor: EditorPage) -> None:
     editor.page.run("async () => app.extensionManager.workflow.activeWorkflow.changeTracker.undo()")
     editor.page.page.wait_for_timeout(600)
     assert len(editor.shown()["strokes"]) == len(editor.value()["strokes"]) == 1
+    assert editor.page.problems == []
+
+
+def test_the_example_is_drawn_on_before_anything_has_run(editor: EditorPage) -> None:
+    editor.wait("editor.backdrop.picture?.naturalWidth === 1280")
+    assert "/physanimator/example" in editor.ask("editor.backdrop.picture.src")
     assert editor.page.problems == []
 
 
@@ -373,9 +403,24 @@ def test_an_editor_in_a_subgraph_draws_runs_and_queues(editor: EditorPage) -> No
     (stroke,) = nested.value()["strokes"]
     assert near(stroke["path"][0], (300, 200), nested.pixel())
     prompt = json.loads(editor.page.run("async () => JSON.stringify((await app.graphToPrompt()).output)"))
-    assert json.loads(prompt[f"{holder}:{inner}"]["inputs"]["scene"]) == nested.value()
+    nested_value = nested.value()
+    assert json.loads(prompt[f"{holder}:{inner}"]["inputs"]["scene"]) == nested_value
     nested.run_node()
     nested.wait("editor.live.measured.frames > 1")
+    editor.page.run(
+        "async () => app.loadGraphData(JSON.parse(JSON.stringify((app.rootGraph ?? app.graph).serialize())))"
+    )
+    editor.page.page.wait_for_timeout(600)
+    again = """([holder]) => {
+        app.canvas.setGraph((app.rootGraph ?? app.graph).getNodeById(holder).subgraph);
+        return app.canvas.graph.nodes.find((one) => one.comfyClass === 'PhysAnimator_SceneEditor').id;
+    }"""
+    reloaded = EditorPage(editor.page, editor.page.run(again, [holder]))
+    reloaded.look(x, y)
+    assert reloaded.shown() == reloaded.value() == nested_value
+    reloaded.press("wind")
+    reloaded.drag((300, 400), (900, 500))
+    assert len(reloaded.value()["strokes"]) == 2
     editor.page.run("() => app.canvas.setGraph(app.rootGraph ?? app.graph)")
     assert editor.page.problems == []
 

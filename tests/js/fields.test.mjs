@@ -85,18 +85,27 @@ test("the picture is found through other nodes and out of subgraphs", () => {
   const subgraph = graphOf([inner], { 20: { origin_id: -10, origin_slot: 0 } });
   const holder = { id: 3, type: "sub", subgraph, inputs: [{ type: "IMAGE", link: 11 }] };
   const root = graphOf([load, scale, holder], { 10: { origin_id: 1 }, 11: { origin_id: 2 } });
-  assert.equal(upstreamImage(inner, root), "art/girl.png [output]");
+  assert.equal(upstreamPicture(inner, root), "/view?filename=girl.png&subfolder=art&type=output");
   assert.equal(executionId(inner, root), "3:5");
   assert.equal(executionId(scale, root), "2");
-  assert.deepEqual(Object.fromEntries(viewQuery("art/girl.png [output]")), { filename: "girl.png", subfolder: "art", type: "output" });
-  assert.deepEqual(Object.fromEntries(viewQuery("girl.png")), { filename: "girl.png", subfolder: "", type: "input" });
+});
+
+test("a file from the input folder and the pack's own example are pictures, a bypassed node's is none", () => {
+  const found = (source) => {
+    const editor = { id: 2, type: "PhysAnimator_SceneEditor", inputs: [{ type: "IMAGE", link: 10 }] };
+    return upstreamPicture(editor, graphOf([{ id: 1, inputs: [], ...source }, editor], { 10: { origin_id: 1 } }));
+  };
+  const widgets = [{ name: "image", value: "girl.png" }];
+  assert.equal(found({ type: "LoadImage", widgets }), "/view?filename=girl.png&subfolder=&type=input");
+  assert.equal(found({ type: "LoadImage", widgets, mode: 4 }), null);
+  assert.equal(found({ type: "PhysAnimator_ExampleIllustration" }), "/physanimator/example");
 });
 
 test("a ring of links ends, and a node without a picture has none", () => {
   const first = { id: 1, type: "A", inputs: [{ type: "IMAGE", link: 1 }] };
   const second = { id: 2, type: "B", inputs: [{ type: "IMAGE", link: 2 }] };
   const root = graphOf([first, second], { 1: { origin_id: 2 }, 2: { origin_id: 1 } });
-  assert.equal(upstreamImage(first, root), null);
+  assert.equal(upstreamPicture(first, root), null);
 });
 
 test("however often it is asked to, it draws once a frame", () => {

@@ -73,12 +73,14 @@ function client(answer, delay = 0) {
 const streamed = (chunks) => new Response(new ReadableStream({ start(stream) { chunks.forEach((one) => stream.enqueue(one)); stream.close(); } }));
 const settle = (ms = 20) => new Promise((done) => setTimeout(done, ms));
 
-test("changes in a row make one request, with the last scene", async () => {
+test("of changes in a row the first is asked for at once, and then the last", async () => {
   const used = client(async () => streamed(STREAM), 5);
-  for (const strength of [1, 2, 3]) used.client.request("k", { strength }, 3);
-  await settle(40);
+  for (const strength of [1, 2, 3, 4]) used.client.request("k", { strength }, 3);
   assert.equal(used.requests.length, 1);
-  assert.deepEqual(JSON.parse(used.requests[0].body), { editor: "e", key: "k", scene: { strength: 3 }, frames: 3 });
+  await settle(40);
+  const asked = used.requests.map((one) => JSON.parse(one.body));
+  assert.deepEqual(asked, [1, 4].map((strength) => ({ editor: "e", key: "k", scene: { strength }, frames: 3 })));
+  assert.equal(used.requests[0].signal.aborted, true);
   assert.equal(used.records.length, 4);
 });
 
@@ -112,17 +114,22 @@ test("a superseded stream ends in silence", async () => {
 
 function playing(count) {
   const playback = new Playback();
-  playback.begin(HEADER);
+  playback.begin(HEADER, 0);
   for (let number = 0; number < count; number++) playback.add({ number });
   playback.advance(0);
   return playback;
 }
 
-test("playing goes at the frame rate, waits for frames, and begins anew at the end", () => {
+test("the server gets its solver ready once, and nobody minds where it cannot", async () => {
+  const used = client(async () => { throw new Error("no route"); });
+  for (let k = 0; k < 3; k++) used.client.warmUp();
+  await settle();
+  assert.deepEqual(used.requests.map(({ path, method }) => [path, method]), [["/physanimator/warm-up", "POST"]]);
+  assert.deepEqual(used.errors, []);
+});
+
+test("playing begins with what moves, goes at the frame rate, waits for frames, and begins anew at the end", () => {
   const playback = playing(2);
-  playback.advance(50);
-  assert.equal(playback.shown.number, 0);
-  playback.advance(110);
   assert.equal(playback.shown.number, 1);
   playback.advance(290);
   assert.equal(playback.shown.number, 1);

@@ -4,7 +4,7 @@ import { emptyDocument, parseDocument, serialise, valueAt, withAdded, withItem, 
 import { History } from "../../nodes/web/js/scene/history.js";
 import { newLead, newStroke, newWave, titleOf } from "../../nodes/web/js/scene/items.js";
 import { rescaled } from "../../nodes/web/js/scene/rescaling.js";
-import { departures, spansOf } from "../../nodes/web/js/scene/timing.js";
+import { departures, edgesOf, spansOf, withEdge } from "../../nodes/web/js/scene/timing.js";
 
 test("unknown fields survive reading, changing and writing", () => {
   const text = '{"version":2,"width":10,"height":20,"future":{"a":[1]},"strokes":[{"kind":"wind","path":[[0,0],[1,1]],"odd":7}]}';
@@ -129,4 +129,24 @@ test("items are called what they are", () => {
   assert.equal(titleOf({ list: "strokes", index: 0 }, { kind: "repel" }), "Repel stroke 1");
   assert.equal(titleOf({ list: "rig_points", index: 2 }, {}), "Pin 3");
   assert.equal(titleOf({ list: "rig_points", index: 0 }, { motion: { type: "wave" } }), "Wave 1");
+});
+
+test("what acts begins and ends where its lane is dragged to", () => {
+  const stroke = { list: "strokes", index: 0 };
+  const wind = { kind: "wind", path: [[0, 0], [9, 0]] };
+  assert.deepEqual(edgesOf(stroke, wind, 3), [["start", 0], ["end", 3]]);
+  const late = withEdge(stroke, wind, "start", 1.234, 3);
+  assert.equal(late.start, 1.23);
+  const short = withEdge(stroke, late, "end", 2, 3);
+  assert.equal(short.end, 2);
+  assert.equal(withEdge(stroke, short, "start", 2.5, 3).start, 1.95);
+  assert.equal(withEdge(stroke, short, "end", 0.3, 3).end, 1.28);
+  assert.equal("end" in withEdge(stroke, short, "end", 3.1, 3), false);
+  const point = { list: "rig_points", index: 0 };
+  const led = { position: [0, 0], motion: { type: "path", points: [[0, 0], [1, 0], [2, 0]], times: [0, 1, 2] } };
+  assert.deepEqual(edgesOf(point, led, 3), [["start", 0], ["end", 2]]);
+  assert.deepEqual(withEdge(point, led, "end", 1, 3).motion.times, [0, 0.5, 1]);
+  assert.deepEqual(withEdge(point, led, "start", 1, 3).motion.times, [1, 1.5, 2]);
+  assert.deepEqual(edgesOf(point, { position: [0, 0], motion: { type: "pinned" } }, 3), []);
+  assert.deepEqual(edgesOf({ list: "paint", index: 0 }, { region: {} }, 3), []);
 });

@@ -146,6 +146,28 @@ def test_the_plate_is_made_once_and_has_lost_the_body() -> None:
     in_a_server(test, bodies(picture=True))
 
 
+def test_an_editor_that_opens_gets_the_solver_ready() -> None:
+    begun: list[bool] = []
+
+    async def test(server: Served) -> None:
+        server.routes._warm_up = lambda: begun.append(True)
+        foreign = await server.client.post("/physanimator/warm-up", headers={"Sec-Fetch-Site": "cross-site"})
+        assert (foreign.status, begun) == (403, [])
+        assert (await server.client.post("/physanimator/warm-up")).status == 204
+        assert begun == [True]
+
+    in_a_server(test)
+
+
+def test_the_example_is_there_to_be_drawn_on() -> None:
+    async def test(server: Served) -> None:
+        answer = await server.client.get("/physanimator/example")
+        assert answer.status == 200
+        assert Image.open(io.BytesIO(await answer.read())).size == (1280, 720)
+
+    in_a_server(test)
+
+
 def test_without_a_picture_there_is_no_plate() -> None:
     async def test(server: Served) -> None:
         answer = await server.client.get(f"/physanimator/plate/{server.key}")

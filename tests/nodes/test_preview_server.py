@@ -29,5 +29,10 @@ def test_a_host_gets_the_routes_once(monkeypatch: pytest.MonkeyPatch) -> None:
     for _ in range(2):
         preview_server.register_routes()
     paths = [(route.method, route.path) for route in table if isinstance(route, web.RouteDef)]
-    below = "/physanimator"
-    assert paths == [("GET", f"{below}/mesh/{{key}}"), ("GET", f"{below}/plate/{{key}}"), ("POST", f"{below}/preview")]
+    assert paths == [
+        ("GET", "/physanimator/mesh/{key}"),
+        ("GET", "/physanimator/plate/{key}"),
+        ("POST", "/physanimator/preview"),
+        ("GET", "/physanimator/example"),
+        ("POST", "/physanimator/warm-up"),
+    ]

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from physanimator.physics import modes, schedule, simulation
 from physanimator.physics.errors import Cancelled
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
@@ -20,7 +21,7 @@ from physanimator.physics.paint import Paint
 from physanimator.physics.preparation import Preparations
 from physanimator.physics.preview_queue import RecordQueue
 from physanimator.physics.preview_records import END, ERROR, FRAME, HEADER, record, split_records
-from physanimator.physics.preview_session import PreviewRun, PreviewRuns, stream
+from physanimator.physics.preview_session import PreviewRun, PreviewRuns, stream, warm_up
 from physanimator.physics.preview_store import PreviewBodies, PreviewStore
 from physanimator.physics.rig import Circle, Polygon, RigPoint, Wave
 from physanimator.physics.scene import Body, Scene
@@ -38,7 +39,8 @@ def scene(**changes: Any) -> Scene:
     mesh = TriangleMesh(np.column_stack([x.ravel(), y.ravel()]), triangles, 100, 80)
     body = Body(mesh, Material(youngs_modulus=10.0, damping=4.0))
     stroke = EnergyStroke("wind", ((0.0, 30.0), (100.0, 50.0)), 60.0, speed=200.0, strength=4.0)
-    return Scene((body,), (stroke,), (RigPoint((20.0, 30.0), Circle(15.0)),), **changes)
+    drawn = {"bodies": (body,), "strokes": (stroke,), "rig_points": (RigPoint((20.0, 30.0), Circle(15.0)),)}
+    return Scene(**(drawn | changes))
 
 
 def run_of(runs: PreviewRuns, editor: str = "one") -> PreviewRun:
@@ -186,6 +188,34 @@ def test_cancelling_frees_who_waits_for_room() -> None:
         queue.put(bytes(100), run.check)
 
 
+def pinned(radius: float) -> Scene:
+    sways = replace(scene().bodies[0], material=Material(sway_frequency=1.0))
+    return scene(gravity=(0.0, 0.1), bodies=(sways,), rig_points=(RigPoint((20.0, 30.0), Circle(radius)),))
+
+
+@pytest.mark.parametrize("radius", [15.0, 25.0])
+def test_preparing_is_given_up_unless_the_next_run_needs_the_same(
+    radius: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    runs, asked, superseded = PreviewRuns(), 0, pinned(15.0)
+    monkeypatch.setattr(modes, "_DENSE", 0)
+    first = runs.enter("one", next(ORDER), runs.prepare(superseded))
+    assert first is not None
+
+    def check() -> None:
+        nonlocal asked
+        asked += 1
+        if asked == 3:
+            runs.enter("one", next(ORDER), runs.prepare(pinned(radius)))
+        PreviewRun.check_preparing(first)
+
+    monkeypatch.setattr(first, "check_preparing", check)
+    records = streamed(superseded, 3, first)
+    assert json.loads(records[-1][1]) == {"error": "superseded"}
+    assert (asked > 3) == (radius == 15.0)
+    assert ("system" in vars(first.wants)) == (radius == 15.0)
+
+
 def test_preparing_is_shared_where_only_strokes_and_motions_differ() -> None:
     preparations, base = Preparations(most=3), scene(gravity=(0.0, 0.3))
     prepared = preparations(base)
@@ -230,6 +260,15 @@ def kept(seed: int, *, pixels: int = 0) -> PreviewBodies:
     corners = np.random.default_rng(seed).uniform(0, 100, (3, 2))
     picture = np.zeros((pixels, 1, 3), np.uint8) if pixels else None
     return PreviewBodies((Body(TriangleMesh(corners, np.array([[0, 1, 2]]), 100, 100)),), picture)
+
+
+def test_the_kernel_for_shared_parts_is_loaded_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
+    warmed: list[Scene] = []
+    monkeypatch.setattr(schedule, "most_threads", lambda: 2)
+    monkeypatch.setattr(simulation, "simulate", lambda scene, **_: warmed.append(scene))
+    warm_up()
+    planned = simulation.plan(warmed[0], frames=2)
+    assert (planned.alone, planned.shared) == (1, (2,))
 
 
 def test_the_store_keeps_what_was_used_last_within_its_bytes() -> None:

@@ -180,6 +180,28 @@ def test_the_process_hears_nothing_of_taichi_and_ends_well() -> None:
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system does not fork")
+def test_modules_of_the_process_are_not_looked_through_while_taichi_is_imported() -> None:
+    script = (
+        PREAMBLE
+        + """
+import types
+class Counting(types.ModuleType):
+    asked = 0
+    @property
+    def __file__(self):
+        Counting.asked += 1
+        return "/nowhere/counting.py"
+sys.modules["counting"] = Counting("counting")
+from physanimator.physics.taichi_runtime import compiled, run
+run(compiled, lambda ti: None)
+assert "taichi" in sys.modules
+print(Counting.asked)
+"""
+    )
+    answer = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert int(answer.stdout) < 30  # of some hundred times
+
+
 def test_a_forked_process_is_told_what_to_do() -> None:
     result = script(
         "import os, warnings\n"

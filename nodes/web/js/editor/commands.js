@@ -109,6 +109,18 @@ export class Commands {
     editor.simulate();
   }
 
+  /**
+   * @param {import("../scene/document.js").Reference} reference
+   * @param {import("../scene/document.js").Item} item  acting at other times
+   * @param {boolean} done  whether it is a step to undo
+   */
+  retime(reference, item, done) {
+    const { editor } = this;
+    const document = withItem(editor.document, reference, item);
+    if (done) editor.commit(document, reference);
+    else editor.propose(document);
+  }
+
   expand() {
     const { editor } = this;
     editor.dialog.append(editor.frame);

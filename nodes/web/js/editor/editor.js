@@ -14,6 +14,7 @@
  * @property {() => void} onRun  the user wants this node to run
  */
 
+import { ACTIONS } from "../panels/toolbar.js";
 import { emptyDocument, itemAt, withItem, withValue } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
 import { handlesOf } from "../scene/shapes.js";
@@ -61,6 +62,7 @@ export class Editor {
     this.toolbar = parts.toolbar;
     this.inspector = parts.inspector;
     this.timeline = parts.timeline;
+    this.status = parts.status;
     this.live = new Live(this.stage.film, options.fetch, {
       redraw: () => this.redraw(),
       trouble: (error) => this.backdrop.trouble(error),
@@ -214,12 +216,20 @@ export class Editor {
     this.redraw();
   }
 
+  /** What the tool does, how large the picture is shown, and its size. */
+  #showStatus() {
+    const { width, height } = this.document;
+    const zoom = Math.round(this.stage.view.scale * 100);
+    const text = `${ACTIONS[this.tool.id].title} · ${zoom} % · ${width} × ${height} px`;
+    if (this.status.textContent !== text) this.status.textContent = text;
+  }
+
   #keep() {
+    this.simulate();
     this.text = this.options.format.write(this.document);
     this.notes.show("value", "");
     this.resize(this.document);
     this.options.onChange(this.text);
-    this.simulate();
   }
 
   /**
@@ -247,6 +257,7 @@ export class Editor {
       brush: brushing ? { at: brushing, radius: this.brushRadius } : null,
       itemsShown: this.shown.items,
     });
+    this.#showStatus();
     if (this.options.moves) this.timeline.showPosition(live.playback);
     return more;
   }

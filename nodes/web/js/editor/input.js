@@ -25,6 +25,7 @@ export function listenTo(editor) {
   root.addEventListener("paste", (/** @type {ClipboardEvent} */ event) => onPaste(editor, event));
   root.addEventListener("dragover", (/** @type {DragEvent} */ event) => mayHoldPicture(event.dataTransfer) && take(event));
   root.addEventListener("drop", (/** @type {DragEvent} */ event) => usePicture(editor, pictureIn(event.dataTransfer), event));
+  if (editor.options.moves) root.addEventListener("pointerenter", () => editor.live.client.warmUp());
   editor.toolbar.root.addEventListener("click", (/** @type {MouseEvent} */ event) => {
     // After a click of the mouse the keys belong to the picture; who goes by keyboard stays where they are.
     if (event.detail) editor.stage.focus();

@@ -17,7 +17,9 @@ export function layout(editor) {
   const toolbar = new Toolbar(groups, (id) => editor.commands.run(id));
   const place = element("div", { className: "physanimator-stage" });
   const stage = stageIn(editor, place);
-  place.append(editor.notes.root);
+  /** @type {HTMLElement} */
+  const status = element("div", { className: "physanimator-status" });
+  place.append(editor.notes.root, status);
   const inspector = new Inspector({
     change: (reference, changes, key) => editor.change(reference, changes, key),
     redrawRegion: (kind) => editor.commands.redrawRegion(kind),
@@ -29,6 +31,7 @@ export function layout(editor) {
     seek: (frame) => editor.commands.seek(frame),
     length: (frames) => editor.commands.setLength(frames),
     select: (reference) => editor.select(reference),
+    retime: (reference, item, done) => editor.commands.retime(reference, item, done),
   });
   const rows = [toolbar.root, place, inspector.root, ...(moves ? [timeline.root] : [])];
   /** @type {HTMLElement} */
@@ -39,7 +42,7 @@ export function layout(editor) {
   const style = element("style", { textContent: STYLE });
   /** @type {HTMLElement} */
   const root = element("div", { className: "physanimator-editor", "data-capture-wheel": "true" }, [style, frame, dialog]);
-  return { toolbar, stage, inspector, timeline, frame, dialog, root };
+  return { toolbar, stage, inspector, timeline, status, frame, dialog, root };
 }
 
 /**

@@ -19,6 +19,7 @@
  */
 
 import { PreviewClient } from "../preview/client.js";
+import { MOVES, mark } from "../preview/marks.js";
 import { Playback } from "../preview/playback.js";
 import { Player } from "../preview/player.js";
 
@@ -39,7 +40,7 @@ export class Live {
     /** @type {Mesh | null} */
     this.mesh = null;
     /** What was measured of the last request, for the tests [ms, px]. */
-    this.measured = { asked: 0, firstFrame: 0, frames: 0, largest: 0 };
+    this.measured = { asked: 0, firstFrame: 0, drawn: 0, frames: 0, largest: 0 };
   }
 
   /**
@@ -80,7 +81,7 @@ export class Live {
    */
   request(document, frames) {
     if (!this.run || !this.mesh) return;
-    this.measured = { asked: performance.now(), firstFrame: 0, frames: 0, largest: 0 };
+    this.measured = { asked: performance.now(), firstFrame: 0, drawn: 0, frames: 0, largest: 0 };
     this.client.request(this.run.key, document, frames);
   }
 
@@ -88,7 +89,7 @@ export class Live {
   #take(record) {
     if (record.type === "header") {
       const fits = record.header.vertices * 2 === this.mesh?.positions.length;
-      if (fits) this.playback.begin(record.header);
+      if (fits) this.playback.begin(record.header, performance.now());
       this.listener.trouble(fits ? null : new Error("The bodies have changed: run the node again."));
     } else if (record.type === "frame" && this.playback.header) {
       this.playback.add(record.frame);
@@ -123,8 +124,15 @@ export class Live {
    */
   draw(view, across, down) {
     const frame = this.playback.shown;
-    if (this.shows && frame) this.player.draw(view, across, down, frame.displacements, this.unit);
-    else this.player.clear();
+    if (!this.shows || !frame) {
+      this.player.clear();
+      return;
+    }
+    this.player.draw(view, across, down, frame.displacements, this.unit);
+    if (frame.number && !this.measured.drawn) {
+      this.measured.drawn = performance.now() - this.measured.asked;
+      mark(MOVES);
+    }
   }
 
   release() {

@@ -30,8 +30,7 @@ export class Store {
    */
   commit(document, selection = this.selection, key = "") {
     this.history.push(document, key);
-    this.#settle(selection);
-    this.onCommit();
+    this.#settle(selection, true);
   }
 
   /** @param {SceneDocument} document shown, but not yet a step to undo */
@@ -66,12 +65,13 @@ export class Store {
 
   /**
    * @param {Reference | null} selection
-   * @param {boolean} changed
+   * @param {boolean} [changed]  whether it is to be kept
    */
   #settle(selection, changed = false) {
     this.document = this.history.present;
     this.selection = itemAt(this.document, selection) ? selection : null;
-    this.onShow();
+    // First what the server must hear of, because that takes its time.
     if (changed) this.onCommit();
+    this.onShow();
   }
 }

@@ -11,7 +11,7 @@
 
 import { Editor } from "../editor/editor.js";
 import { runNode } from "./queueing.js";
-import { upstreamImage, viewQuery } from "./upstream.js";
+import { upstreamPicture } from "./upstream.js";
 
 const SHORTEST = 300;
 /** After this time a new node is on the canvas [ms]. */
@@ -102,17 +102,17 @@ function keep(app, node, value, text) {
  * @param {Editor} editor
  */
 function follow(app, api, node, value, editor) {
-  let file = /** @type {string | null | undefined} */ (undefined);
+  let picture = /** @type {string | null | undefined} */ (undefined);
   const look = () => {
     if (!node.graph) return;
     takePlace(node, editor.root);
     editor.load(String(value.value ?? ""));
-    const found = upstreamImage(node, app.rootGraph ?? app.graph);
-    if (found === file) return;
-    const first = file === undefined;
-    file = found;
+    const found = upstreamPicture(node, app.rootGraph ?? app.graph);
+    if (found === picture) return;
+    const first = picture === undefined;
+    picture = found;
     if (!first) editor.backdrop.forgetRun();
-    if (found) editor.backdrop.setPicture(api.apiURL(`/view?${viewQuery(found)}`));
+    if (found) editor.backdrop.setPicture(api.apiURL(found));
   };
   const ran = (/** @type {any} */ output) => {
     const [info] = output?.[OUTPUT] ?? [];

@@ -7,22 +7,26 @@
 /** Origin of a link that comes from outside of a subgraph. */
 const SUBGRAPH_INPUT = -10;
 const FARTHEST = 200;
+const BYPASSED = 4;
+
+/** Where the server has the illustration that comes with the pack. */
+const EXAMPLE = "/physanimator/example";
 
 /**
- * The file chosen in the Load Image node that is nearest upstream.
+ * The picture of the node nearest upstream that has one before it has run.
  *
  * @param {GraphNode} node
  * @param {any} rootGraph
- * @returns {string | null} as the widget has it, such as "folder/name.png [input]"
+ * @returns {string | null} its path on the server
  */
-export function upstreamImage(node, rootGraph) {
+export function upstreamPicture(node, rootGraph) {
   const open = sourcesOf(node, rootGraph, isPicture(node) ? "IMAGE" : null);
   const seen = new Set();
   for (let one = open.shift(); one && seen.size < FARTHEST; one = open.shift()) {
     if (seen.has(one)) continue;
     seen.add(one);
-    const file = imageFileOf(one);
-    if (file) return file;
+    const path = pictureOf(one);
+    if (path) return path;
     open.push(...sourcesOf(one, rootGraph, null));
   }
   return null;
@@ -34,10 +38,13 @@ function isPicture(node) {
 }
 
 /** @param {GraphNode} node */
-function imageFileOf(node) {
-  if (!/LoadImage/.test(node.comfyClass ?? node.type ?? "") || node.mode === 4) return null;
+function pictureOf(node) {
+  const type = node.comfyClass ?? node.type ?? "";
+  if (node.mode === BYPASSED) return null;
+  if (type === "PhysAnimator_ExampleIllustration") return EXAMPLE;
+  if (!/LoadImage/.test(type)) return null;
   const value = node.widgets?.find((/** @type {any} */ widget) => widget.name === "image")?.value;
-  return typeof value === "string" && value ? value : null;
+  return typeof value === "string" && value ? `/view?${viewQuery(value)}` : null;
 }
 
 /**
@@ -90,7 +97,7 @@ export function holderOf(subgraph, rootGraph) {
  *
  * @param {string} file  as a Load Image widget has it
  */
-export function viewQuery(file) {
+function viewQuery(file) {
   const [, path, type] = file.match(/^(.*?)(?: \[(input|output|temp)\])?$/) ?? [file, file];
   const cut = path.lastIndexOf("/");
   return new URLSearchParams({ filename: path.slice(cut + 1), subfolder: cut < 0 ? "" : path.slice(0, cut), type: type ?? "input" });

@@ -65,22 +65,39 @@ export const STYLE = `
 .physanimator-slider { flex: 1; min-width: 40px; margin: 0; accent-color: var(--physanimator-accent); }
 .physanimator-readout { min-width: 84px; text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .physanimator-editor input.physanimator-length { width: 48px; }
-.physanimator-lanes { position: relative; height: 40px; margin: 0 6px 4px; overflow-y: auto; scrollbar-width: thin; }
-.physanimator-lane { position: relative; height: 8px; margin-top: 1px; border-radius: 2px; background: rgba(128, 128, 128, 0.16); cursor: pointer; }
+.physanimator-lanes { position: relative; height: 46px; margin: 0 6px 4px; overflow-y: auto; scrollbar-width: thin; }
+.physanimator-lane { position: relative; height: 10px; margin-top: 1px; border-radius: 2px; background: rgba(128, 128, 128, 0.16); cursor: pointer; }
 .physanimator-lane[data-selected="true"] { outline: 1px solid var(--physanimator-text); outline-offset: -1px; }
 .physanimator-span { position: absolute; inset: 2px auto 2px 0; border-radius: 2px; background: var(--physanimator-colour); opacity: 0.75; }
 .physanimator-tick { position: absolute; inset: 0 auto 0 0; width: 2px; background: var(--physanimator-colour); }
+.physanimator-edge { position: absolute; top: -1px; bottom: -1px; width: 9px; margin-left: -4px; cursor: ew-resize; touch-action: none; }
+.physanimator-edge[data-edge="start"] { margin-left: 0; }
+.physanimator-edge[data-edge="end"] { margin-left: -9px; }
+.physanimator-edge::before { content: ""; position: absolute; inset: 0 0 0 auto; width: 3px; border-radius: 1px; background: var(--physanimator-text); opacity: 0; }
+.physanimator-edge[data-edge="start"]::before { inset: 0 auto 0 0; }
+.physanimator-lane:hover .physanimator-edge::before, .physanimator-lane[data-selected="true"] .physanimator-edge::before { opacity: 0.9; }
 .physanimator-now { position: absolute; inset: 0 auto 0 calc(var(--physanimator-now, 0) * 100%); width: 1px; background: var(--physanimator-text); pointer-events: none; }
 .physanimator-dialog { width: 100vw; height: 100vh; max-width: none; max-height: none; margin: 0; padding: 10px; border: 0; background: rgba(0, 0, 0, 0.7); }
 .physanimator-dialog .physanimator-frame { grid-template-columns: minmax(0, 1fr) 252px; }
 .physanimator-dialog .physanimator-frame[data-panel="false"] { grid-template-columns: minmax(0, 1fr) 0; }
+.physanimator-status { position: absolute; left: 6px; top: 6px; max-width: calc(100% - 12px); padding: 2px 7px; border-radius: 5px;
+  color: #fff; background: rgba(16, 18, 24, 0.62); font-size: 11px; font-variant-numeric: tabular-nums; pointer-events: none; }
+.physanimator-status:empty { display: none; }
+.physanimator-empty { padding: 6px 2px; color: var(--physanimator-dim); }
+.physanimator-dialog .physanimator-frame { font-size: 13px; }
+.physanimator-dialog :is(.physanimator-toolbar, .physanimator-bar) button { min-width: 36px; height: 36px; }
+.physanimator-dialog :is(.physanimator-toolbar, .physanimator-bar) svg { width: 22px; height: 22px; }
 .physanimator-dialog .physanimator-lanes { height: 120px; }
-.physanimator-dialog .physanimator-lane { height: 11px; }
+.physanimator-dialog .physanimator-lane { height: 14px; }
 @container (max-width: 519px) {
   .physanimator-frame, .physanimator-frame[data-panel="false"] {
     grid-template: "toolbar" auto "stage" minmax(120px, 1fr) "inspector" auto "timeline" auto / minmax(0, 1fr);
   }
   .physanimator-inspector { max-height: 120px; border-left: 0; border-top: 1px solid var(--physanimator-rim); columns: 2; }
 }
-@media (pointer: coarse) { .physanimator-editor button { min-width: 34px; height: 34px; } }
+@media (pointer: coarse) {
+  .physanimator-editor button { min-width: 34px; height: 34px; }
+  .physanimator-editor .physanimator-lane { height: 20px; }
+  .physanimator-edge { width: 20px; }
+}
 `;

@@ -3,6 +3,7 @@
  *
  * @typedef {import("../scene/document.js").SceneDocument} SceneDocument
  * @typedef {import("../scene/document.js").Reference} Reference
+ * @typedef {import("../scene/document.js").Item} Item
  * @typedef {import("../preview/playback.js").Playback} Playback
  *
  * @typedef {object} TimelineListener
@@ -11,11 +12,12 @@
  * @property {(frame: number) => void} seek
  * @property {(frames: number) => void} length
  * @property {(reference: Reference) => void} select
+ * @property {(reference: Reference, item: Item, done: boolean) => void} retime  an item acts at other times
  */
 
 import { allItems } from "../scene/document.js";
 import { titleOf } from "../scene/items.js";
-import { departures, spansOf } from "../scene/timing.js";
+import { departures, edgesOf, spansOf, withEdge } from "../scene/timing.js";
 import { colourOf } from "../stage/colours.js";
 import { element } from "./elements.js";
 import { icon } from "./icons.js";
@@ -36,6 +38,49 @@ export class Timeline {
     const bar = element("div", { className: "physanimator-bar" }, [this.play, this.loop, this.slider, this.readout, this.length]);
     this.root = element("div", { className: "physanimator-timeline" }, [bar, this.lanes]);
     this.shown = "";
+    this.duration = 1;
+    /** @type {{reference: Reference, item: Item, edge: import("../scene/timing.js").Edge, changed: Item} | null} */
+    this.dragged = null;
+    this.#listen();
+  }
+
+  /** The lanes listen, because each lane is made anew while its item changes. */
+  #listen() {
+    this.lanes.addEventListener("pointermove", (/** @type {PointerEvent} */ event) => this.#drag(event));
+    this.lanes.addEventListener("pointerup", () => this.#drop(true));
+    this.lanes.addEventListener("pointercancel", () => this.#drop(false));
+  }
+
+  /**
+   * @param {PointerEvent} event
+   * @param {Reference} reference
+   * @param {Item} item
+   * @param {import("../scene/timing.js").Edge} edge
+   */
+  #grasp(event, reference, item, edge) {
+    if (event.button !== 0) return;
+    event.preventDefault();
+    this.lanes.setPointerCapture(event.pointerId);
+    this.dragged = { reference, item, edge, changed: item };
+    this.listener.select(reference);
+  }
+
+  /** @param {PointerEvent} event */
+  #drag(event) {
+    const { dragged } = this;
+    if (!dragged) return;
+    const box = this.lanes.getBoundingClientRect();
+    const time = ((event.clientX - box.left) / box.width) * this.duration;
+    dragged.changed = withEdge(dragged.reference, dragged.item, dragged.edge, time, this.duration);
+    this.listener.retime(dragged.reference, dragged.changed, false);
+  }
+
+  /** @param {boolean} keep */
+  #drop(keep) {
+    const { dragged } = this;
+    this.dragged = null;
+    if (!dragged || dragged.changed === dragged.item) return;
+    this.listener.retime(dragged.reference, keep ? dragged.changed : dragged.item, keep);
   }
 
   #setLength() {
@@ -68,6 +113,7 @@ export class Timeline {
    * @param {number} duration  [s]
    */
   showItems(document, selection, duration) {
+    this.duration = duration;
     const items = allItems(document).filter(({ reference }) => reference.list !== "query_points");
     const lanes = items.slice(0, MOST_LANES).map(({ reference, item }) => {
       const lane = element("div", {
@@ -79,10 +125,18 @@ export class Timeline {
       lane.style.setProperty("--physanimator-colour", colourOf(reference.list, item));
       const spans = spansOf(reference, item, duration).map(([from, to]) => this.#piece("physanimator-span", from, to, duration));
       const ticks = reference.list === "strokes" ? departures(item, duration).slice(0, 200) : [];
-      lane.append(...spans, ...ticks.map((time) => this.#piece("physanimator-tick", time, time, duration)));
+      const edges = edgesOf(reference, item, duration).map(([edge, time]) => {
+        const grip = this.#piece("physanimator-edge", time, time, duration);
+        grip.dataset.edge = edge;
+        grip.title = `${titleOf(reference, item)}: drag its ${edge}`;
+        grip.addEventListener("pointerdown", (/** @type {PointerEvent} */ event) => this.#grasp(event, reference, item, edge));
+        return grip;
+      });
+      lane.append(...spans, ...ticks.map((time) => this.#piece("physanimator-tick", time, time, duration)), ...edges);
       return lane;
     });
-    this.lanes.replaceChildren(...lanes, element("div", { className: "physanimator-now" }));
+    const empty = lanes.length ? [] : [element("div", { className: "physanimator-empty" }, ["What you draw appears here, with the times at which it acts."])];
+    this.lanes.replaceChildren(...lanes, ...empty, element("div", { className: "physanimator-now" }));
   }
 
   /**

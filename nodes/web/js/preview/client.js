@@ -44,6 +44,14 @@ export class PreviewClient {
     /** @type {any} */
     this.timer = 0;
     this.asked = -Infinity;
+    this.warm = false;
+  }
+
+  /** Let the server get its solver ready, once; a server that cannot simply takes longer later. */
+  warmUp() {
+    if (this.warm) return;
+    this.warm = true;
+    this.fetch("/physanimator/warm-up", { method: "POST" }).catch(() => null);
   }
 
   /**
@@ -55,9 +63,10 @@ export class PreviewClient {
     this.cancel();
     // A single change is shown at once; only where one follows the other is the last one waited for.
     const now = performance.now();
-    const wait = now - this.asked < PAUSE ? this.delay : 0;
+    const soon = now - this.asked < PAUSE;
     this.asked = now;
-    this.timer = setTimeout(() => this.#start(key, scene, frames), wait);
+    if (soon) this.timer = setTimeout(() => this.#start(key, scene, frames), this.delay);
+    else this.#start(key, scene, frames);
   }
 
   cancel() {

@@ -19,13 +19,19 @@ export class Playback {
     this.frameRate = 24;
   }
 
-  /** @param {Header} header  of a new motion; it begins where the old one stood still or from the start */
-  begin(header) {
+  /**
+   * @param {Header} header  of a new motion; it begins where the old one stood still or from the start
+   * @param {number} now  [ms]
+   */
+  begin(header, now) {
     this.header = header;
     this.frames = [];
     this.frameRate = header.frame_rate;
     this.duration = header.frames;
-    if (this.playing) this.position = 0;
+    if (!this.playing) return;
+    // The drawing itself was on the screen until now; what comes next moves.
+    this.position = 1;
+    this.moment = now;
   }
 
   clear() {

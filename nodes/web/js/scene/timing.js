@@ -9,6 +9,8 @@
 import { lengthOf } from "./geometry.js";
 
 const MOST_SPANS = 100;
+/** Time between the edges of an item [s]. */
+const SHORTEST = 0.05;
 
 /**
  * The times in which an item acts.
@@ -37,6 +39,66 @@ export function departures(stroke, duration) {
     for (let k = 0; from + k * interval < to - 1e-9 && times.length < 1000; k++) times.push(from + k * interval);
   }
   return times;
+}
+
+/** @typedef {"start" | "end"} Edge */
+
+/**
+ * The times at which an item begins and ceases to act, where they can be changed.
+ *
+ * @param {Reference} reference
+ * @param {Item} item
+ * @param {number} duration  of the preview [s]
+ * @returns {[Edge, number][]}
+ */
+export function edgesOf(reference, item, duration) {
+  const [from, to] = reference.list === "strokes" ? [item.start ?? 0, item.end ?? duration] : keyedTimes(reference, item);
+  if (from === Infinity) return [];
+  /** @type {[Edge, number][]} */
+  const edges = [["start", from], ["end", Math.min(to, duration)]];
+  return edges.filter(([, time]) => time <= duration);
+}
+
+/**
+ * The item with one of its edges at another time. Dragged to where the preview ends, a stroke goes on without end; of a
+ * motion with keys all of them spread between the edges.
+ *
+ * @param {Reference} reference
+ * @param {Item} item
+ * @param {Edge} edge
+ * @param {number} time  [s]
+ * @param {number} duration  [s]
+ * @returns {Item}
+ */
+export function withEdge(reference, item, edge, time, duration) {
+  const strokes = reference.list === "strokes";
+  const [from, to] = strokes ? [item.start ?? 0, item.end ?? duration] : keyedTimes(reference, item);
+  const there = edge === "start" ? hundredth(Math.min(Math.max(time, 0), to - SHORTEST)) : hundredth(Math.max(time, from + SHORTEST));
+  if (strokes && edge === "start") return { ...item, start: Math.max(there, 0) };
+  if (strokes) return time < duration ? { ...item, end: there } : withoutEnd(item);
+  const [first, last] = edge === "start" ? [Math.max(there, 0), to] : [from, there];
+  const times = item.motion.times.map((/** @type {number} */ one) => first + ((one - from) / (to - from)) * (last - first));
+  return { ...item, motion: { ...item.motion, times: times.map((/** @type {number} */ one) => Math.round(one * 1e4) / 1e4) } };
+}
+
+/** @param {Item} stroke */
+function withoutEnd({ end, ...stroke }) {
+  return stroke;
+}
+
+/**
+ * @param {Reference} reference
+ * @param {Item} item
+ * @returns {Span} of no length where no keys can be moved
+ */
+function keyedTimes(reference, item) {
+  const times = reference.list === "rig_points" ? item.motion?.times : null;
+  return times?.length > 1 ? [times[0], times.at(-1)] : [Infinity, Infinity];
+}
+
+/** @param {number} time */
+function hundredth(time) {
+  return Math.round(time * 100) / 100;
 }
 
 /**

@@ -23,6 +23,8 @@ import { toStage } from "../scene/geometry.js";
 import { COLOURS } from "./colours.js";
 import { ItemPainter, tintedMask } from "./item_painter.js";
 
+/** Particles up to which each shows how far it reaches: of more, the circles hide the picture and take long to draw. */
+const MOST_REACHES = 40;
 const PARTICLES = [COLOURS.wind, COLOURS.repel, COLOURS.attract];
 
 /**
@@ -103,13 +105,16 @@ function wireframe(context, { mesh, frame, unit, view }) {
  */
 function particles(items, { frame, unit, view }) {
   const data = frame?.particles ?? [];
+  const reachShown = data.length <= 4 * MOST_REACHES;
   for (let i = 0; i + 3 < data.length; i += 4) {
     const colour = PARTICLES[data[i + 3]] ?? COLOURS.wind;
     const at = items.at([data[i] * unit, data[i + 1] * unit]);
     const { context } = items;
-    context.globalAlpha = 0.5;
-    items.painter.circle(at, data[i + 2] * unit * view.scale, colour, { width: 0.75 });
-    context.globalAlpha = 1;
+    if (reachShown) {
+      context.globalAlpha = 0.5;
+      items.painter.circle(at, data[i + 2] * unit * view.scale, colour, { width: 0.75 });
+      context.globalAlpha = 1;
+    }
     items.painter.dot(at, 4, colour);
   }
 }

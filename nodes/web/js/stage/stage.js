@@ -5,6 +5,7 @@
  * @typedef {import("../scene/geometry.js").View} View
  */
 
+import { mark, PEN_UP } from "../preview/marks.js";
 import { fittingView, toPicture, zoomed } from "../scene/geometry.js";
 
 const MARGIN = 10;
@@ -187,6 +188,7 @@ export class Stage {
     if (!this.touching.size) this.panning = false;
     if (event.pointerId !== this.active) return;
     this.active = -1;
+    mark(PEN_UP, event.timeStamp);
     this.listener.up(toPicture(this.view, at), event);
   }
 
