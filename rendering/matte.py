@@ -110,8 +110,8 @@ def _solved(image: FloatImage, alpha: FloatImage, unknown: Mask, guess: FloatIma
         return alpha
     window = window_around(unknown, margin=2)
     solved = alpha.copy()
-    parts = (np.ascontiguousarray(values[window]) for values in (image, alpha, unknown, guess))
-    solved[window] = solve_alpha(*parts, trust=_TRUST_IN_MASK)
+    crops = image[window], alpha[window], unknown[window], guess[window]
+    solved[window] = solve_alpha(*crops, trust=_TRUST_IN_MASK)
     return solved
 
 
