@@ -21,6 +21,8 @@ _FAINT = 0.02
 # The outermost pixels of a mask are above this in the mean along a hard edge, and near one half along a soft one.
 _HARD = 0.75
 _SQUARE = np.ones((3, 3), np.uint8)
+# An outline beside this share of a mask's whole edge is none by chance.
+_OUTLINED = 0.45
 _WIDE = np.ones((7, 7), np.uint8)
 _CROSS = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]], np.uint8)
 # An outline is told from the background's own texture by its mean along the edge, over about this length [px].
@@ -41,7 +43,8 @@ def with_outline(image: FloatImage, mask: FloatImage, *, reach: int = 5) -> Mask
     """Where a part is, its drawn outline included.
 
     An outline is what runs along a hard edge of the mask, hangs together with it and is darker than what lies
-    beyond ``reach``; a mask whose edge is soft has been drawn or cut with care, and ends where the part does.
+    beyond ``reach``; a mask whose edge is soft has been drawn or cut with care, and ends where the part does, unless
+    such an outline runs along about half of it: then the mask has been made smaller or blurred afterwards.
     The pixels are compared one pixel of distance after the other, in the mean along the edge, so that the
     background's own texture cancels; the difference must exceed how much those beyond differ among themselves.
 
@@ -62,12 +65,15 @@ def with_outline(image: FloatImage, mask: FloatImage, *, reach: int = 5) -> Mask
     beyond = (distance > reach) & (distance <= 2 * reach)
     reference, known = _mean_near(lightness, beyond)
     spread = np.sqrt(np.maximum(_mean_near(lightness * lightness, beyond)[0] - reference * reference, 0))
-    known &= _hard(mask[window], inside)
     outline = np.zeros_like(inside)
     for step in range(reach):
         ring = (distance > step) & (distance <= step + 1)
         outline |= ring & known & (_mean_near(lightness, ring)[0] < reference - spread - _TOLERANCE)
-    support[window] = _joined(inside, outline, reach)
+    grown = _joined(inside, outline, reach)
+    rim = _grown(inside, _SQUARE) & ~inside
+    if (grown & rim).sum() < _OUTLINED * rim.sum():
+        grown = _joined(inside, outline & _hard(mask[window], inside), reach)
+    support[window] = grown
     return support
 
 

@@ -11,11 +11,11 @@ __all__ = ["smooth_fill", "spread_colours"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
-# Behind a part, colours of all its surroundings may show, not only those of the nearest edge.
-_FILL_POWER = 1.5
+# What a part bares first lies beside its edge, and looks like what is next to it.
+_FILL_POWER = 5.0
 _LARGEST_WINDOW = 600_000
 # How deep in a hole the harmonic fill has taken over [px].
-_DEPTH = 30.0
+_DEPTH = 120.0
 _SWEEPS = 30
 _COARSEST = 8
 _MEAN_OF_FOUR = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]], dtype=np.float32) / 4

@@ -4,9 +4,11 @@ The figure's sprite is cut in two along the mask. What moves is every pixel of t
 that are left between the mask and the background, which are its outline and its soft rim. What is cut off stays where
 it is. Both are laid over the true background.
 
-Nobody drew what is behind the part *within* the figure (the sleeve under the hair): the layers do not know it. A
-bared pixel that lies nearer to the still rest of the figure than to the background is therefore not judged, in no
-frame in which it is bared. All others show the background.
+Two things the layers do not know, and there nothing is judged. Nobody drew what is behind the part *within* the figure
+(the sleeve under the hair): a bared pixel that lies nearer to the still rest of the figure than to the background is
+left out while it is bared; all others show the background. And to whom the drawn line between the part and the still
+rest belongs is not said: the figure's pixels next to the mask are left out, where they were and where they would be
+had they moved along, unless the part covers them.
 """
 
 from __future__ import annotations
@@ -56,9 +58,11 @@ class TrueFrames:
         alpha = sample.sprite[..., 3] * share
         still = np.where(share < 1, sample.sprite[..., 3], np.float32(0))[..., None]
         self.behind = sample.sprite[..., :3] * still + sample.background * (1 - still)
-        self.unknown = (alpha > 0) & _nearer_to_figure(sample.sprite[..., 3], share)
+        seam = _beside((share > 0.5) & (alpha > 0)) & (share < 1) & (sample.sprite[..., 3] > 0)
+        self.unknown = seam | ((alpha > 0) & _nearer_to_figure(sample.sprite[..., 3], share))
         self.rest_alpha = alpha
-        self._texture = _enlarged(np.dstack([sample.sprite[..., :3] * alpha[..., None], alpha]))
+        layers = sample.sprite[..., :3] * alpha[..., None], alpha, seam.astype(np.float32)
+        self._texture = _enlarged(np.dstack(layers))
         mesh = motion.bodies[0].mesh
         self._in_mesh = _deep_inside(mesh.vertices, mesh.triangles, self._texture.shape)
 
@@ -67,23 +71,24 @@ class TrueFrames:
         height, width = self.rest_alpha.shape
         vertices = self.motion.positions[t].astype(np.float64)
         box = bounding_box(vertices, margin=_RIM + 3).clipped(width, height)
-        part = np.zeros((height, width, 4), dtype=np.float32)
+        part = np.zeros((height, width, 5), dtype=np.float32)
         fine = PixelBox(*(SCALE * side for side in (box.left, box.top, box.right, box.bottom)))
         drawn = self._drawn(vertices * SCALE, fine)
         part[box.slices] = cv2.resize(drawn, (box.width, box.height), interpolation=cv2.INTER_AREA)
         np.clip(part, 0, 1, out=part)
         alpha = part[..., 3]
-        judged = ~(self.unknown & (alpha < 0.99))
+        judged = ~((self.unknown | (part[..., 4] > 0.01)) & (alpha < 0.99))
         picture = np.clip(part[..., :3] + (1 - alpha[..., None]) * self.behind, 0, 1)
         return TrueFrame(picture, alpha, judged, (self.rest_alpha > 0.5) & (alpha < 0.5) & judged)
 
     def _drawn(self, vertices: np.ndarray, box: PixelBox) -> np.ndarray:
-        """The part at high resolution: premultiplied RGB and alpha, shape [box height, box width, 4]."""
+        """The part at high resolution: premultiplied RGB, alpha and seam, shape [box height, box width, 5]."""
         mesh = self.motion.bodies[0].mesh
         shift, inside, near = inverse_displacement(vertices, mesh.vertices * SCALE, mesh.triangles, box, _RIM * SCALE)
         x = shift[0] + np.arange(box.left, box.right, dtype=np.float32)
         y = shift[1] + np.arange(box.top, box.bottom, dtype=np.float32)[:, None]
-        drawn = cv2.remap(self._texture, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
+        both = self._texture[..., :4], self._texture[..., 4]
+        drawn = np.dstack([cv2.remap(each, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE) for each in both])
         # The rim beyond the mesh: only what lies beyond it in the drawing too, so that no strand is drawn twice.
         deep = cv2.remap(self._in_mesh, x, y, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE) > 0
         drawn[~(inside | (near & ~deep))] = 0
@@ -119,9 +124,14 @@ def moving_share(alpha: np.ndarray, mask: np.ndarray) -> np.ndarray:
     # Beyond the picture's border the figure goes on.
     thick = cv2.erode(rest.astype(np.uint8), disc)
     thick = cv2.dilate(thick, disc) > 0
-    around = cv2.dilate((mask >= 0.5).astype(np.uint8), disc) > 0
-    rim = around & ~thick & (alpha > 0)
+    rim = _beside(mask >= 0.5) & ~thick & (alpha > 0)
     return np.where(rim, np.float32(1), mask).astype(np.float32)
+
+
+def _beside(part: np.ndarray) -> np.ndarray:
+    """A part and the pixels where an outline of it may be, shape [h, w]."""
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * _OUTLINE + 1,) * 2)
+    return cv2.dilate(part.astype(np.uint8), disc) > 0
 
 
 def _nearer_to_figure(alpha: np.ndarray, share: np.ndarray) -> np.ndarray:

@@ -21,7 +21,7 @@ __all__ = ["Peers"]
 _RIM = 6
 _RADIUS = 5
 # An outline that a mask cuts off would be smeared into what is filled: holes are this much larger [px].
-_GROWN = 2
+_GROWN = 1
 
 
 class Peers:
@@ -34,7 +34,7 @@ class Peers:
     def __init__(self, picture: np.ndarray, mask: np.ndarray, motion: Motion) -> None:
         self.picture, self.mask, self.motion = picture.astype(np.float32) / np.float32(255), mask, motion
         self._flow = FlowSequence(motion)
-        self._part = cv2.dilate((mask > 0.02).astype(np.uint8), np.ones((2 * _GROWN + 1,) * 2, np.uint8)) > 0
+        self._part = _grown(mask > 0.02)
         self._soft = cv2.GaussianBlur(self._part.astype(np.float32), (0, 0), 1.0)
         self.methods: dict[str, Callable[[int], np.ndarray]] = {
             "backward_warp": self._backward_warp,
@@ -56,20 +56,20 @@ class Peers:
         return colour * alpha + self.picture * (1 - alpha)
 
     def _forward_filled(self, t: int, method: int) -> np.ndarray:
-        """Forward warp, and what the part has left is filled from this frame's other pixels."""
+        """Forward warp, and what the part has left is filled from what surrounds it in this frame."""
         colour, alpha = self._splatted(t)
-        frame = colour * alpha + self.picture * (1 - alpha)
-        hole = self._part & (alpha[..., 0] < 0.5)
-        return colour * alpha + _filled(frame, hole, method) * (1 - alpha)
+        return colour * alpha + self._inpainted(alpha, method) * (1 - alpha)
 
     def _soft_filled(self, t: int, method: int) -> np.ndarray:
         """The part looked up with soft edges over a frame filled and softly blended in (the paper's ablation)."""
         colour, alpha = self._looked_up(t)
-        frame = colour * alpha + self.picture * (1 - alpha)
-        hole = self._part & (alpha[..., 0] < 0.5)
         soft = self._soft[..., None]
-        beneath = _filled(frame, hole, method) * soft + self.picture * (1 - soft)
+        beneath = self._inpainted(alpha, method) * soft + self.picture * (1 - soft)
         return colour * alpha + beneath * (1 - alpha)
+
+    def _inpainted(self, alpha: np.ndarray, method: int) -> np.ndarray:
+        """What is behind the part in one frame. Colours of the moved part itself must not run into it."""
+        return _filled(self.picture, self._part | (_grown(alpha[..., 0] > 0.02)), method)
 
     def _looked_up(self, t: int) -> tuple[np.ndarray, np.ndarray]:
         """Colour and soft mask of the part, bicubic, shapes [h, w, 3] and [h, w, 1]."""
@@ -96,6 +96,10 @@ class Peers:
         )
         colour = np.stack(sums, axis=-1) / np.maximum(total, 1e-6)[..., None]
         return colour.astype(np.float32), np.clip(total, 0, 1).astype(np.float32)[..., None]
+
+
+def _grown(part: np.ndarray) -> np.ndarray:
+    return cv2.dilate(part.astype(np.uint8), np.ones((2 * _GROWN + 1,) * 2, np.uint8)) > 0
 
 
 def _extended(flow: np.ndarray, inside: np.ndarray, wanted: np.ndarray) -> np.ndarray:
