@@ -64,7 +64,9 @@ def load_sample(folder: Path, *, mask_name: str = "mask.png") -> LayeredSample:
     """
     missing = [name for name in FILES if not (folder / name).is_file()]
     if missing:
-        raise InvalidInputError(f"sample {folder} must hold {', '.join(FILES)} and a mask. Missing: {', '.join(missing)}")
+        raise InvalidInputError(
+            f"sample {folder} must hold {', '.join(FILES)} and a mask. Missing: {', '.join(missing)}"
+        )
     picture, background = (load_image(folder / name) for name in (FILES[0], FILES[2]))
     height, width = picture.shape[:2]
     mask = load_mask(_mask_file(folder, mask_name), width=width, height=height)
@@ -75,7 +77,9 @@ def load_sample(folder: Path, *, mask_name: str = "mask.png") -> LayeredSample:
     for name, layer in (("sprite.png", sprite), ("background.png", background)):
         if layer.shape[:2] != (height, width):
             got = f"{layer.shape[1]} x {layer.shape[0]} px"
-            raise InvalidInputError(f"{folder / name} must have the composite's size, {width} x {height} px. Got: {got}")
+            raise InvalidInputError(
+                f"{folder / name} must have the composite's size, {width} x {height} px. Got: {got}"
+            )
     as_float = [layer.astype(np.float32) / np.float32(255) for layer in (sprite, background)]
     return LayeredSample(folder.name, picture, as_float[0], as_float[1], mask)
 
