@@ -35,7 +35,14 @@ _LEAST_CONTRAST = 0.1
 # Up to the first difference a soft edge is trusted, from the second on the picture is.
 _TRUST = 0.1
 _DISBELIEF = 0.4
+# The colour of an outline is looked for this far [px], among colours whose direction from the background's is as alike
+# as this cosine; what comes this near to it is the line's alone.
+_LINE_REACH = 2
+_ALIKE = 0.9
+_FULL = 0.9
 _SPECK = 20
+# A picture's colours are rounded to 255 levels; a little less than half of one, so that they round to the same again.
+_ROUNDING = 0.49 / 255
 _LUMINANCE = np.array([0.299, 0.587, 0.114], dtype=np.float32)
 
 
@@ -80,10 +87,10 @@ def with_outline(image: FloatImage, mask: FloatImage, *, reach: int = 5) -> Mask
 def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: Mask) -> FloatImage:
     """Share of each pixel that belongs to a part.
 
-    At hard edges of the mask, and on an outline found outside it, the share is measured from the pixel's colour I,
-    the background's B and the part's F from two pixels further inside: |I - B| / |F - B| within the mask, where any
-    other colour than the background's is the part's, and (I - B)(F - B) / |F - B|^2 beside it. A soft edge is taken
-    as it is, unless the share is much smaller or larger.
+    At hard edges of the mask the share is measured from the pixel's colour I, the background's B and the part's F from
+    two pixels further inside: |I - B| / |F - B| within the mask, where any other colour than the background's is the
+    part's, and (I - B)(F - B) / |F - B|^2 beside it. A soft edge is taken as it is, unless the share is much smaller or
+    larger. On an outline found outside the mask F is the line's own colour, where it is fullest.
 
     Args:
         image: RGB in 0 to 1, shape [h, w, 3].
@@ -99,9 +106,10 @@ def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: 
     solid = alpha > _SOLID
     outside = ~support
     rim = outside & _grown(solid, _CROSS) & _hard(alpha, support)
-    edge = solid & _grown(outside, _CROSS) & _hard(alpha, support)
-    soft = support & ~edge & _grown(outside, _WIDE) & _grown(solid, _WIDE) & ~_hard(alpha, support)
+    edge = solid & _grown(outside, _CROSS) & _hard(alpha, support) & ~grown
+    soft = support & ~edge & ~grown & _grown(outside, _WIDE) & _grown(solid, _WIDE) & ~_hard(alpha, support)
     unsure = rim | edge | soft
+    alpha[grown] = _share_of_line(image, plate, support, grown)
     if not unsure.any():
         return alpha
     way, difference = (_inner_colour(image, support) - plate)[unsure], (image - plate)[unsure]
@@ -122,8 +130,9 @@ def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: 
 def fitting_plate(image: FloatImage, plate: FloatImage, alpha: FloatImage) -> FloatImage:
     """The plate changed as little as needed for a real colour over it to give the picture.
 
-    I = alpha F + (1 - alpha) B with F in 0 to 1 needs (I - alpha) / (1 - alpha) <= B <= I / (1 - alpha). Were alpha
-    raised instead, slight errors of the plate would make light or dark fringes that move with the part.
+    I = alpha F + (1 - alpha) B with F in 0 to 1 needs (I - alpha) / (1 - alpha) <= B <= I / (1 - alpha), where I is
+    known to half of one of 255 levels. Were alpha raised instead, slight errors of the plate would make light or dark
+    fringes that move with the part.
 
     Args:
         image: I, RGB in 0 to 1, shape [h, w, 3].
@@ -136,7 +145,8 @@ def fitting_plate(image: FloatImage, plate: FloatImage, alpha: FloatImage) -> Fl
     fitting = np.where(alpha[..., None] > 0, plate, image)
     at = np.nonzero((alpha > 0) & (alpha < 1))
     share = alpha[at][:, None]
-    lowest, highest = (image[at] - share) / (1 - share), image[at] / (1 - share)
+    lowest = (image[at] - _ROUNDING - share) / (1 - share)
+    highest = (image[at] + _ROUNDING) / (1 - share)
     fitting[at] = np.clip(np.clip(plate[at], lowest, highest), 0, 1)
     return fitting
 
@@ -187,6 +197,26 @@ def _inner_colour(image: FloatImage, support: Mask) -> FloatImage:
     colours = np.zeros((int(labels.max()) + 1, 3), dtype=np.float32)
     colours[labels[core]] = image[core]
     return colours[labels]
+
+
+def _share_of_line(image: FloatImage, plate: FloatImage, support: Mask, line: Mask) -> FloatImage:
+    """Share of an outline in each of its pixels, shape [n]: |I - B| / |F - B|.
+
+    F is the colour near by that lies furthest from the background in the direction of the pixel's own.
+    """
+    row, column = np.nonzero(line)
+    behind = plate[row, column]
+    difference = image[row, column] - behind
+    length = np.linalg.norm(difference, axis=1)
+    fullest = np.maximum(length, np.float32(_LEAST_CONTRAST))
+    for down in range(-_LINE_REACH, _LINE_REACH + 1):
+        for right in range(-_LINE_REACH, _LINE_REACH + 1):
+            y, x = np.clip(row + down, 0, line.shape[0] - 1), np.clip(column + right, 0, line.shape[1] - 1)
+            way = image[y, x] - behind
+            far = np.linalg.norm(way, axis=1)
+            alike = np.einsum("ij,ij->i", difference, way) > _ALIKE * length * far
+            fullest = np.where(support[y, x] & alike, np.maximum(fullest, far), fullest)
+    return np.asarray(np.minimum(length / (_FULL * fullest), 1), dtype=np.float32)
 
 
 def _grown(mask: Mask, shape: NDArray[np.uint8]) -> Mask:

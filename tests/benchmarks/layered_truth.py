@@ -112,7 +112,8 @@ def inverse_displacement(
     """
     shift = interpolate(vertices, triangles, rest - vertices, box)
     inside = ~np.isnan(shift[0])
-    shift = shift[:, *nearest_pixel(inside)] if inside.any() else np.zeros_like(shift)
+    row, column = nearest_pixel(inside) if inside.any() else np.zeros((2, *inside.shape), dtype=np.int64)
+    shift = np.nan_to_num(shift[:, row, column])
     near = cv2.distanceTransform((~inside).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5) <= reach
     return np.ascontiguousarray(shift), inside, near
 
