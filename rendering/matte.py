@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["fitting_plate", "soft_alpha", "window_around", "with_outline"]
+__all__ = ["fitting_plate", "mixed_rim", "soft_alpha", "window_around", "with_outline"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -41,7 +41,7 @@ _LINE_REACH = 2
 _ALIKE = 0.9
 _FULL = 0.9
 _SPECK = 20
-# A picture's colours are rounded to 255 levels; a little less than half of one, so that they round to the same again.
+# A picture's colours are rounded to 255 levels: what stays within a little less than half of one rounds to the same.
 _ROUNDING = 0.49 / 255
 _LUMINANCE = np.array([0.299, 0.587, 0.114], dtype=np.float32)
 
@@ -82,6 +82,19 @@ def with_outline(image: FloatImage, mask: FloatImage, *, reach: int = 5) -> Mask
         grown = _joined(inside, outline & _hard(mask[window], inside), reach)
     support[window] = grown
     return support
+
+
+def mixed_rim(mask: FloatImage, support: Mask) -> Mask:
+    """Pixels just outside a part that may show something of it, shape [h, w].
+
+    A hard edge cuts through pixels that show both sides; where an outline was found, it has been included already.
+
+    Args:
+        mask: soft mask in 0 to 1, shape [h, w].
+        support: where the part is, from ``with_outline``; shape [h, w].
+    """
+    inside = mask > _FAINT
+    return _grown(inside, _SQUARE) & ~support & _hard(mask, inside)
 
 
 def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: Mask) -> FloatImage:
@@ -145,8 +158,9 @@ def fitting_plate(image: FloatImage, plate: FloatImage, alpha: FloatImage) -> Fl
     fitting = np.where(alpha[..., None] > 0, plate, image)
     at = np.nonzero((alpha > 0) & (alpha < 1))
     share = alpha[at][:, None]
-    lowest = (image[at] - _ROUNDING - share) / (1 - share)
-    highest = (image[at] + _ROUNDING) / (1 - share)
+    # The plate will be rounded as well, and shows by 1 - alpha.
+    slack = np.maximum(_ROUNDING - (1 - share) * np.float32(0.5 / 255), 0)
+    lowest, highest = (image[at] - slack - share) / (1 - share), (image[at] + slack) / (1 - share)
     fitting[at] = np.clip(np.clip(plate[at], lowest, highest), 0, 1)
     return fitting
 
@@ -216,7 +230,10 @@ def _share_of_line(image: FloatImage, plate: FloatImage, support: Mask, line: Ma
             far = np.linalg.norm(way, axis=1)
             alike = np.einsum("ij,ij->i", difference, way) > _ALIKE * length * far
             fullest = np.where(support[y, x] & alike, np.maximum(fullest, far), fullest)
-    return np.asarray(np.minimum(length / (_FULL * fullest), 1), dtype=np.float32)
+    # No less than what gives a colour that exists.
+    room = np.where(difference < 0, behind, 1 - behind)
+    least = (np.abs(difference) / np.maximum(room, np.float32(1e-3))).max(axis=1)
+    return np.asarray(np.clip(np.maximum(length / (_FULL * fullest), least), 0, 1), dtype=np.float32)
 
 
 def _grown(mask: Mask, shape: NDArray[np.uint8]) -> Mask:
