@@ -21,8 +21,8 @@ FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
 _FAINT = 0.02
-# A fill of patches alone looks best; half-way to the smooth fill it errs least. The share is a compromise. Deeper in the
-# hole, patches are less and less likely to be the right ones: their share fades with this depth [px].
+# A fill of patches alone looks best; half-way to the smooth fill it errs least. The share is a compromise. Deeper in
+# the hole, patches are less and less likely to be the right ones: their share fades with this depth [px].
 _TEXTURE = 0.6
 _TEXTURE_DEPTH = 40.0
 _CONTEXT = 120

@@ -7,13 +7,17 @@ is behind it) and mask.png (the part that moves). The part moves in the automati
 flat drawing, the mask and the motion; the truth is drawn from the layers (see layered_truth.py), the scores are in
 rendering_scores.py, the peers in rendering_peers.py.
 
-Prints ``{"table": {sample: {method: {metric: _}}}, "ours_first_everywhere": _, "not_first": [...], "speed": {...}}``.
+Prints ``{"table": {sample: {method: {metric: _}}}, "ours_first_everywhere": _, "not_first": [...], "speed": {...}}``:
+speed in milliseconds a frame at 1280x720, with ``cv2.remap`` of one RGB frame in the same run as the yardstick. With
+``--large`` also the peak memory of 240 frames of 3840x2160.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import statistics
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -23,10 +27,20 @@ import cv2
 import numpy as np
 from layered_sample import load_sample, sample_folders
 from layered_truth import TrueFrames
+from physanimator.physics.automatic import automatic_scene
 from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.flow import FlowSequence
+from physanimator.physics.material import preset
+from physanimator.physics.scene import Body
+from physanimator.physics.simulation import simulate
 from physanimator.pipeline import animate
+from physanimator.rendering.composite import LayeredRenderer
+from physanimator.rendering.sketch import extract_sketch
+from physanimator.rendering.warp import warp_sketch
 from rendering_peers import Peers
 from rendering_scores import BETTER, Scores
+
+from pipeline import illustration, mesh_of_about, timed
 
 SAMPLES = Path(__file__).resolve().parents[3] / "shared" / "samples"
 
@@ -71,6 +85,34 @@ def not_first(table: Table) -> list[str]:
     return behind
 
 
+def speed(rounds: int = 20) -> dict[str, float]:
+    """Milliseconds of warp, composite and extraction at 1280x720, and as multiples of cv2.remap."""
+    image, mask = illustration()
+    motion = simulate(automatic_scene([Body(mesh_of_about(mask, 2000), preset("hair"))]), frames=25)
+    renderer, fields, sketch = LayeredRenderer(image, [mask], motion), FlowSequence(motion), extract_sketch(image)
+    rows, columns = np.mgrid[0 : image.shape[0], 0 : image.shape[1]].astype(np.float32)
+    moved = columns + 3.3 * np.sin(rows / 40), rows + 2.7 * np.cos(columns / 50)
+    stages = {
+        "remap": lambda t: cv2.remap(image, *moved, cv2.INTER_LINEAR),
+        "composite": renderer.frame,
+        "warp": lambda t: warp_sketch(sketch, fields.flow(t)),
+        "extract": lambda t: extract_sketch(image),
+    }
+    times: dict[str, list[float]] = {name: [] for name in stages}
+    for number in range(rounds + 1):
+        for name, stage in stages.items():
+            taken = timed(lambda stage=stage, number=number: stage(1 + number % 24))
+            times[name] += [taken] if number else []
+    found = {f"{name}_ms": statistics.median(values) for name, values in times.items()}
+    return found | {f"{name}_of_remap": found[f"{name}_ms"] / found["remap_ms"] for name in stages if name != "remap"}
+
+
+def large() -> dict[str, Any]:
+    """What large_clip.py measures, in a process of its own."""
+    script = Path(__file__).with_name("large_clip.py")
+    return json.loads(subprocess.run([sys.executable, str(script)], capture_output=True, check=True, text=True).stdout)
+
+
 def write_sheet(path: Path, pictures: dict[str, np.ndarray], true: Any) -> None:
     """The moved part as each method draws it, side by side, to look at."""
     left, top, width, height = cv2.boundingRect((true.alpha > 0).astype(np.uint8) | true.uncovered.astype(np.uint8))
@@ -95,6 +137,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--frames", type=int, default=48, help="length of the clip (default 48)")
     parser.add_argument("--every", type=int, default=2, help="frames from one that is measured to the next (default 2)")
     parser.add_argument("--sheet", type=Path, help="folder for pictures of all methods side by side")
+    parser.add_argument("--large", action="store_true", help="also the memory of a clip of 3840x2160")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
     return parser.parse_args()
 
@@ -109,6 +152,9 @@ def main() -> None:
         sys.exit(str(error))
     behind = not_first(table)
     result: dict[str, Any] = {"table": table, "ours_first_everywhere": not behind, "not_first": behind}
+    result["speed"] = speed()
+    if options.large:
+        result["large"] = large()
     result["total_s"] = time.perf_counter() - start
     if options.json:
         print(json.dumps(result, indent=2))
@@ -119,6 +165,9 @@ def main() -> None:
             figures = "  ".join("-" if value is None else f"{metric} {value:8.4f}" for metric, value in row.items())
             print(f"  {name:>28}  {figures}")
     print("\n".join(behind) or "ours is first everywhere")
+    print(", ".join(f"{name} {value:.2f}" for name, value in result["speed"].items()))
+    if options.large:
+        print(result["large"])
 
 
 if __name__ == "__main__":
