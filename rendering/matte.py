@@ -12,6 +12,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from .line_share import share_of_line
+
 __all__ = ["fitting_plate", "mixed_rim", "soft_alpha", "window_around", "with_outline"]
 
 FloatImage = NDArray[np.float32]
@@ -35,11 +37,6 @@ _LEAST_CONTRAST = 0.1
 # Up to the first difference a soft edge is trusted, from the second on the picture is.
 _TRUST = 0.1
 _DISBELIEF = 0.4
-# The colour of an outline is looked for this far [px], among colours whose direction from the background's is as alike
-# as this cosine; what comes this near to it is the line's alone.
-_LINE_REACH = 2
-_ALIKE = 0.9
-_FULL = 0.9
 _SPECK = 20
 # A picture's colours are rounded to 255 levels: what stays within a little less than half of one rounds to the same.
 _ROUNDING = 0.49 / 255
@@ -122,7 +119,7 @@ def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: 
     edge = solid & _grown(outside, _CROSS) & _hard(alpha, support) & ~grown
     soft = support & ~edge & ~grown & _grown(outside, _WIDE) & _grown(solid, _WIDE) & ~_hard(alpha, support)
     unsure = rim | edge | soft
-    alpha[grown] = _share_of_line(image, plate, support, grown)
+    alpha[grown] = share_of_line(image, plate, support, grown, faintest=_LEAST_CONTRAST)
     if not unsure.any():
         return alpha
     way, difference = (_inner_colour(image, support) - plate)[unsure], (image - plate)[unsure]
@@ -211,29 +208,6 @@ def _inner_colour(image: FloatImage, support: Mask) -> FloatImage:
     colours = np.zeros((int(labels.max()) + 1, 3), dtype=np.float32)
     colours[labels[core]] = image[core]
     return colours[labels]
-
-
-def _share_of_line(image: FloatImage, plate: FloatImage, support: Mask, line: Mask) -> FloatImage:
-    """Share of an outline in each of its pixels, shape [n]: |I - B| / |F - B|.
-
-    F is the colour near by that lies furthest from the background in the direction of the pixel's own.
-    """
-    row, column = np.nonzero(line)
-    behind = plate[row, column]
-    difference = image[row, column] - behind
-    length = np.linalg.norm(difference, axis=1)
-    fullest = np.maximum(length, np.float32(_LEAST_CONTRAST))
-    for down in range(-_LINE_REACH, _LINE_REACH + 1):
-        for right in range(-_LINE_REACH, _LINE_REACH + 1):
-            y, x = np.clip(row + down, 0, line.shape[0] - 1), np.clip(column + right, 0, line.shape[1] - 1)
-            way = image[y, x] - behind
-            far = np.linalg.norm(way, axis=1)
-            alike = np.einsum("ij,ij->i", difference, way) > _ALIKE * length * far
-            fullest = np.where(support[y, x] & alike, np.maximum(fullest, far), fullest)
-    # No less than what gives a colour that exists.
-    room = np.where(difference < 0, behind, 1 - behind)
-    least = (np.abs(difference) / np.maximum(room, np.float32(1e-3))).max(axis=1)
-    return np.asarray(np.clip(np.maximum(length / (_FULL * fullest), least), 0, 1), dtype=np.float32)
 
 
 def _grown(mask: Mask, shape: NDArray[np.uint8]) -> Mask:
