@@ -20,6 +20,7 @@ from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
 from .sketch_nodes import ExtractSketch, WarpSketch
 from .stroke_nodes import EnergyStroke
 from .track_nodes import Tracks
+from .video_model_nodes import FirstAndLastFrame, LineControlVideo, WarpedVideo
 from .wind_nodes import Wind
 
 __all__ = ["NODES", "PhysAnimatorExtension"]
@@ -49,6 +50,9 @@ NODES: list[type[io.ComfyNode]] = [
     Render,
     Interpolate,
     Metrics,
+    WarpedVideo,
+    LineControlVideo,
+    FirstAndLastFrame,
 ]
 
 

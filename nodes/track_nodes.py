@@ -143,7 +143,8 @@ def _preview(found: PointTracks, pictures: NDArray[np.float32] | None, fit: Fit)
     from ..rendering.track_overlay import draw_tracks, fitted
 
     scale = min(1.0, _LONGEST_PREVIEW / max(found.width, found.height))
-    width, height = (max(1, round(side * scale)) for side in (found.width, found.height))
+    # Even sides: a video of the preview can be saved.
+    width, height = (max(2, 2 * round(side * scale / 2)) for side in (found.width, found.height))
     shown, report = range(0, len(found), 2), host_progress()
     batch = picture_batch(len(shown))
     ground = np.full((height, width, 3), 0.1, dtype=np.float32)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..physics.errors import InvalidInputError
 from ..physics.masks import coverage_of, fitted
-from .matte import window_around, with_outline
+from .matte import with_outline
 from .patch_synthesis import continue_texture
+from .pixel_windows import window_around
 from .pixels import as_dtype, as_float, check_picture
 from .smooth_fill import smooth_fill
 
@@ -20,8 +22,10 @@ FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
 _FAINT = 0.02
-# A fill of patches alone looks best; half-way to the smooth fill it errs least. The share is a compromise.
-_TEXTURE = 0.5
+# A fill of patches alone looks best; half-way to the smooth fill it errs least. The share is a compromise. Deeper in
+# the hole, patches are less and less likely to be the right ones: their share fades with this depth [px].
+_TEXTURE = 0.6
+_TEXTURE_DEPTH = 40.0
 _CONTEXT = 120
 _MATCHED_PIXELS = 30_000
 
@@ -72,6 +76,8 @@ def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
     finest = max(0, int(np.ceil(np.log2(inside.sum() / _MATCHED_PIXELS) / 2)))
     scales = tuple(range(max(3, finest + 2), finest - 1, -1))
     textured = continue_texture(around, inside, smooth, matched=scales)
+    depth = cv2.distanceTransform(inside.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    share = np.float32(_TEXTURE) * np.exp(-depth / np.float32(_TEXTURE_DEPTH))
     filled = picture.copy()
-    filled[window] = smooth + np.float32(_TEXTURE) * (textured - smooth)
+    filled[window] = smooth + share[..., None] * (textured - smooth)
     return filled

@@ -103,6 +103,18 @@ class LayeredRenderer:
         drawn = self._drawn(t)
         return self._over_plate(drawn), self._covered(drawn)
 
+    def uncovered(self, t: int) -> FloatImage:
+        """How much of each pixel bodies cover in the drawing and have left in frame ``t``, 0 to 1, shape [h, w].
+
+        There the frame shows the plate, which nobody drew.
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
+        rest = np.concatenate([body.mesh.vertices for body in self.motion.bodies]).astype(np.float32)
+        at_rest = self._covered(self._laid(Motion(self.motion.bodies, rest[None], self.motion.frame_rate), 0))
+        return np.asarray(np.clip(at_rest - self.alpha(t), 0, 1), dtype=np.float32)
+
     def cutout(self, t: int) -> NDArray[Any]:
         """The moving bodies of frame ``t`` alone: straight RGB and alpha, dtype of the image, shape [h, w, 4].
 
@@ -139,9 +151,13 @@ class LayeredRenderer:
     def _drawn(self, t: int) -> list[tuple[PixelBox, FloatImage]]:
         """The layers that show in a frame, from back to front, each with its box."""
         require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
+        return self._laid(self.motion, t)
+
+    def _laid(self, motion: Motion, t: int) -> list[tuple[PixelBox, FloatImage]]:
+        """The layers in a frame of any motion of the bodies."""
         bodies = zip(self._layers, self._order, strict=True)
-        size = self.motion.width, self.motion.height
-        drawn = [layer.drawn(self.motion.of_body(k)[t], *size) for layer, k in bodies]
+        size = motion.width, motion.height
+        drawn = [layer.drawn(motion.of_body(k)[t], *size) for layer, k in bodies]
         return [(box, layer) for box, layer in drawn if box.width and box.height]
 
 

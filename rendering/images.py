@@ -45,7 +45,7 @@ def load_image(path: StrPath) -> NDArray[np.uint8]:
 
     picture = _in_srgb(_open(path))
     if _has_transparency(picture):
-        picture = picture.convert("RGBA")
+        picture = _with_opacity(picture)
         picture = Image.alpha_composite(Image.new("RGBA", picture.size, "white"), picture)
     return np.array(_in_8_bits(picture).convert("RGB"))
 
@@ -75,7 +75,7 @@ def load_mask(path: StrPath, *, width: int, height: int) -> NDArray[np.float32]:
         )
     grey = np.array(_in_8_bits(picture).convert("L"))
     if _has_transparency(picture):
-        opacity = np.array(picture.convert("RGBA"))[..., 3]
+        opacity = np.array(_with_opacity(picture))[..., 3]
         grey = opacity if opacity.min() < 255 else grey
     if grey.max() < 128:
         raise InvalidInputError(f"mask {path} must be white (or opaque) where the part is. Got: an empty mask")
@@ -181,6 +181,18 @@ def _check_size(path: StrPath, size: tuple[int, int]) -> None:
 
 def _has_transparency(picture: Image.Image) -> bool:
     return picture.mode in ("LA", "La", "PA", "RGBA", "RGBa") or "transparency" in picture.info
+
+
+def _with_opacity(picture: Image.Image) -> Image.Image:
+    """RGB and opacity of a picture that has transparency, 8 bits each."""
+    from PIL import Image
+
+    reduced = _in_8_bits(picture)
+    if reduced is picture:
+        return picture.convert("RGBA")
+    # One of the 65536 greys means transparent; after the reduction others would be equal to it.
+    opacity = np.where(np.array(picture) == picture.info["transparency"], 0, 255).astype(np.uint8)
+    return Image.merge("RGBA", [*[reduced.convert("L")] * 3, Image.fromarray(opacity)])
 
 
 def _in_8_bits(picture: Image.Image) -> Image.Image:

@@ -20,7 +20,7 @@ from ..physics.pixel_box import PixelBox, bounding_box
 from ..physics.raster import interpolate, triangle_ids
 from .apron import ApronedMesh, canvas_of
 from .clean_plate import fill_hole
-from .matte import fitting_plate, soft_alpha, with_outline
+from .matte import fitting_plate, mixed_rim, soft_alpha, with_outline
 from .smooth_fill import spread_colours
 
 __all__ = ["Layer", "take_apart"]
@@ -31,7 +31,7 @@ Mask = NDArray[np.bool_]
 # Widest apron, in edges of the mesh's boundary and at least in pixels: a polygon cuts off little more than that.
 _REACH = 1.5
 _LEAST_REACH = 12
-# Pixels around a body that are filled too, so that the plate is known where the body's edge fades out.
+# Pixels around a body that its faint edge may reach.
 _BESIDE = 2
 _NOWHERE = -1e4
 
@@ -89,7 +89,8 @@ def take_apart(
     """
     supports = [with_outline(picture, mask) for mask in masks]
     if plate is None:
-        plate = _without(picture, _grown(np.logical_or.reduce(supports), _BESIDE))
+        unknown = [each | mixed_rim(mask, each) for mask, each in zip(masks, supports, strict=True)]
+        plate = _without(picture, np.logical_or.reduce(unknown))
     layers: list[Layer] = []
     for number in range(len(masks) - 1, -1, -1):
         beneath = _beneath(picture, plate, masks, supports, number)

@@ -11,31 +11,23 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from .closed_form import solve_alpha
+from .mask_edges import FAINT, SQUARE, grown, hard_edge, inner_colour, mean_near
+from .measured_alpha import measured_alpha
+from .pixel_windows import window_around
+from .solved_alpha import solved_alpha
 
-__all__ = ["fitting_plate", "soft_alpha", "window_around", "with_outline"]
+__all__ = ["fitting_plate", "mixed_rim", "soft_alpha", "with_outline"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
-_FAINT = 0.02
-# The outermost pixels of a mask are above this in the mean along a hard edge, and near one half along a soft one.
-_HARD = 0.75
-_SQUARE = np.ones((3, 3), np.uint8)
-_WIDE = np.ones((7, 7), np.uint8)
-_DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (5, 5))
-_CROSS = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]], np.uint8)
-# An outline is told from the background's own texture by its mean along the edge, over about this length [px].
-_SIGMA = 5.0
+# An outline beside this share of a mask's whole edge is none by chance.
+_OUTLINED = 0.45
+# An outline is darker than what lies beyond by this, in the mean along the edge.
 _TOLERANCE = 0.055
-_HALF = 0.5
-_TRUST_IN_MASK = 0.03
-_SOLID = 0.95
-_LEAST_CONTRAST = 0.1
-# Up to the first difference a soft edge is trusted, from the second on the picture is.
-_TRUST = 0.1
-_DISBELIEF = 0.4
 _SPECK = 20
+# A picture's colours are rounded to 255 levels: what stays within a little less than half of one rounds to the same.
+_ROUNDING = 0.49 / 255
 _LUMINANCE = np.array([0.299, 0.587, 0.114], dtype=np.float32)
 
 
@@ -43,7 +35,8 @@ def with_outline(image: FloatImage, mask: FloatImage, *, reach: int = 5) -> Mask
     """Where a part is, its drawn outline included.
 
     An outline is what runs along a hard edge of the mask, hangs together with it and is darker than what lies
-    beyond ``reach``; a mask whose edge is soft has been drawn or cut with care, and ends where the part does.
+    beyond ``reach``; a mask whose edge is soft has been drawn or cut with care, and ends where the part does, unless
+    such an outline runs along about half of it: then the mask has been made smaller or blurred afterwards.
     The pixels are compared one pixel of distance after the other, in the mean along the edge, so that the
     background's own texture cancels; the difference must exceed how much those beyond differ among themselves.
 
@@ -55,96 +48,72 @@ def with_outline(image: FloatImage, mask: FloatImage, *, reach: int = 5) -> Mask
     Returns:
         True in the part, shape [h, w]; includes every pixel of the mask above 0.02.
     """
-    support = mask > _FAINT
+    support = mask > FAINT
     if not support.any() or support.all():
         return support
     window = window_around(support, margin=4 * reach)
     inside, lightness = support[window], image[window] @ _LUMINANCE
     distance = cv2.distanceTransform((~inside).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     beyond = (distance > reach) & (distance <= 2 * reach)
-    reference, known = _mean_near(lightness, beyond)
-    spread = np.sqrt(np.maximum(_mean_near(lightness * lightness, beyond)[0] - reference * reference, 0))
-    known &= _hard(mask[window], inside)
+    reference, known = mean_near(lightness, beyond)
+    spread = np.sqrt(np.maximum(mean_near(lightness * lightness, beyond)[0] - reference * reference, 0))
     outline = np.zeros_like(inside)
     for step in range(reach):
         ring = (distance > step) & (distance <= step + 1)
-        outline |= ring & known & (_mean_near(lightness, ring)[0] < reference - spread - _TOLERANCE)
-    support[window] = _joined(inside, outline, reach)
+        outline |= ring & known & (mean_near(lightness, ring)[0] < reference - spread - _TOLERANCE)
+    joined = _joined(inside, outline, reach)
+    rim = grown(inside, SQUARE) & ~inside
+    if (joined & rim).sum() < _OUTLINED * rim.sum():
+        joined = _joined(inside, outline & hard_edge(mask[window], inside), reach)
+    support[window] = joined
     return support
 
 
-def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: Mask) -> FloatImage:
-    """Share of each pixel that belongs to a part.
+def mixed_rim(mask: FloatImage, support: Mask) -> Mask:
+    """Pixels just outside a part that may show something of it, shape [h, w].
 
-    Along a hard edge of the mask, and on an outline found outside it, the share is what closed-form matting makes of
-    the colours, starting from the mask and, beside it, from the share measured from the pixel's colour I, the
-    background's B and the part's F from two pixels further inside, |I - B| / |F - B|. A soft edge is taken as it is,
-    unless the share so measured is much smaller or larger.
+    A hard edge cuts through pixels that show both sides; where an outline was found, it has been included already.
+
+    Args:
+        mask: soft mask in 0 to 1, shape [h, w].
+        support: where the part is, from ``with_outline``; shape [h, w].
+    """
+    inside = mask > FAINT
+    return grown(inside, SQUARE) & ~support & hard_edge(mask, inside)
+
+
+def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: Mask) -> FloatImage:
+    """Share of each pixel that belongs to a part, in 0 to 1, shape [h, w].
+
+    Along hard edges it is solved for; where the mask leaves out the drawn outline it is measured, because the line's
+    own colours, dark beside any, would mislead a solver that explains colours by those around. A soft edge is taken as
+    it is, unless the picture denies it by much.
 
     Args:
         image: RGB in 0 to 1, shape [h, w, 3].
         plate: what is behind the part, at least up to two pixels around ``support``; shape [h, w, 3].
         mask: soft mask in 0 to 1, shape [h, w].
         support: where the part is, from ``with_outline``; shape [h, w].
-
-    Returns:
-        Alpha in 0 to 1, shape [h, w].
     """
-    alpha = np.where(support, np.where(mask > _FAINT, mask, np.float32(1)), np.float32(0))
-    outside = ~support
-    if not support.any() or not outside.any():
-        return alpha
-    hard = _hard(alpha, support)
-    body = mask > _HALF
-    unknown = _grown(support, _SQUARE) & (_grown(~body, _DISC) | ~body) & hard
-    share, certain = _share(image, plate, support, unknown & ~body)
-    guess = body.astype(np.float32)
-    guess[unknown & ~body] = np.where(certain, share, 0)
-    solved = _solved(image, alpha, unknown, guess)
-    return _corrected(image, plate, solved, support, ~hard)
+    return (measured_alpha if _is_outlined(image, mask > FAINT, support) else solved_alpha)(image, plate, mask, support)
 
 
-def _solved(image: FloatImage, alpha: FloatImage, unknown: Mask, guess: FloatImage) -> FloatImage:
-    """Alpha with its unknown pixels solved for, in the window that holds them."""
-    if not unknown.any():
-        return alpha
-    window = window_around(unknown, margin=2)
-    solved = alpha.copy()
-    crops = image[window], alpha[window], unknown[window], guess[window]
-    solved[window] = solve_alpha(*crops, trust=_TRUST_IN_MASK)
-    return solved
-
-
-def _corrected(image: FloatImage, plate: FloatImage, alpha: FloatImage, support: Mask, where: Mask) -> FloatImage:
-    """Alpha with the soft edges put right that deny much of the picture."""
-    outside = ~support
-    soft = support & where & _grown(outside, _WIDE) & _grown(alpha > _SOLID, _WIDE)
-    if not soft.any():
-        return alpha
-    share, certain = _share(image, plate, support, soft)
-    given = alpha[soft]
-    # A soft edge's small differences from its mask are the background's texture.
-    doubt = np.clip((np.abs(share - given) - _TRUST) / (_DISBELIEF - _TRUST), 0, 1)
-    # Between colours too close to measure it, the share does not show: the mask's word stands.
-    corrected = alpha.copy()
-    corrected[soft] = given + np.where(certain, doubt, 0) * (share - given)
-    return corrected
-
-
-def _share(
-    image: FloatImage, plate: FloatImage, support: Mask, where: Mask
-) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """The share |I - B| / |F - B| of the pixels in ``where``, and which of them have contrast enough, shape [n]."""
-    length = np.linalg.norm((_inner_colour(image, support) - plate)[where], axis=1)
-    difference = np.linalg.norm((image - plate)[where], axis=1)
-    return np.clip(difference / np.maximum(length, 1e-6), 0, 1), length > _LEAST_CONTRAST
+def _is_outlined(image: FloatImage, inside: Mask, support: Mask) -> bool:
+    """Whether a line darker than the part itself runs along much of its mask's edge, just outside."""
+    rim = grown(inside, SQUARE) & ~inside
+    line = support & rim
+    if not line.any() or line.sum() < _OUTLINED * rim.sum():
+        return False
+    darker = (inner_colour(image, inside) - image)[line] @ _LUMINANCE
+    return bool(darker.mean() > _TOLERANCE)
 
 
 def fitting_plate(image: FloatImage, plate: FloatImage, alpha: FloatImage) -> FloatImage:
     """The plate changed as little as needed for a real colour over it to give the picture.
 
-    I = alpha F + (1 - alpha) B with F in 0 to 1 needs (I - alpha) / (1 - alpha) <= B <= I / (1 - alpha). Were alpha
-    raised instead, slight errors of the plate would make light or dark fringes that move with the part.
+    I = alpha F + (1 - alpha) B with F in 0 to 1 needs (I - alpha) / (1 - alpha) <= B <= I / (1 - alpha), where I is
+    known to half of one of 255 levels. Were alpha raised instead, slight errors of the plate would make light or dark
+    fringes that move with the part.
 
     Args:
         image: I, RGB in 0 to 1, shape [h, w, 3].
@@ -157,58 +126,22 @@ def fitting_plate(image: FloatImage, plate: FloatImage, alpha: FloatImage) -> Fl
     fitting = np.where(alpha[..., None] > 0, plate, image)
     at = np.nonzero((alpha > 0) & (alpha < 1))
     share = alpha[at][:, None]
-    lowest, highest = (image[at] - share) / (1 - share), image[at] / (1 - share)
+    # The plate will be rounded as well, and shows by 1 - alpha.
+    slack = np.maximum(_ROUNDING - (1 - share) * np.float32(0.5 / 255), 0)
+    lowest, highest = (image[at] - slack - share) / (1 - share), (image[at] + slack) / (1 - share)
     fitting[at] = np.clip(np.clip(plate[at], lowest, highest), 0, 1)
     return fitting
-
-
-def window_around(mask: Mask, *, margin: int) -> tuple[slice, slice]:
-    """Rows and columns of the true pixels and of ``margin`` more on every side, within the picture."""
-    left, top, width, height = cv2.boundingRect(mask.astype(np.uint8))
-    return (
-        slice(max(0, top - margin), min(mask.shape[0], top + height + margin)),
-        slice(max(0, left - margin), min(mask.shape[1], left + width + margin)),
-    )
-
-
-def _hard(mask: FloatImage, support: Mask) -> Mask:
-    """Where the nearby edge of a mask is hard."""
-    return _mean_near(mask, support & _grown(~support, _CROSS))[0] > _HARD
-
-
-def _mean_near(values: FloatImage, where: Mask) -> tuple[FloatImage, Mask]:
-    """Mean value of the nearby pixels in ``where``, and where there are any."""
-    weight = where.astype(np.float32)
-    total = cv2.GaussianBlur(weight, (0, 0), _SIGMA)
-    return cv2.GaussianBlur(values * weight, (0, 0), _SIGMA) / np.maximum(total, 1e-6), total > 1e-3
 
 
 def _joined(inside: Mask, outline: Mask, reach: int) -> Mask:
     """The part with the outline pixels that hang together with it; without the specks that they enclose."""
     joined = inside.copy()
     for _ in range(reach):
-        joined |= outline & _grown(joined, _SQUARE)
+        joined |= outline & grown(joined, SQUARE)
     # The line's outermost pixels are too faint to be told by their lightness.
-    added = _grown(joined & ~inside, _SQUARE)
+    added = grown(joined & ~inside, SQUARE)
     joined |= added
     _, labels, statistics, _ = cv2.connectedComponentsWithStats((~joined).astype(np.uint8), connectivity=4)
     small = statistics[:, cv2.CC_STAT_AREA] < _SPECK
     small[0] = False
-    return joined | (small[labels] & _grown(added, _SQUARE))
-
-
-def _inner_colour(image: FloatImage, support: Mask) -> FloatImage:
-    """For every pixel the colour of the nearest one that lies at least two pixels inside."""
-    depth = cv2.distanceTransform(support.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    ridge = cv2.dilate(depth, _SQUARE) == depth
-    core = support & ((depth >= 2) | ridge)
-    _, labels = cv2.distanceTransformWithLabels(
-        (~core).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
-    )
-    colours = np.zeros((int(labels.max()) + 1, 3), dtype=np.float32)
-    colours[labels[core]] = image[core]
-    return colours[labels]
-
-
-def _grown(mask: Mask, shape: NDArray[np.uint8]) -> Mask:
-    return cv2.dilate(mask.astype(np.uint8), shape) > 0
+    return joined | (small[labels] & grown(added, SQUARE))

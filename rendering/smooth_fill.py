@@ -11,12 +11,19 @@ __all__ = ["smooth_fill", "spread_colours"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
-# Behind a part, colours of all its surroundings may show, not only those of the nearest edge.
-_FILL_POWER = 1.5
+# What a part bares first lies beside its edge, and looks like what is next to it.
+_FILL_POWER = 5.0
 _LARGEST_WINDOW = 600_000
 # How deep in a hole the harmonic fill has taken over [px].
-_DEPTH = 30.0
+_DEPTH = 100.0
 _SWEEPS = 30
+# The plane is fitted to pixels this near to the hole [px], to no fewer and to about no more of them than these numbers.
+_BESIDE = 6
+_FEWEST = 30
+_MOST = 4000
+_REWEIGHTINGS = 12
+# Colours that differ less than this are equally good.
+_CLOSE = 0.004
 _COARSEST = 8
 _MEAN_OF_FOUR = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]], dtype=np.float32) / 4
 
@@ -24,6 +31,7 @@ _MEAN_OF_FOUR = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]], dtype=np.float32) / 
 def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
     """Fill a hole smoothly: near its edge with the colours there, deep inside harmonically.
 
+    What changes evenly all around, such as a sky, is continued as a plane, and the rest by distance.
     A harmonic fill alone lets colours from the far side of a narrow hole, often another part of the same figure,
     shine through to where the background will show; colours by distance alone meet in visible ridges.
 
@@ -34,10 +42,32 @@ def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
     Returns:
         RGB, shape [h, w, 3]; unchanged outside the hole.
     """
-    near = spread_colours(picture, ~hole, hole, power=_FILL_POWER)
+    trend = _trend(picture, hole)
+    near = np.where(hole[..., None], spread_colours(picture - trend, ~hole, hole, power=_FILL_POWER) + trend, picture)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.minimum(depth / np.float32(_DEPTH), 1)[..., None]
     return near + share * (_harmonic(picture, hole) - near)
+
+
+def _trend(picture: FloatImage, hole: Mask) -> FloatImage:
+    """The plane of colours that most pixels beside a hole lie near, shape [h, w, 3] (least absolute deviations)."""
+    height, width = hole.shape
+    beside = cv2.dilate(hole.astype(np.uint8), np.ones((2 * _BESIDE + 1,) * 2, np.uint8)) > 0
+    row, column = np.nonzero(beside & ~hole)
+    if len(row) < _FEWEST:
+        return np.zeros_like(picture)
+    row, column = row[:: 1 + len(row) // _MOST], column[:: 1 + len(row) // _MOST]
+    terms = np.stack([np.ones(len(row)), column / width - 0.5, row / height - 0.5], axis=1)
+    colours = picture[row, column].astype(np.float64)
+    weights = np.ones(len(row))
+    for _ in range(_REWEIGHTINGS):
+        weighted = terms * weights[:, None]
+        plane = np.linalg.lstsq(weighted.T @ terms, weighted.T @ colours, rcond=None)[0]
+        weights = 1 / np.maximum(np.linalg.norm(colours - terms @ plane, axis=1), _CLOSE)
+    x = np.linspace(-0.5, 0.5, width, endpoint=False, dtype=np.float32)[None, :, None]
+    y = np.linspace(-0.5, 0.5, height, endpoint=False, dtype=np.float32)[:, None, None]
+    plane = plane.astype(np.float32)
+    return np.asarray(plane[0] + plane[1] * x + plane[2] * y, dtype=np.float32)
 
 
 def spread_colours(picture: FloatImage, known: Mask, wanted: Mask, *, power: float = 4.0) -> FloatImage:

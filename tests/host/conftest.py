@@ -34,6 +34,7 @@ comfy_host = _sibling("comfy_host")
 browser = _sibling("browser")
 editor_page = _sibling("editor_page")
 _sibling("graphs")
+_sibling("video_model_graphs")
 
 
 @pytest.fixture(scope="session")

@@ -2,8 +2,8 @@
 
     COMFYUI_PATH=/path/to/ComfyUI /path/to/its/python tests/host/export_workflows.py [workflow ...]
 
-Without names, all of them. The graphs are described in graphs.py. The frontend itself builds and serialises them, so
-that the files are what it would save; the API files are what it would post.
+Without names, all of them. The graphs are described in graphs.py and video_model_graphs.py. The frontend itself builds
+and serialises them, so that the files are what it would save; the API files are what it would post.
 """
 
 from __future__ import annotations
@@ -22,8 +22,10 @@ import numpy as np
 from browser import Page, opened
 from comfy_host import ROOT, Host
 from graphs import WORKFLOWS, Group, without_models
+from video_model_graphs import VIDEO_MODEL_WORKFLOWS, without_video_model
 
 SCHEMAS = ROOT / "tests" / "nodes" / "node_schemas.json"
+_WORKFLOWS = WORKFLOWS | VIDEO_MODEL_WORKFLOWS
 _GAP = 40
 # The Vue canvas of newer frontends draws nodes taller than this one.
 _ROW_GAP = 75
@@ -149,11 +151,11 @@ def main() -> None:
             host.wait_until_ready()
             _write(SCHEMAS, schemas(host))
             with opened(host.url) as page:
-                for name in sys.argv[1:] or WORKFLOWS:
-                    ui, api = export(page, name, WORKFLOWS[name]())
+                for name in sys.argv[1:] or _WORKFLOWS:
+                    ui, api = export(page, name, _WORKFLOWS[name]())
                     _write(ROOT / "workflows" / f"{name}.json", ui)
                     _write(ROOT / "workflows" / "api" / f"{name}.json", api)
-                    thumbnail(host, without_models(api), ROOT / "workflows" / f"{name}.jpg")
+                    thumbnail(host, without_video_model(without_models(api)), ROOT / "workflows" / f"{name}.jpg")
         finally:
             host.stop()
 

@@ -10,9 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 from graphs import without_models
+from video_model_graphs import led_by, without_video_model
 
 ROOT = Path(__file__).resolve().parents[2]
-WORKFLOWS = sorted((ROOT / "workflows" / "api").glob("*.json"))
+ALL = {
+    path: json.loads(path.read_text(encoding="utf-8")) for path in sorted((ROOT / "workflows" / "api").glob("*.json"))
+}
+WORKFLOWS = [path for path, api in ALL.items() if led_by(api) is None]
+FOR_VIDEO_MODELS = [path for path, api in ALL.items() if led_by(api) is not None]
+LOADERS = {"UNETLoader", "CLIPLoader", "VAELoader", "CLIPVisionLoader"}
 
 
 def frames_of(video: bytes) -> np.ndarray:
@@ -34,6 +40,35 @@ def test_a_workflow_gives_a_moving_video(host: Any, path: Path) -> None:
     moving = (steps > 24).any(axis=-1).mean(axis=(1, 2))
     assert (moving > 1e-4).mean() > 0.9, "most frames differ from the one before"
     assert moving.max() < 0.2, "the picture as a whole stays in place"
+
+
+@pytest.mark.parametrize("path", FOR_VIDEO_MODELS, ids=lambda path: path.stem)
+def test_a_video_model_s_workflow_lacks_nothing_but_its_files(host: Any, path: Path) -> None:
+    """The host accepts every node and link of it; what it refuses are the names of files that are not there."""
+    prompt = ALL[path]
+    _, answer = host.post("/prompt", {"prompt": prompt, "client_id": host.client})
+    refused = answer["node_errors"]
+    assert {node["class_type"] for node in prompt.values()} & LOADERS == {
+        prompt[key]["class_type"] for key in refused
+    }, refused
+    for found in refused.values():
+        assert [error["type"] for error in found["errors"]] == ["value_not_in_list"], found
+
+
+@pytest.mark.parametrize("path", FOR_VIDEO_MODELS, ids=lambda path: path.stem)
+def test_what_a_video_model_is_given_has_its_length_and_size(host: Any, path: Path) -> None:
+    prompt = ALL[path]
+    shown = without_video_model(prompt)
+    (save,) = [key for key, node in shown.items() if node["class_type"] == "SaveVideo"]
+    frames = frames_of(host.view(host.run(shown)[save]["images"][0]))
+    given = prompt[led_by(prompt) or ""]
+    if given["class_type"] == "PhysAnimator_FirstAndLastFrame":
+        assert frames.shape == (1, 480, 832, 3)
+    elif given["class_type"] == "PhysAnimator_Tracks":
+        assert len(frames) == 41, "every second of 81 samples"
+    else:
+        assert frames.shape == (81, 480, 832, 3)
+        assert (np.abs(np.diff(frames.astype(np.int16), axis=0)) > 24).any(axis=(1, 2, 3)).mean() > 0.9
 
 
 def test_what_was_not_changed_is_not_computed_again(host: Any) -> None:

@@ -47,6 +47,10 @@ def saved_values(node: dict[str, Any]) -> dict[str, Any]:
     values = list(node.get("widgets_values", []))
     if node["type"] not in SCHEMAS:
         names = [slot["name"] for slot in node.get("inputs", []) if "widget" in slot]
+        for name in ("seed", "noise_seed"):
+            if name in names:
+                # The frontend's own widget beside a seed, which says how it goes on; it is no input.
+                values.pop(names.index(name) + 1)
         return dict(zip(names, values, strict=True)) if names else {}
     saved: dict[str, Any] = {}
     _take(SCHEMAS[node["type"]]["input"], "", values, saved)

@@ -108,3 +108,12 @@ def test_unusable_input_is_refused() -> None:
         clean_plate(gradient()[..., 0], MASK)
     with pytest.raises(InvalidInputError, match="uint8 or float32"):
         clean_plate(gradient().astype(np.float64), MASK)
+
+
+@pytest.mark.parametrize("shape", [(1, 2), (1, 40), (40, 1), (2, 2), (3, 5)])
+def test_the_smallest_pictures_get_a_plate(shape: tuple[int, int]) -> None:
+    image = np.random.default_rng(0).integers(0, 256, (*shape, 3), dtype=np.uint8)
+    mask = np.zeros(shape, dtype=bool)
+    mask[0, 0] = True
+    plate = clean_plate(image, mask)
+    assert (plate[~mask] == image[~mask]).all()

@@ -57,6 +57,55 @@ def test_grey_and_sixteen_bit_pictures(tmp_path: Path) -> None:
     assert (load_image(tmp_path / "deep.png") == 77).all()
 
 
+def test_a_transparent_grey_among_sixteen_bits(tmp_path: Path) -> None:
+    values = np.array([[0, 1, 30_000, 60_000, 65_535]], dtype=np.uint16)
+    Image.fromarray(values).save(tmp_path / "deep.png", transparency=0)
+    assert load_image(tmp_path / "deep.png")[0, :, 0].tolist() == [255, 0, 117, 233, 255]
+    mask = load_mask(tmp_path / "deep.png", width=5, height=1)
+    assert mask.tolist() == [[0, 1, 1, 1, 1]]
+
+
+@pytest.mark.parametrize("dtype", [np.uint16, np.uint8])
+def test_colour_and_opacity_of_any_depth(tmp_path: Path, dtype: type) -> None:
+    import cv2
+
+    rgba = np.dstack([drawing(), np.full((12, 20), 255, np.uint8)])
+    rgba[:3, :, 3] = 0
+    factor = 257 if dtype == np.uint16 else 1
+    cv2.imwrite(str(tmp_path / "a.png"), rgba[..., [2, 1, 0, 3]].astype(dtype) * dtype(factor))
+    loaded = load_image(tmp_path / "a.png")
+    assert (loaded[3:] == drawing()[3:]).all()
+    assert (loaded[:3] == 255).all()
+
+
+@pytest.mark.parametrize("mode", ["1", "L", "LA", "P", "CMYK", "YCbCr"])
+def test_every_mode_becomes_rgb(tmp_path: Path, mode: str) -> None:
+    white = Image.new("RGB", (9, 7), "white")
+    converted = white.convert(mode)
+    name = tmp_path / ("a.tif" if mode in ("CMYK", "YCbCr") else "a.png")
+    converted.save(name)
+    loaded = load_image(name)
+    assert loaded.shape == (7, 9, 3)
+    assert loaded.min() > 250
+
+
+def test_a_picture_of_one_pixel(tmp_path: Path) -> None:
+    save_image(tmp_path / "one.png", np.full((1, 1, 3), 200, np.uint8))
+    assert load_image(tmp_path / "one.png").tolist() == [[[200] * 3]]
+    assert load_mask(tmp_path / "one.png", width=1, height=1).shape == (1, 1)
+
+
+def test_a_turned_mask_fits_the_turned_picture(tmp_path: Path) -> None:
+    exif = Image.Exif()
+    exif[0x0112] = 8
+    grey = drawing()[..., 0]
+    Image.fromarray(grey).save(tmp_path / "turned.png", exif=exif)
+    mask = load_mask(tmp_path / "turned.png", width=12, height=20)
+    assert (np.rint(mask * 255) == np.rot90(grey)).all()
+    with pytest.raises(InvalidInputError, match="20 x 12"):
+        load_mask(tmp_path / "turned.png", width=20, height=12)
+
+
 def test_colour_profile_is_converted_and_srgb_left_alone(tmp_path: Path) -> None:
     srgb = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
     # sRGB with red and green exchanged, under another name: its (255, 0, 0) is green.

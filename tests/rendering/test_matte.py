@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.rendering.matte import fitting_plate, soft_alpha, window_around, with_outline
+from physanimator.rendering.matte import fitting_plate, soft_alpha, with_outline
+from physanimator.rendering.pixel_windows import window_around
 
 SIZE = 96
 Y, X = np.mgrid[:SIZE, :SIZE] + 0.5
@@ -42,11 +43,19 @@ def test_nothing_is_added_where_there_is_no_outline() -> None:
 
 def test_a_soft_mask_is_taken_at_its_word() -> None:
     mask = disc(25)
-    outlined = over(over(textured_background(), DARK, disc(28)), RED, mask)
+    line = disc(28) * (np.arange(SIZE) < 0.35 * SIZE)
+    outlined = over(over(textured_background(), DARK, line), RED, mask)
     assert (with_outline(outlined, mask) == (mask > 0.02)).all()
     plain = over(textured_background(), RED, mask)
     alpha = soft_alpha(plain, textured_background()[::-1], mask, mask > 0.02)
     assert np.abs(alpha - mask).max() < 0.15
+
+
+def test_a_soft_mask_inside_an_outline_all_around_takes_it_along() -> None:
+    outlined = over(over(textured_background(), DARK, disc(28)), RED, disc(25))
+    support = with_outline(outlined, disc(25))
+    assert support[disc(28) > 0.5].all()
+    assert not support[disc(31) == 0].any()
 
 
 def test_a_hard_edge_gets_its_true_shares_back() -> None:
@@ -116,12 +125,13 @@ def test_the_fitting_plate_is_the_nearest_that_real_colours_allow() -> None:
     colour = image - (1 - alpha[..., None]) * fitting
     assert (fitting[alpha == 0] == image[alpha == 0]).all()
     assert (fitting[alpha == 1] == plate[alpha == 1]).all()
-    assert colour.min() > -1e-6
-    assert (colour - alpha[..., None]).max() < 1e-6
+    rounding = 0.5 / 255
+    assert colour.min() > -rounding
+    assert (colour - alpha[..., None]).max() < rounding
     changed = (fitting != plate) & (alpha > 0)[..., None]
     slack = np.minimum(colour, alpha[..., None] - colour)
     assert changed.any()
-    assert np.abs(slack[changed]).max() < 1e-6
+    assert np.abs(slack[changed]).max() < rounding
 
 
 def test_empty_and_full_masks_stay_so() -> None:

@@ -1,0 +1,83 @@
+"""Edges of masks: what lies along them, and whether they are hard."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "CROSS",
+    "FAINT",
+    "LEAST_CONTRAST",
+    "SOLID",
+    "SQUARE",
+    "WIDE",
+    "grown",
+    "hard_edge",
+    "inner_colour",
+    "mean_near",
+    "trusted",
+]
+
+FloatImage = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+FAINT = 0.02
+"""What a mask has at most where it shows nothing."""
+
+SOLID = 0.95
+"""And at least where nothing shows through."""
+
+LEAST_CONTRAST = 0.1
+"""Distance of colours from which on a share of both can be measured."""
+
+SQUARE = np.ones((3, 3), np.uint8)
+WIDE = np.ones((7, 7), np.uint8)
+CROSS = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]], np.uint8)
+
+# The outermost pixels of a mask are above this in the mean along a hard edge, and near one half along a soft one.
+_HARD = 0.75
+# An edge is looked at over about this length [px].
+_SIGMA = 5.0
+# Up to the first difference a soft edge is trusted, from the second on the picture is.
+_TRUST = 0.1
+_DISBELIEF = 0.4
+
+
+def grown(mask: Mask, shape: NDArray[np.uint8]) -> Mask:
+    """The mask and what lies around it within a shape."""
+    return cv2.dilate(mask.astype(np.uint8), shape) > 0
+
+
+def hard_edge(mask: FloatImage, support: Mask) -> Mask:
+    """Where the nearby edge of a mask is hard."""
+    return mean_near(mask, support & grown(~support, CROSS))[0] > _HARD
+
+
+def mean_near(values: FloatImage, where: Mask) -> tuple[FloatImage, Mask]:
+    """Mean value of the nearby pixels in ``where``, and where there are any."""
+    weight = where.astype(np.float32)
+    total = cv2.GaussianBlur(weight, (0, 0), _SIGMA)
+    return cv2.GaussianBlur(values * weight, (0, 0), _SIGMA) / np.maximum(total, 1e-6), total > 1e-3
+
+
+def inner_colour(image: FloatImage, support: Mask) -> FloatImage:
+    """For every pixel the colour of the nearest one that lies at least two pixels inside."""
+    depth = cv2.distanceTransform(support.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    ridge = cv2.dilate(depth, SQUARE) == depth
+    core = support & ((depth >= 2) | ridge)
+    _, labels = cv2.distanceTransformWithLabels(
+        (~core).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    colours = np.zeros((int(labels.max()) + 1, 3), dtype=np.float32)
+    colours[labels[core]] = image[core]
+    return colours[labels]
+
+
+def trusted(given: NDArray[np.float32], share: NDArray[np.float32]) -> NDArray[np.float32]:
+    """How far the share that was measured counts beside a soft edge's own, 0 to 1.
+
+    Small differences are the background's texture.
+    """
+    return np.asarray(np.clip((np.abs(share - given) - _TRUST) / (_DISBELIEF - _TRUST), 0, 1), dtype=np.float32)

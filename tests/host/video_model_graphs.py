@@ -1,0 +1,271 @@
+"""The published workflows that hand a motion to the host's own video models."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+from graphs import BLUE, GREEN, ORANGE, PURPLE, TEAL, Column, Group, Node, core, ours
+
+__all__ = ["VIDEO_MODEL_WORKFLOWS", "led_by", "without_video_model"]
+
+_REPACKAGED = "https://huggingface.co/Comfy-Org/Wan_{}_ComfyUI_{}/tree/main/split_files"
+_WAN_21, _WAN_22 = _REPACKAGED.format("2.1", "repackaged"), _REPACKAGED.format("2.2", "Repackaged")
+_ENCODER, _VAE, _VISION = (
+    "umt5_xxl_fp8_e4m3fn_scaled.safetensors",
+    "wan_2.1_vae.safetensors",
+    "clip_vision_h.safetensors",
+)
+_COMMON = f"""\
+- `models/text_encoders/{_ENCODER}` and `models/vae/{_VAE}` from {_WAN_21}"""
+_LENGTH = """\
+**Length and size:** 81 frames of 832 x 480 here. The numbers of our node go on to the model's by themselves: frames \
+4 k + 1, sides multiples of 16."""
+
+_VACE_NOTE = f"""\
+## Physics leads, VACE paints what is uncovered
+
+*Warped Video* moves the hair and leaves grey holes where it was; *WanVaceToVideo* takes both and paints into the holes.
+
+**Model files:**
+
+- `models/diffusion_models/wan2.1_vace_14B_fp16.safetensors` (or the smaller `wan2.1_vace_1.3B_fp16.safetensors`) from \
+{_WAN_21}
+{_COMMON}
+
+{_LENGTH}
+
+Without the files, connect *control_video* to *Create Video* and see what the model is given.
+"""
+_LINES_NOTE = f"""\
+## A moving line drawing leads the video
+
+*Line Control Video* bends the sketch along with the motion, as white lines on black. The illustration is the first \
+frame; every other one is the model's own painting. *WanVaceToVideo* takes the same control video.
+
+**Model files:**
+
+- `models/diffusion_models/wan2.2_fun_control_high_noise_14B_fp8_scaled.safetensors` and \
+`wan2.2_fun_control_low_noise_14B_fp8_scaled.safetensors` from {_WAN_22}
+{_COMMON}
+
+{_LENGTH}
+
+Without the files, connect *control_video* to *Create Video* and see what the model is given.
+"""
+_FRAMES_NOTE = f"""\
+## First and last frame from physics, the rest from the model
+
+*First And Last Frame* draws two frames of the motion; *WanFirstLastFrameToVideo* draws what is between them.
+
+**Model files:**
+
+- `models/diffusion_models/wan2.2_i2v_high_noise_14B_fp8_scaled.safetensors` and \
+`wan2.2_i2v_low_noise_14B_fp8_scaled.safetensors` from {_WAN_22}
+{_COMMON}
+
+Choose frames between which the motion is easy to guess: half a swing, not five.
+"""
+_TRACKS_NOTE = f"""\
+## Tracks lead the video
+
+*Motion to Tracks* follows points of the hair; *WanMoveTrackToVideo* moves the illustration along them.
+
+**Model files:**
+
+- `models/diffusion_models/Wan21-WanMove_fp8_scaled_e4m3fn_KJ.safetensors` from \
+https://huggingface.co/Kijai/WanVideo_comfy_fp8_scaled/tree/main/WanMove
+- `models/clip_vision/{_VISION}` from {_WAN_21}
+{_COMMON}
+
+**For ATI**, use *WanTrackToVideo*: connect *coordinates*, set *frames* to 121, and take \
+`Wan2_1-I2V-ATI-14B_fp8_e4m3fn.safetensors` from https://huggingface.co/Kijai/WanVideo_comfy
+"""
+
+_PROMPT = "anime illustration, a girl whose long hair moves in the wind, clean lines, flat colours, still camera"
+_AVOID = "blurry, photographic, deformed, flicker, camera movement, text"
+_FORM = {"width": 832, "height": 480}
+_SHOWN = {"WarpedVideo": 0, "LineControlVideo": 0, "FirstAndLastFrame": 1, "Tracks": 2}
+
+
+def wan_vace() -> tuple[Group, ...]:
+    """Warped frames and their holes for VACE."""
+    given = ours("given", "WarpedVideo", image="example.image", motion="simulate.motion")
+    inputs = _form("length") | {
+        "control_video": "given.control_video",
+        "control_masks": "given.control_masks",
+        "reference_image": "example.image",
+    }
+    led = core("led", "WanVaceToVideo", **_conditions(), **inputs)
+    return (
+        *_moved(_VACE_NOTE),
+        _given("Warped video and holes", given),
+        _models(*_unet("model", "wan2.1_vace_14B_fp16.safetensors", 5.0)),
+        _painted("wan_vace", "given.frame_rate", led, _sampled(20, 6.0, "uni_pc"), trimmed=True),
+    )
+
+
+def wan_lines() -> tuple[Group, ...]:
+    """A moving line drawing for the Fun Control model."""
+    sketch = ours("sketch", "ExtractSketch", image="example.image")
+    given = ours("given", "LineControlVideo", sketch="sketch.sketch", motion="simulate.motion")
+    inputs = _form("length") | {"control_video": "given.control_video", "ref_image": "example.image"}
+    led = core("led", "Wan22FunControlToVideo", **_conditions(), **inputs)
+    return (
+        *_moved(_LINES_NOTE),
+        _given("Moving lines", sketch, given),
+        _models(*_two_unets("wan2.2_fun_control_{}_noise_14B_fp8_scaled.safetensors")),
+        _painted("wan_lines", "given.frame_rate", led, *_sampled_in_two(3.5)),
+    )
+
+
+def wan_first_last_frame() -> tuple[Group, ...]:
+    """Two frames of a motion, and a model that draws those between."""
+    chosen = {"first_frame": 0, "last_frame": 24}
+    given = ours("given", "FirstAndLastFrame", 0, "", chosen, image="example.image", motion="simulate.motion")
+    inputs = _form() | {"start_image": "given.start_image", "end_image": "given.end_image"}
+    led = core("led", "WanFirstLastFrameToVideo", 0, "", {"length": 33}, **_conditions(), **inputs)
+    return (
+        *_moved(_FRAMES_NOTE),
+        _given("First and last frame", given),
+        _models(*_two_unets("wan2.2_i2v_{}_noise_14B_fp8_scaled.safetensors")),
+        _painted("wan_first_last_frame", 16.0, led, *_sampled_in_two(4.0)),
+    )
+
+
+def wan_tracks() -> tuple[Group, ...]:
+    """Tracks of a motion for Wan-Move."""
+    values = {"frames": 81, **_FORM}
+    given = ours("given", "Tracks", 430, "", values, motion="simulate.motion", image="example.image")
+    inputs = {"tracks": "given.tracks", "start_image": "example.image", "clip_vision_output": "seen.CLIP_VISION_OUTPUT"}
+    led = core("led", "WanMoveTrackToVideo", 0, "", {"length": 81, **_FORM}, **_conditions(), **inputs)
+    vision = (
+        core("vision", "CLIPVisionLoader", 0, "", {"clip_name": _VISION}),
+        core("seen", "CLIPVisionEncode", 0, "", {}, clip_vision="vision.CLIP_VISION", image="example.image"),
+    )
+    return (
+        *_moved(_TRACKS_NOTE),
+        _given("Tracks", given),
+        _models(*_unet("model", "Wan21-WanMove_fp8_scaled_e4m3fn_KJ.safetensors", 5.0), *vision),
+        _painted("wan_tracks", 16.0, led, _sampled(20, 5.0, "uni_pc")),
+    )
+
+
+def _moved(note: str) -> tuple[Group, ...]:
+    """The example's hair in the automatic wind: five seconds."""
+    body = {"preset": "hair", "attach": "left"}
+    bodies = (
+        ours("mesh", "MaskToMesh", 340, "Mask to Mesh: hair", mask="example.hair", image="example.image"),
+        ours("body", "Body", 0, "Body: hair", body, mesh="mesh.mesh"),
+        ours("scene", "AutomaticScene", bodies="body.bodies"),
+        ours("simulate", "Simulate", values={"frames": 121}, scene="scene.scene"),
+    )
+    written = core("note", "MarkdownNote", 520, "Start here", {"": note})
+    example = ours("example", "ExampleIllustration", 370)
+    return (
+        Group("1 · Illustration and masks", BLUE, (Column(400, (written, example)),)),
+        Group("2 · Body and simulation", GREEN, (Column(330, bodies),)),
+    )
+
+
+def _given(title: str, *nodes: Node) -> Group:
+    return Group(f"3 · {title}", TEAL, (Column(340, nodes),))
+
+
+def _models(*nodes: Node) -> Group:
+    loaders = (
+        *nodes,
+        core("encoder", "CLIPLoader", 0, "", {"clip_name": _ENCODER, "type": "wan"}),
+        core("vae", "VAELoader", 0, "", {"vae_name": _VAE}),
+    )
+    return Group("4 · Model files", ORANGE, (Column(380, loaders),))
+
+
+def _unet(key: str, name: str, shift: float) -> tuple[Node, ...]:
+    loader = core(f"{key}_file", "UNETLoader", 0, "", {"unet_name": name})
+    return loader, core(key, "ModelSamplingSD3", 0, "", {"shift": shift}, model=f"{key}_file.MODEL")
+
+
+def _two_unets(name: str) -> tuple[Node, ...]:
+    return (*_unet("model", name.format("high"), 8.0), *_unet("model_low", name.format("low"), 8.0))
+
+
+def _form(*more: str) -> dict[str, str]:
+    return {name: f"given.{name}" for name in ("width", "height", *more)}
+
+
+def _conditions() -> dict[str, str]:
+    return {"positive": "prompt.CONDITIONING", "negative": "avoid.CONDITIONING", "vae": "vae.VAE"}
+
+
+def _led() -> dict[str, str]:
+    return {"positive": "led.positive", "negative": "led.negative"}
+
+
+def _sampled(steps: int, cfg: float, sampler: str) -> Node:
+    values = {"steps": steps, "cfg": cfg, "sampler_name": sampler, "scheduler": "simple"}
+    return core("sampled", "KSampler", 0, "", values, model="model.MODEL", latent_image="led.latent", **_led())
+
+
+def _sampled_in_two(cfg: float) -> tuple[Node, Node]:
+    """The first half of the steps by the model for strong noise, the second by the one for weak noise."""
+    usual = {"steps": 20, "cfg": cfg, "sampler_name": "euler", "scheduler": "simple"}
+    strong = usual | {"end_at_step": 10, "return_with_leftover_noise": "enable"}
+    weak = usual | {"add_noise": "disable", "start_at_step": 10}
+    return (
+        core("strong", "KSamplerAdvanced", 0, "", strong, model="model.MODEL", latent_image="led.latent", **_led()),
+        core(
+            "sampled", "KSamplerAdvanced", 0, "", weak, model="model_low.MODEL", latent_image="strong.LATENT", **_led()
+        ),
+    )
+
+
+def _painted(name: str, rate: str | float, led: Node, *samplers: Node, trimmed: bool = False) -> Group:
+    prompts = (
+        core("prompt", "CLIPTextEncode", 140, "What is to be seen", {"text": _PROMPT}, clip="encoder.CLIP"),
+        core("avoid", "CLIPTextEncode", 120, "What is not", {"text": _AVOID}, clip="encoder.CLIP"),
+        led,
+    )
+    trim = (
+        (core("trim", "TrimVideoLatent", samples="sampled.LATENT", trim_amount="led.trim_latent"),) if trimmed else ()
+    )
+    fixed, linked = ({"fps": rate}, {}) if isinstance(rate, float) else ({}, {"fps": rate})
+    latent = "trim.LATENT" if trimmed else "sampled.LATENT"
+    result = (
+        *trim,
+        core("decoded", "VAEDecode", samples=latent, vae="vae.VAE"),
+        core("video", "CreateVideo", 0, "", fixed, images="decoded.IMAGE", **linked),
+        core("save", "SaveVideo", 420, "", {"filename_prefix": f"PhysAnimator/{name}"}, video="video.VIDEO"),
+    )
+    return Group("5 · The model paints", PURPLE, (Column(380, (*prompts, *samplers)), Column(420, result)))
+
+
+def led_by(api: dict[str, Any]) -> str | None:
+    """Key of the node of this pack that leads a video model of the host, None where there is none."""
+    if not any(node["class_type"] == "UNETLoader" for node in api.values()):
+        return None
+    (found,) = [key for key, node in api.items() if node["class_type"].removeprefix("PhysAnimator_") in _SHOWN]
+    return found
+
+
+def without_video_model(api: dict[str, Any]) -> dict[str, Any]:
+    """The workflow that saves what the video model would be given; as it is where there is no such model."""
+    key = led_by(api)
+    if key is None:
+        return api
+    changed = copy.deepcopy(api)
+    (video,) = [node for node in changed.values() if node["class_type"] == "CreateVideo"]
+    video["inputs"]["images"] = [key, _SHOWN[changed[key]["class_type"].removeprefix("PhysAnimator_")]]
+    needed = [name for name, node in changed.items() if node["class_type"] == "SaveVideo"]
+    for name in needed:
+        links = [value for value in changed[name]["inputs"].values() if isinstance(value, list)]
+        needed += [source for source, _ in links if source not in needed]
+    return {name: changed[name] for name in needed}
+
+
+VIDEO_MODEL_WORKFLOWS = {
+    "wan_vace": wan_vace,
+    "wan_lines": wan_lines,
+    "wan_first_last_frame": wan_first_last_frame,
+    "wan_tracks": wan_tracks,
+}
