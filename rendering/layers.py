@@ -20,7 +20,7 @@ from ..physics.pixel_box import PixelBox, bounding_box
 from ..physics.raster import interpolate, triangle_ids
 from .apron import ApronedMesh, canvas_of
 from .clean_plate import fill_hole
-from .matte import fitting_plate, mixed_rim, soft_alpha, with_outline
+from .matte import fitting_plate, in_levels, mixed_rim, soft_alpha, with_outline
 from .smooth_fill import spread_colours
 
 __all__ = ["Layer", "take_apart"]
@@ -87,7 +87,7 @@ def take_apart(
     Returns:
         The plate, equal to the picture wherever no body is; and a layer for each body, from back to front.
     """
-    supports = [with_outline(picture, mask) for mask in masks]
+    supports, rounded = [with_outline(picture, mask) for mask in masks], in_levels(picture)
     if plate is None:
         unknown = [each | mixed_rim(mask, each) for mask, each in zip(masks, supports, strict=True)]
         plate = _without(picture, np.logical_or.reduce(unknown))
@@ -97,7 +97,7 @@ def take_apart(
         alpha = soft_alpha(picture, beneath, masks[number], supports[number])
         mesh, canvas, covered = _covered(meshes[number], alpha)
         alpha = np.where(covered, alpha, np.float32(0))
-        below = fitting_plate(picture, beneath, alpha)
+        below = fitting_plate(picture, beneath, alpha, rounded=rounded)
         colour = picture - (1 - alpha[..., None]) * below
         layers.insert(0, Layer(mesh, canvas, _on_canvas(np.dstack([colour, alpha]), canvas)))
         picture = below

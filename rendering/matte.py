@@ -16,7 +16,7 @@ from .measured_alpha import measured_alpha
 from .pixel_windows import window_around
 from .solved_alpha import solved_alpha
 
-__all__ = ["fitting_plate", "mixed_rim", "soft_alpha", "with_outline"]
+__all__ = ["fitting_plate", "in_levels", "mixed_rim", "soft_alpha", "with_outline"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -26,8 +26,9 @@ _OUTLINED = 0.45
 # An outline is darker than what lies beyond by this, in the mean along the edge.
 _TOLERANCE = 0.055
 _SPECK = 20
-# A picture's colours are rounded to 255 levels: what stays within a little less than half of one rounds to the same.
+# Of colours in 255 levels, those that stay within a little less than half a level of each other round to the same.
 _ROUNDING = 0.49 / 255
+_LEVEL_ERROR = 1e-3
 _LUMINANCE = np.array([0.299, 0.587, 0.114], dtype=np.float32)
 
 
@@ -108,17 +109,24 @@ def _is_outlined(image: FloatImage, inside: Mask, support: Mask) -> bool:
     return bool(darker.mean() > _TOLERANCE)
 
 
-def fitting_plate(image: FloatImage, plate: FloatImage, alpha: FloatImage) -> FloatImage:
+def in_levels(image: FloatImage) -> bool:
+    """Whether the colours, in 0 to 1, are those of an 8-bit picture."""
+    levels = image * 255
+    return bool((np.abs(levels - np.rint(levels)) < _LEVEL_ERROR).all())
+
+
+def fitting_plate(image: FloatImage, plate: FloatImage, alpha: FloatImage, *, rounded: bool = False) -> FloatImage:
     """The plate changed as little as needed for a real colour over it to give the picture.
 
-    I = alpha F + (1 - alpha) B with F in 0 to 1 needs (I - alpha) / (1 - alpha) <= B <= I / (1 - alpha), where I is
-    known to half of one of 255 levels. Were alpha raised instead, slight errors of the plate would make light or dark
-    fringes that move with the part.
+    I = alpha F + (1 - alpha) B with F in 0 to 1 needs (I - alpha) / (1 - alpha) <= B <= I / (1 - alpha), where a
+    rounded I is known to half a level only. Were alpha raised instead, slight errors of the plate would make light or
+    dark fringes that move with the part.
 
     Args:
         image: I, RGB in 0 to 1, shape [h, w, 3].
         plate: B, RGB in 0 to 1, shape [h, w, 3].
         alpha: in 0 to 1, shape [h, w].
+        rounded: the picture's colours have been rounded to 255 levels, and it is enough for them to round to the same.
 
     Returns:
         The plate where alpha is above 0, the picture elsewhere; shape [h, w, 3].
@@ -127,7 +135,7 @@ def fitting_plate(image: FloatImage, plate: FloatImage, alpha: FloatImage) -> Fl
     at = np.nonzero((alpha > 0) & (alpha < 1))
     share = alpha[at][:, None]
     # The plate will be rounded as well, and shows by 1 - alpha.
-    slack = np.maximum(_ROUNDING - (1 - share) * np.float32(0.5 / 255), 0)
+    slack = np.maximum(_ROUNDING - (1 - share) * np.float32(0.5 / 255), 0) if rounded else np.float32(0)
     lowest, highest = (image[at] - slack - share) / (1 - share), (image[at] + slack) / (1 - share)
     fitting[at] = np.clip(np.clip(plate[at], lowest, highest), 0, 1)
     return fitting

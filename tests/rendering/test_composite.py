@@ -78,7 +78,7 @@ def renderer() -> LayeredRenderer:
 
 
 def test_a_frame_at_rest_is_the_illustration(renderer: LayeredRenderer) -> None:
-    assert np.abs(renderer.frame(0) - picture(*STILL)).max() < 0.5 / 255
+    assert np.abs(renderer.frame(0) - picture(*STILL)).max() < 1e-5
     assert (renderer.frame(1) == renderer.frame(0)).all()
 
 
