@@ -21,7 +21,7 @@ Lab = NDArray[np.uint8]
 
 _LINES_LEFT = (1.0, 0.5, 0.25)
 """How much of the lines' darkness each cut sees."""
-_LINE = 0.7
+_LINE = 0.41
 _WIDEST = 4
 _SQUARE = np.ones((3, 3), np.uint8)
 

@@ -24,6 +24,8 @@ __all__ = ["segment"]
 Mask = NDArray[np.bool_]
 Lab = NDArray[np.uint8]
 
+_LINE = 0.25  # a sketch is darker than this on a line, not on its soft rim
+
 
 def segment(
     image: NDArray[Any],
@@ -122,7 +124,7 @@ def _with_outline(picture: NDArray[np.uint8], mask: Mask, *, widest: int = 2) ->
     if not mask.any():
         return mask
     rows, columns = window_of(mask, margin=4 * widest)
-    lines = extract_sketch(np.ascontiguousarray(picture[rows, columns])) < 0.5
+    lines = extract_sketch(np.ascontiguousarray(picture[rows, columns])) < _LINE
     grown = mask[rows, columns].astype(np.uint8)
     cross = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))
     for _ in range(widest):

@@ -22,8 +22,9 @@ def full_file(weights: Weights, tmp_path_factory: pytest.TempPathFactory) -> Pat
     return random_tooncrafter.write_lightning(tmp_path_factory.mktemp("full") / "model.ckpt", weights)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture
 def pruned_file(weights: Weights, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """For each test its own: the empty prompt is kept beside it."""
     return random_tooncrafter.write_pruned(tmp_path_factory.mktemp("pruned") / "pruned-fp16.safetensors", weights)
 
 
