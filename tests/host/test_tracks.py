@@ -103,7 +103,7 @@ def _small(shape: tuple[int, ...]) -> dict[str, Any]:
 def test_without_a_picture_the_preview_has_the_size_of_the_tracks(host: Any) -> None:
     prompt = tracked(frames=121, width=832, height=480) | {"seen": core("PreviewImage", images=["tracks", 2])}
     outputs = host.run(prompt)
-    assert pictures(host, outputs, "seen").shape == (61, 369, 640, 3)
+    assert pictures(host, outputs, "seen").shape == (61, 370, 640, 3)
 
 
 def test_a_picture_of_another_size_is_refused_in_words(host: Any) -> None:

@@ -4,7 +4,7 @@ import test from "node:test";
 import { ALL_FIELDS, fieldsOf, newMotion } from "../../nodes/web/js/scene/fields.js";
 import { POINTS } from "../../nodes/web/js/host/formats.js";
 import { executionId } from "../../nodes/web/js/host/queueing.js";
-import { upstreamImage, viewQuery } from "../../nodes/web/js/host/upstream.js";
+import { upstreamPicture } from "../../nodes/web/js/host/upstream.js";
 import { ACTIONS, POINT_GROUPS, SCENE_GROUPS } from "../../nodes/web/js/panels/toolbar.js";
 import { Scheduler } from "../../nodes/web/js/stage/scheduler.js";
 
