@@ -4,20 +4,15 @@ CVPR 2022): a residual network between two strided and two transposed convolutio
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import Any
-
-import torch
 from torch import Tensor, nn
 
-from ..checkpoints import assign, build_without_storage
 from .configuration import InformativeDrawingsConfiguration
+from .line_network import LineNetwork
 
 __all__ = ["InformativeDrawings"]
 
 
-class InformativeDrawings(nn.Module):
+class InformativeDrawings(LineNetwork):
     """RGB in 0..1 becomes dark lines, 0, on paper, 1.
 
     Attributes:
@@ -27,9 +22,12 @@ class InformativeDrawings(nn.Module):
 
     multiple, least = 4, 8
 
+    configuration = InformativeDrawingsConfiguration
+    first_convolution = "model0.1.weight"
+    wanted = "weights of informative drawings"
+
     def __init__(self, config: InformativeDrawingsConfiguration) -> None:
-        super().__init__()
-        self.config = config
+        super().__init__(config)
         width = config.base_channels
         self.model0 = nn.Sequential(nn.ReflectionPad2d(3), nn.Conv2d(config.input_nc, width, 7), *_normalised(width))
         self.model1 = nn.Sequential(*_halved(width), *_halved(2 * width))
@@ -37,34 +35,6 @@ class InformativeDrawings(nn.Module):
         self.model3 = nn.Sequential(*_doubled(4 * width), *_doubled(2 * width))
         last: list[nn.Module] = [nn.ReflectionPad2d(3), nn.Conv2d(width, config.output_nc, 7)]
         self.model4 = nn.Sequential(*last, *([nn.Sigmoid()] if config.sigmoid else []))
-
-    @classmethod
-    def from_reference(
-        cls,
-        config: InformativeDrawingsConfiguration | Mapping[str, Any],
-        state_dict: Mapping[str, Any],
-        *,
-        file: str = "the state dict",
-        wanted: str = "weights of informative drawings",
-    ) -> InformativeDrawings:
-        """A network with the weights of a state dict, whose names are the public checkpoint's.
-
-        Args:
-            config: sizes; the width is always read off the first convolution.
-            state_dict: tensors or arrays by name.
-            file: where they come from, for messages.
-            wanted: which file this should be, for messages.
-
-        Raises:
-            CheckpointError: a name is missing, too many, or its tensor has another shape.
-        """
-        tensors = {name: torch.as_tensor(value) for name, value in state_dict.items()}
-        sizes, first = InformativeDrawingsConfiguration.of(config), tensors.get("model0.1.weight")
-        if first is not None and first.ndim == 4:
-            sizes = replace(sizes, base_channels=len(first))
-        network = build_without_storage(lambda: cls(sizes))
-        assign(network, tensors, file=file, wanted=wanted)
-        return network
 
     def forward(self, picture: Tensor) -> Tensor:
         """Draw.

@@ -4,20 +4,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import Any
-
 import torch
 from torch import Tensor, nn
 
-from ..checkpoints import assign, build_without_storage
 from .configuration import SketchUNetConfiguration
+from .line_network import LineNetwork
 
 __all__ = ["SketchUNet"]
 
 
-class SketchUNet(nn.Module):
+class SketchUNet(LineNetwork):
     """RGB in 0..1 becomes dark lines, 0, on paper, 1.
 
     Attributes:
@@ -25,9 +21,12 @@ class SketchUNet(nn.Module):
         least: the smallest width and height [px].
     """
 
+    configuration = SketchUNetConfiguration
+    first_convolution = "model.model.0.weight"
+    wanted = "weights of a sketch U-Net"
+
     def __init__(self, config: SketchUNetConfiguration) -> None:
-        super().__init__()
-        self.config = config
+        super().__init__(config)
         self.multiple = self.least = 2**config.levels
         channels = config.level_channels
         block: nn.Module | None = None
@@ -35,34 +34,6 @@ class SketchUNet(nn.Module):
             block = _Level(channels[level - 1], channels[level], block)
         assert block is not None
         self.model = _Outermost(config.input_nc, channels[0], block, config.output_nc)
-
-    @classmethod
-    def from_reference(
-        cls,
-        config: SketchUNetConfiguration | Mapping[str, Any],
-        state_dict: Mapping[str, Any],
-        *,
-        file: str = "the state dict",
-        wanted: str = "weights of a sketch U-Net",
-    ) -> SketchUNet:
-        """A network with the weights of a state dict, whose names are the public checkpoint's.
-
-        Args:
-            config: sizes; the width is always read off the first convolution.
-            state_dict: tensors or arrays by name.
-            file: where they come from, for messages.
-            wanted: which file this should be, for messages.
-
-        Raises:
-            CheckpointError: a name is missing, too many, or its tensor has another shape.
-        """
-        tensors = {name: torch.as_tensor(value) for name, value in state_dict.items()}
-        sizes, first = SketchUNetConfiguration.of(config), tensors.get("model.model.0.weight")
-        if first is not None and first.ndim == 4:
-            sizes = replace(sizes, base_channels=len(first))
-        network = build_without_storage(lambda: cls(sizes))
-        assign(network, tensors, file=file, wanted=wanted)
-        return network
 
     def forward(self, picture: Tensor) -> Tensor:
         """Draw.
