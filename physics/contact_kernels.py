@@ -4,16 +4,21 @@
 Every part takes its own steps through a tick, those of parts that may touch side by side; after each they are put
 apart. From pairs that are too near, velocities and positions are projected along the edge's normal, so that momentum
 stays. Friction acts on what slides along the edge.
+
+Several threads share the work of each phase in pieces and meet after it, as in ``kernels.advance_together``; contacts
+are found and put apart by one of them. The result is the same to the last bit with any number of threads.
 """
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from .contact_functions import ContactOptions, build_contact_functions
-from .contact_surface import ContactSurface
+from .contact_search import build_contact_search
+from .contact_surface import CONTACTS, GOOD_FOR, LEFT, ContactSurface
+from .contact_team import LARGE, Team
 from .kernel_functions import build_functions
-from .kernels import SMALL, array_types
+from .kernels import BLOCKS_AT_ONCE, SMALL, VERTICES_AT_ONCE, array_types
 from .solver_arrays import Drive, Solid, State, WindTable
 from .stepping import TICK
 
@@ -21,6 +26,20 @@ __all__ = ["build_contact_kernel"]
 
 _LAST_PASSES = 4  # at the end of a tick; within it one a step is enough
 _LEAST_INTERVALS = 4  # for which a list of contacts has to do
+
+
+class _Scene(NamedTuple):
+    """All that the kernel works on."""
+
+    solid: Any
+    state: Any
+    drive: Any
+    pairs: Any
+    surface: Any
+    options: Any
+    team: Any
+    thread: Any
+    threads: Any
 
 
 def build_contact_kernel(ti: Any) -> Any:
@@ -32,80 +51,244 @@ def build_contact_kernel(ti: Any) -> Any:
         functions.substeps_at,
     )
     begin_tick, move_vertices, record = functions.begin_tick, functions.move_vertices, functions.record
-    find_contacts, put_apart, steps_in = contact.find_contacts, contact.put_apart, contact.steps_in
+    put_apart, steps_in, searching = contact.put_apart, contact.steps_in, build_contact_search(ti, contact)
 
     @ti.func
-    def plan_tick(
-        tick: ti.i32, solid: ti.template(), state: ti.template(), drive: ti.template(), surface: ti.template()
+    def in_turn(n: ti.i32, pieces: ti.i32, scene: ti.template()):
+        """The n-th piece that a thread tries to take: first its own ones, which stay in its cache, then others'.
+
+        Of those it begins with what their owners come to last.
+        """
+        first, end = scene.thread * pieces // scene.threads, (scene.thread + 1) * pieces // scene.threads
+        piece = first + n
+        if piece >= end:
+            piece = end - 1 - n
+            if piece < 0:
+                piece = piece + pieces
+        return piece
+
+    @ti.func
+    def take(piece: ti.i32, phase: ti.i32, scene: ti.template()):
+        """Whether nobody else has taken a piece in a phase; phases are counted from 1 and never fall."""
+        return ti.atomic_max(scene.team.claims[2 + piece], phase) < phase
+
+    @ti.func
+    def give(team: ti.template()):
+        """A piece is done; returns how many are done by all threads together."""
+        return ti.atomic_add(team.claims[0], 1) + 1
+
+    @ti.func
+    def wait_for(claims: ti.template(), counter: ti.template(), due: ti.i32):
+        """Wait until so many pieces are done by all threads together."""
+        while ti.atomic_add(claims[counter], 0) < due:
+            pass
+
+    @ti.func
+    def is_large(part: ti.i32, solid: ti.template()):
+        """Whether threads share a part; others go through a step in one piece, which keeps them in the cache."""
+        return solid.starts[part + 1][1] - solid.starts[part][1] >= LARGE
+
+    @ti.func
+    def end_of_piece(column: ti.template(), part: ti.i32, first: ti.i32, solid: ti.template()):
+        """Where the blocks (column 1) or vertices (column 0) of a piece end that begins with the first."""
+        end = solid.starts[part + 1][column]
+        if is_large(part, solid):
+            end = ti.min(end, first + ti.static(BLOCKS_AT_ONCE if column == 1 else VERTICES_AT_ONCE))
+        return end
+
+    @ti.func
+    def move_piece(low: ti.i32, part: ti.i32, tick: ti.i32, interval: ti.i32, intervals: ti.i32, scene: ti.template()):
+        """What an interval brings to a piece of a part's vertices: a step at most, and before the first their tick."""
+        solid, state, drive = ti.static(scene.solid, scene.state, scene.drive)
+        count, high = scene.team.steps[tick, part], end_of_piece(0, part, low, solid)
+        if interval == 0 and count > 0:
+            begin_tick(low, high, tick, TICK / count, solid, state, drive)
+        if steps_in(interval, intervals, count) > 0:
+            step = interval * count // intervals
+            move_vertices(low, high, tick, step, count, solid, state, drive, scene.pairs)
+
+    @ti.func
+    def record_piece(piece: ti.i32, tick: ti.i32, scene: ti.template()):
+        """Write down where a piece's vertices are after a tick, if it is one of those."""
+        part, low = scene.team.vertices[piece][0], scene.team.vertices[piece][1]
+        record(low, end_of_piece(0, part, low, scene.solid), tick, scene.state, scene.drive)
+
+    @ti.func
+    def plan_together(phase: ti.i32, due: ti.i32, tick: ti.i32, scene: ti.template()):
+        """Take pieces of a tick's plan, and of the record of the one before, until none is left.
+
+        Returns whether this thread did the last one.
+        """
+        solid, team = ti.static(scene.solid, scene.team)
+        last, blocks = False, team.blocks.shape[0]
+        pieces = ti.max(blocks, team.vertices.shape[0])
+        for n in range(pieces):
+            piece = in_turn(n, pieces, scene)
+            if take(piece, phase, scene):
+                if piece < team.vertices.shape[0] and tick > 0:
+                    record_piece(piece, tick - 1, scene)
+                if piece < blocks:
+                    part, low = team.blocks[piece][0], team.blocks[piece][1]
+                    high = end_of_piece(1, part, low, solid) & SMALL
+                    ti.atomic_max(team.highest[tick, part], highest_frequency(solid, scene.state, low, high))
+                last = give(team) == due
+        return last
+
+    @ti.func
+    def step_together(
+        phase: ti.i32, due: ti.i32, tick: ti.i32, interval: ti.i32, intervals: ti.i32, scene: ti.template()
     ):
-        """Choose the steps of every part and begin its tick; returns the intervals of the parts that may touch."""
-        most = 1
+        """Take pieces of an interval, of large parts only the forces, until none is left; whether it did the last."""
+        solid, team = ti.static(scene.solid, scene.team)
+        last = False
+        for turn in range(team.blocks.shape[0]):
+            piece = in_turn(turn, team.blocks.shape[0], scene)
+            if take(piece, phase, scene):
+                part, low = team.blocks[piece][0], team.blocks[piece][1]
+                high = end_of_piece(1, part, low, solid) & SMALL
+                if steps_in(interval, intervals, team.steps[tick, part]) > 0:
+                    for n in range(low, high):
+                        add_forces(solid, scene.state, n)
+                if not is_large(part, solid):
+                    move_piece(solid.starts[part][0], part, tick, interval, intervals, scene)
+                last = give(team) == due
+        return last
+
+    @ti.func
+    def move_large(phase: ti.i32, due: ti.i32, tick: ti.i32, interval: ti.i32, intervals: ti.i32, scene: ti.template()):
+        """Take pieces of the large parts' vertices until none is left; whether this thread did the last one."""
+        team = ti.static(scene.team)
+        last = False
+        for n in range(team.large.shape[0]):
+            piece = in_turn(n, team.large.shape[0], scene)
+            if take(piece, phase, scene):
+                move_piece(team.large[piece][1], team.large[piece][0], tick, interval, intervals, scene)
+                last = give(team) == due
+        return last
+
+    @ti.func
+    def search_together(phase: ti.i32, due: ti.i32, scene: ti.template()):
+        """Take pieces of the search at the end of a tick until none is left; whether this thread did the last one."""
+        team = ti.static(scene.team)
+        last, pieces = False, searching.pieces(scene.surface)
+        for n in range(pieces):
+            piece = in_turn(n, pieces, scene)
+            if take(piece, phase, scene):
+                searching.search(scene.surface, scene.solid, scene.options, piece)
+                last = give(team) == due
+        return last
+
+    @ti.func
+    def advance_free(phase: ti.i32, tick: ti.i32, scene: ti.template()):
+        """Take parts that touch nothing through all of their tick, which others need not wait for."""
+        solid, state, drive, team = ti.static(scene.solid, scene.state, scene.drive, scene.team)
+        for turn in range(team.order.shape[0]):
+            piece = in_turn(turn, team.order.shape[0], scene)
+            if take(piece, phase, scene):
+                part = team.order[piece]
+                count = 0 - team.steps[tick, part]
+                if count > 0:
+                    first, end = solid.starts[part], solid.starts[part + 1]
+                    begin_tick(first[0], end[0], tick, TICK / count, solid, state, drive)
+                    for step in range(count):
+                        for n in range(first[1] & SMALL, end[1] & SMALL):
+                            add_forces(solid, state, n)
+                        move_vertices(first[0], end[0], tick, step, count, solid, state, drive, scene.pairs)
+                ti.atomic_add(team.claims[1], 1)
+
+    @ti.func
+    def settle_tick(tick: ti.i32, scene: ti.template()):
+        """Choose the steps of every part in a tick."""
+        solid, surface, team = ti.static(scene.solid, scene.surface, scene.team)
+        intervals = 1
         for part in range(solid.substeps.shape[0]):
-            first, end = solid.starts[part], solid.starts[part + 1]
-            squared = highest_frequency(solid, state, first[1] & SMALL, end[1] & SMALL)
-            count = substeps_at(squared, solid.substeps[part])
+            count = substeps_at(ti.atomic_max(team.highest[tick, part], 0.0), solid.substeps[part])
             surface.steps[part] = count
-            if surface.touching[part] > 0:
-                surface.touching[part] = 2
-                most = ti.max(most, count)
-            begin_tick(first[0], end[0], tick, TICK / count, solid, state, drive)
-        return most
+            if is_large(part, solid) or surface.touching[part] > 0:
+                intervals = ti.max(intervals, count)
+                team.steps[tick, part] = count
+            else:
+                team.steps[tick, part] = 0 - count
+        team.steps[tick, solid.substeps.shape[0]] = intervals
+        if surface.memory[CONTACTS] < 0.0:
+            searching.find_contacts(surface, solid, scene.state, scene.options, TICK)
+        surface.memory[LEFT] = ti.max(surface.memory[GOOD_FOR], _LEAST_INTERVALS * TICK / intervals)
 
     @ti.func
-    def advance_interval(
-        tick: ti.i32,
-        interval: ti.i32,
-        intervals: ti.i32,
-        solid: ti.template(),
-        state: ti.template(),
-        drive: ti.template(),
-        pairs: ti.template(),
-        surface: ti.template(),
-    ):
-        """At most a step of each part that may touch; those that touch nothing take all of a tick's at once."""
-        for part in range(solid.substeps.shape[0]):
-            count = surface.steps[part]
-            before, steps = interval * count // intervals, steps_in(interval, intervals, count)
-            if surface.touching[part] < 2:
-                before, steps = 0, ti.select(interval == 0, count, 0)
-            first, end = solid.starts[part], solid.starts[part + 1]
-            for step in range(before, before + steps):
-                for n in range(first[1] & SMALL, end[1] & SMALL):
-                    add_forces(solid, state, n)
-                move_vertices(first[0], end[0], tick, step, count, solid, state, drive, pairs)
+    def see_to_contacts(tick: ti.i32, interval: ti.i32, intervals: ti.i32, scene: ti.template()):
+        """Put apart what an interval's steps brought too near, and look for contacts where it is due."""
+        solid, state, surface, options = ti.static(scene.solid, scene.state, scene.surface, scene.options)
+        team = ti.static(scene.team)
+        dt, last = TICK / intervals, interval + 1 == intervals
+        if intervals > 1:
+            put_apart(surface, solid, state, options, interval, intervals, 1)
+        surface.memory[LEFT] = surface.memory[LEFT] - dt
+        if last or surface.memory[LEFT] < 0.5 * dt:
+            wait_for(team.claims, 1, (tick + 1) * team.order.shape[0])
+        if last:
+            for part in range(surface.touching.shape[0]):
+                surface.touching[part] = 0
+            searching.begin_search(surface, solid, state, options, TICK)
+        elif surface.memory[LEFT] < 0.5 * dt:
+            searching.find_contacts(surface, solid, state, options, TICK - (interval + 1) * dt)
+            surface.memory[LEFT] = ti.max(surface.memory[GOOD_FOR], _LEAST_INTERVALS * dt)
 
     @ti.func
-    def advance_tick(
-        tick: ti.i32,
-        solid: ti.template(),
-        state: ti.template(),
-        drive: ti.template(),
-        pairs: ti.template(),
-        surface: ti.template(),
-        options: ti.template(),
-    ):
-        intervals = plan_tick(tick, solid, state, drive, surface)
-        dt = TICK / intervals
-        if surface.memory[1] < 0.0:
-            surface.memory[3] = find_contacts(surface, solid, state, options, TICK)
-        left = ti.max(surface.memory[3], _LEAST_INTERVALS * dt)  # time for which the list of contacts is good
-        for interval in range(intervals):
-            if left < 0.5 * dt:
-                left = find_contacts(surface, solid, state, options, TICK - interval * dt)
-                left = ti.max(left, _LEAST_INTERVALS * dt)
-            advance_interval(tick, interval, intervals, solid, state, drive, pairs, surface)
-            left = left - dt
-            if intervals > 1:
-                put_apart(surface, solid, state, options, interval, intervals, 1)
-        # A frame may follow, in which nothing shall be inside anything.
-        for part in range(surface.touching.shape[0]):
-            surface.touching[part] = 0
-        surface.memory[3] = find_contacts(surface, solid, state, options, TICK)
-        put_apart(surface, solid, state, options, 0, 1, _LAST_PASSES)
-        record(0, state.displacement.shape[0], tick, state, drive)
+    def work_together(scene: ti.template()):
+        """What every thread does: whoever is awake works, and all meet where one phase builds on another.
+
+        What is one thread's business is that of the one that did the last piece before it.
+        """
+        team = ti.static(scene.team)
+        blocks, vertices, large = team.blocks.shape[0], team.vertices.shape[0], team.large.shape[0]
+        phase, due = 1, 0
+        for tick in range(team.highest.shape[0]):
+            due += ti.max(blocks, vertices)
+            if plan_together(phase, due, tick, scene):
+                settle_tick(tick, scene)
+                give(team)
+            due += 1
+            wait_for(team.claims, 0, due)
+            advance_free(phase + 1, tick, scene)
+            phase += 2
+            intervals = team.steps[tick, team.order.shape[0]]
+            for interval in range(intervals):
+                due += blocks
+                last = step_together(phase, due, tick, interval, intervals, scene)
+                if large > 0:
+                    wait_for(team.claims, 0, due)
+                    due += large
+                    last = move_large(phase + 1, due, tick, interval, intervals, scene)
+                if last:
+                    see_to_contacts(tick, interval, intervals, scene)
+                    give(team)
+                due += 1
+                wait_for(team.claims, 0, due)
+                phase += 2
+            due += searching.pieces(scene.surface)
+            if search_together(phase, due, scene):
+                searching.end_search(scene.surface, scene.options)
+                # A frame may follow, in which nothing shall be inside anything.
+                put_apart(scene.surface, scene.solid, scene.state, scene.options, 0, 1, _LAST_PASSES)
+                give(team)
+            due += 1
+            wait_for(team.claims, 0, due)
+            phase += 1
+        for n in range(vertices):
+            piece = in_turn(n, vertices, scene)
+            if take(piece, phase, scene):
+                record_piece(piece, team.highest.shape[0] - 1, scene)
 
     @ti.kernel
     def advance_touching(
+        threads: ti.i32,
+        blocks: types.pairs,
+        vertex_pieces: types.pairs,
+        large_pieces: types.pairs,
+        part_order: types.integers,
+        claims: types.integers,
+        highest: types.scalars2,
+        tick_steps: types.integers2,
         starts: types.pairs,
         planned: types.integers,
         vertices: types.vectors4,
@@ -139,23 +322,23 @@ def build_contact_kernel(ti: Any) -> Any:
         points: types.integers,
         point_parts: types.integers,
         edges: types.pairs,
-        edge_points: types.pairs,
         neighbours: types.pairs,
         edge_parts: types.integers,
         bodies: types.integers,
-        spacing: types.scalars,
+        measures: types.vectors,
+        boxes: types.vectors4,
         first_overlaps: types.integers,
         overlap_parts: types.integers,
         overlaps: types.scalars,
         heads: types.integers,
         order: types.integers,
-        first_candidates: types.integers,
+        candidate_ranges: types.pairs,
         candidates: types.integers,
         places: types.vectors,
-        marks: types.vectors,
+        marks: types.vectors4,
+        found: types.integers,
         contacts: types.pairs,
         contact_data: types.vectors4,
-        speeds: types.scalars,
         touching: types.integers,
         steps: types.integers,
         memory: types.scalars,
@@ -163,68 +346,68 @@ def build_contact_kernel(ti: Any) -> Any:
         thickness: ti.f32,
         within: ti.i32,
     ):
-        ti.loop_config(serialize=True)
-        for tick in range(first_particles.shape[0] - 1):
-            advance_tick(
-                tick,
+        ti.loop_config(block_dim=1)
+        for thread in range(threads):
+            work_together(
                 ti.static(
-                    Solid(
-                        starts,
-                        planned,
-                        vertices,
-                        reach,
-                        leaders,
-                        grips,
-                        corners,
-                        elements,
-                        first_slots,
-                        slots,
-                        anchors,
-                        tethers,
-                        wind_response,
+                    _Scene(
+                        Solid(
+                            starts,
+                            planned,
+                            vertices,
+                            reach,
+                            leaders,
+                            grips,
+                            corners,
+                            elements,
+                            first_slots,
+                            slots,
+                            anchors,
+                            tethers,
+                            wind_response,
+                        ),
+                        State(u, v, push, decay, corner_forces, records),
+                        Drive(
+                            rig_leads,
+                            rig_rates,
+                            first_particles,
+                            particles,
+                            kinds,
+                            (gravity_x, gravity_y),
+                            WindTable(wind, waves, phases),
+                        ),
+                        pairs,
+                        ContactSurface(
+                            points,
+                            point_parts,
+                            edges,
+                            neighbours,
+                            edge_parts,
+                            bodies,
+                            measures,
+                            boxes,
+                            first_overlaps,
+                            overlap_parts,
+                            overlaps,
+                            heads,
+                            order,
+                            candidate_ranges,
+                            candidates,
+                            places,
+                            marks,
+                            found,
+                            contacts,
+                            contact_data,
+                            touching,
+                            steps,
+                            memory,
+                        ),
+                        ContactOptions(friction, thickness, within),
+                        Team(blocks, vertex_pieces, large_pieces, part_order, claims, highest, tick_steps),
+                        thread,
+                        threads,
                     )
-                ),
-                ti.static(State(u, v, push, decay, corner_forces, records)),
-                ti.static(
-                    Drive(
-                        rig_leads,
-                        rig_rates,
-                        first_particles,
-                        particles,
-                        kinds,
-                        (gravity_x, gravity_y),
-                        WindTable(wind, waves, phases),
-                    )
-                ),
-                pairs,
-                ti.static(
-                    ContactSurface(
-                        points,
-                        point_parts,
-                        edges,
-                        edge_points,
-                        neighbours,
-                        edge_parts,
-                        bodies,
-                        spacing,
-                        first_overlaps,
-                        overlap_parts,
-                        overlaps,
-                        heads,
-                        order,
-                        first_candidates,
-                        candidates,
-                        places,
-                        marks,
-                        contacts,
-                        contact_data,
-                        speeds,
-                        touching,
-                        steps,
-                        memory,
-                    )
-                ),
-                ti.static(ContactOptions(friction, thickness, within)),
+                )
             )
 
     return advance_touching

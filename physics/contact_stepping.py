@@ -3,10 +3,13 @@
 Every part takes its own steps through a tick as without contact. Two parts that may touch are put apart in every step
 of the stiffer one: bodies pushed out of each other more rarely would gain energy from the overlap of a whole interval.
 The softer one, which may stand still meanwhile, is foreseen to move at the end of its own step.
+
+All parts are advanced by several threads together, or by one where that is faster.
 """
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -16,13 +19,19 @@ from . import taichi_runtime
 from .collision import Contact
 from .contact_kernels import build_contact_kernel
 from .contact_surface import contact_surface
+from .contact_team import pieces_of, team_for
 from .drive import drive
 from .elasticity import RestShape
+from .pace import Pace
 from .scene import Scene
+from .schedule import most_threads
 from .solver import Drive, Solid, State
+from .solver_arrays import LANES
 from .system import System
 
 __all__ = ["TouchingBodies"]
+
+_paces: dict[tuple[int, int], Pace] = {}  # by threads and work in a tick; used on the Taichi thread only
 
 
 class TouchingBodies:
@@ -50,6 +59,8 @@ class TouchingBodies:
         added = np.zeros((len(still), 4), np.float32)
         added[:, :2] = still
         self._solid = solid._replace(vertices=np.concatenate([solid.vertices, added]))
+        self._threads = most_threads()
+        self._pieces = pieces_of(solid, self._threads)
         self.count = len(solid.vertices)
         self.state = State.at_rest(self._solid)
         if start is not None:
@@ -72,4 +83,11 @@ class TouchingBodies:
         thickness = self._contact.thickness / self._scene.bodies[0].mesh.longest_side
         options = (self._contact.friction, thickness, int(self._contact.self_contact))
         pairs = state.corner_forces.reshape(-1, 2)
-        kernel(*self._solid, *state, pairs, *arrays, *gravity, *wind, *self._surface, *options)
+        ticks = len(acting.first_particles) - 1
+        team = team_for(self._pieces, self._solid, len(self._surface.points), ticks)
+        work = float(LANES * (np.diff(self._solid.starts[:, 1]) * self._solid.substeps).sum())
+        pace = _paces.setdefault((self._threads, int(work).bit_length()), Pace())
+        shared, start = pace.share(), time.perf_counter()
+        threads = self._threads if shared else 1
+        kernel(threads, *team, *self._solid, *state, pairs, *arrays, *gravity, *wind, *self._surface, *options)
+        pace.learn(shared=shared, work=work * ticks, seconds=time.perf_counter() - start)

@@ -13,7 +13,27 @@ from .rig import MaskRegion
 from .scene import Scene
 from .system import System
 
-__all__ = ["LIST_LENGTH", "ContactSurface", "contact_surface", "signed_distances"]
+__all__ = [
+    "CANDIDATES",
+    "CONTACTS",
+    "FASTEST",
+    "FORESEEN",
+    "GAP",
+    "GOOD_FOR",
+    "LEFT",
+    "LIST_LENGTH",
+    "LONGEST",
+    "MOVED",
+    "NEAREST",
+    "POINTS_AT_ONCE",
+    "SEARCH",
+    "SPACING",
+    "SPEED",
+    "TIME",
+    "ContactSurface",
+    "contact_surface",
+    "signed_distances",
+]
 
 FloatArray = NDArray[np.float64]
 Float32Array = NDArray[np.float32]
@@ -22,7 +42,18 @@ Int32Array = NDArray[np.int32]
 LIST_LENGTH = 4
 """Contacts of one vertex, each with another part."""
 
-_CANDIDATES = 48  # edges around a vertex, on average over all, that are remembered at most
+CANDIDATES = 48
+"""Edges around a vertex, on average over a piece of a search, that are remembered at most."""
+
+POINTS_AT_ONCE = 32
+"""Boundary vertices that a thread takes from a search."""
+
+FORESEEN, CONTACTS, GAP, GOOD_FOR, LEFT, SEARCH, TIME, FASTEST, LONGEST, NEAREST, MOVED = range(11)
+"""Places of the numbers in ``ContactSurface.memory``."""
+
+SPACING, SPEED = range(2)
+"""Places of the numbers in ``ContactSurface.measures``."""
+
 _LEAST_SPACING = 2.0  # [px] between the points of a collider's outline
 _SMALLEST_COLLIDER = 4.0  # [px^2]
 _PAIRS_AT_ONCE = 1 << 17  # of a point and an edge, each some 100 bytes
@@ -34,48 +65,56 @@ class ContactSurface(NamedTuple):
     Attributes:
         points: vertices on a boundary, ascending, int32, shape [n].
         point_parts: connected part of each, colliders counted after all parts, int32, shape [n].
-        edges: boundary edges in the winding of their triangles, int32, shape [e, 2].
-        edge_points: the numbers of its ends among the points, int32, shape [e, 2].
+        edges: boundary edges in the winding of their triangles by the numbers of their ends among the points, int32,
+            shape [e, 2].
         neighbours: boundary edge before each, which ends where it begins, and the one after it, int32, shape [e, 2].
         edge_parts: connected part of each, int32, shape [e].
         bodies: body of each part, -1 for colliders, int32, shape [p].
-        spacing: mean length of each part's boundary edges at rest [side], float32, shape [p].
+        measures: mean length of each part's boundary edges at rest [side] and the speed of its fastest boundary vertex
+            [side/s], float32, shape [p, 2].
+        boxes: low and high corner of the box around each part when candidates were listed [side], float32, shape
+            [p, 4].
         first_overlaps: where each point's entries of the following two begin, int32, shape [n + 1].
         overlap_parts: parts that a point is in or near at rest, int32, shape [o].
         overlaps: distance that it keeps from each, negative inside [side], float32, shape [o].
         heads, order: room for the kernel's spatial hash.
-        first_candidates, candidates: for each point the edges that it may come near to for a while.
+        candidate_ranges, candidates: for each point the edges that it may come near to for a while, and where they
+            begin and end among them.
         places: where each point was when contacts were last looked for [side], float32, shape [n, 2].
-        marks: where it was when the candidates were listed [side], float32, shape [n, 2].
+        marks: where it was when the candidates were listed, and how far from the nearest of them [side], float32,
+            shape [n, 4].
+        found: contacts of each point in the present search, int32, shape [n].
         contacts: a point and the edge that it may touch, int32, shape [c, 2].
         contact_data: the normal, where on the edge, and the distance to keep, float32, shape [c, 4].
-        speeds: of the fastest boundary vertex of each part [side/s], float32, shape [p].
-        touching: 1 for parts near to another, 2 if they take the steps of this tick beside others, int32, shape [p].
+        touching: 1 for parts that may touch another in a tick, int32, shape [p].
         steps: substeps of each part in this tick, 0 for colliders, int32, shape [p].
-        memory: how far the candidates foresee [side], the number of contacts (-1: not yet found), how far everything
-            is from any [side], and how long the list of contacts is good [s], float32, shape [4].
+        memory: numbers that the kernel keeps, float32, shape [11]: how far the candidates foresee [side], the number of
+            contacts (-1: not yet found), how far everything is from any [side], how long the list of contacts is good
+            when it is made [s], and for how long it still has to do [s]; then of the present search what has to be
+            done, the time ahead [s], the speed of the fastest [side/s], the longest edge, the square of the distance
+            to the nearest candidate, and how far a point has moved since the candidates were listed [side].
     """
 
     points: Int32Array
     point_parts: Int32Array
     edges: Int32Array
-    edge_points: Int32Array
     neighbours: Int32Array
     edge_parts: Int32Array
     bodies: Int32Array
-    spacing: Float32Array
+    measures: Float32Array
+    boxes: Float32Array
     first_overlaps: Int32Array
     overlap_parts: Int32Array
     overlaps: Float32Array
     heads: Int32Array
     order: Int32Array
-    first_candidates: Int32Array
+    candidate_ranges: Int32Array
     candidates: Int32Array
     places: Float32Array
     marks: Float32Array
+    found: Int32Array
     contacts: Int32Array
     contact_data: Float32Array
-    speeds: Float32Array
     touching: Int32Array
     steps: Int32Array
     memory: Float32Array
@@ -112,27 +151,27 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
     surface = ContactSurface(
         points=points,
         point_parts=point_parts,
-        edges=every,
-        edge_points=np.searchsorted(points, every).astype(np.int32),
+        edges=np.searchsorted(points, every).astype(np.int32),
         neighbours=_neighbours(every),
         edge_parts=part_of_edge,
         bodies=bodies,
-        spacing=mean.astype(np.float32),
+        measures=np.column_stack([mean, np.zeros_like(mean)]).astype(np.float32),
+        boxes=np.zeros((len(bodies), 4), np.float32),
         first_overlaps=overlaps[0],
         overlap_parts=overlaps[1],
         overlaps=overlaps[2],
         heads=np.zeros(buckets + 1, np.int32),
         order=np.zeros(len(every), np.int32),
-        first_candidates=np.zeros(len(points) + 1, np.int32),
-        candidates=np.zeros(_CANDIDATES * len(points), np.int32),
+        candidate_ranges=np.zeros((len(points), 2), np.int32),
+        candidates=np.zeros(CANDIDATES * len(points), np.int32),
         places=np.zeros((len(points), 2), np.float32),
-        marks=np.zeros((len(points), 2), np.float32),
+        marks=np.zeros((len(points), 4), np.float32),
+        found=np.zeros(len(points), np.int32),
         contacts=np.zeros((room, 2), np.int32),
         contact_data=np.zeros((room, 4), np.float32),
-        speeds=np.zeros(len(bodies), np.float32),
         touching=np.ones(len(bodies), np.int32),
         steps=np.zeros(len(bodies), np.int32),
-        memory=np.array([0.0, -1.0, 0.0, 0.0], np.float32),
+        memory=np.array([0.0, -1.0, *[0.0] * 9], np.float32),
     )
     return surface, still
 

@@ -53,6 +53,7 @@ class ArrayTypes(NamedTuple):
     scalars2: Any
     scalars3: Any
     integers: Any
+    integers2: Any
     vectors: Any
     vectors2: Any
     vectors4: Any
@@ -74,6 +75,7 @@ def array_types(ti: Any) -> ArrayTypes:
         scalars2=array(dtype=ti.f32, ndim=2),
         scalars3=array(dtype=ti.f32, ndim=3),
         integers=array(dtype=ti.i32, ndim=1),
+        integers2=array(dtype=ti.i32, ndim=2),
         vectors=array(dtype=vector(2, ti.f32), ndim=1),
         vectors2=array(dtype=vector(2, ti.f32), ndim=2),
         vectors4=array(dtype=vector(4, ti.f32), ndim=1),

@@ -86,7 +86,7 @@ def report(animation: Animation) -> None:
 def _way(animation: Animation, planned: SimulationPlan) -> str:
     """How the connected parts were gone about."""
     if animation.scene.contact is not None:
-        return f"connected parts: {planned.alone} on one thread, in step where they may touch"
+        return f"connected parts: {planned.alone}, which threads advance together where they may touch"
     shared = [f"one shared by up to {threads} threads, where that is faster" for threads in planned.shared]
     alone = [f"{planned.alone} side by side, a thread for each"] if planned.alone else []
     return f"connected parts: {', '.join(shared + alone)}"

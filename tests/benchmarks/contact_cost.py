@@ -1,6 +1,7 @@
 """What contact costs: the same scene with it and without, in turns.
 
-Without contact, bodies are computed side by side; with it, on one thread. ``--one-core`` tells the two effects apart.
+Without contact, bodies are computed side by side; with it, their threads meet after every step and look for contacts.
+``--one-core`` leaves out what the meetings cost.
 """
 
 from __future__ import annotations

@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from physanimator.physics import contact_stepping
 from physanimator.physics.collision import Collider, Contact
 from physanimator.physics.contact_stepping import TouchingBodies
 from physanimator.physics.contact_surface import contact_surface, signed_distances
+from physanimator.physics.contact_team import LARGE
 from physanimator.physics.elasticity import energy
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.meshing import mesh_from_mask
 from physanimator.physics.motion import Motion
+from physanimator.physics.pace import Pace
 from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.simulation import _solid, simulate
+from physanimator.physics.solver_arrays import LANES
 from physanimator.physics.strokes import EnergyStroke
 from physanimator.physics.system import assemble
 
@@ -116,6 +120,22 @@ def test_without_contact_the_blobs_pass_through_each_other() -> None:
 
 def test_the_same_scene_moves_the_same_way() -> None:
     np.testing.assert_array_equal(simulate(blobs(Contact()), frames=60).positions, pile().positions[:60])
+
+
+@pytest.mark.parametrize("threads", [2, 3])
+def test_the_motion_is_the_same_with_any_number_of_threads(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    fine = mesh_from_mask(np.hypot(*(axis - 250.0 for axis in grid())) < 60, spacing=3.5)
+    assert len(fine.triangles) > LARGE * LANES  # shared among the threads; the others are whole pieces
+    far = Body(box(20, 20, 70, 60), SOFT)  # touches nothing at first
+    bodies = (Body(fine, SOFT), Body(disc(*CENTRES[0]), SOFT), Body(disc(*CENTRES[3]), SOFT), far)
+    scene = Scene(bodies, (pull(256, 256, 6.0),), contact=Contact(), gravity=(0.0, 0.1))
+    monkeypatch.setattr(Pace, "share", lambda _: True)
+    motions = []
+    for count in (1, threads):
+        monkeypatch.setattr(contact_stepping, "most_threads", partial(int, count))
+        motions.append(simulate(scene, frames=24).positions)
+    assert max(deepest(Motion(scene.bodies, motions[1], scene.frame_rate), frame) for frame in (12, 23)) == 0
+    np.testing.assert_array_equal(motions[0], motions[1])
 
 
 @pytest.mark.parametrize("speed", [0.3, 1.0])
@@ -252,7 +272,9 @@ def test_colliders_from_polygons_wind_as_bodies_do() -> None:
     for points in (ring, ring[::-1]):
         scene = Scene((Body(disc(*CENTRES[1])),), contact=Contact(), colliders=(Collider(Polygon(points)),))
         surface, still = contact_surface(scene, assemble(scene), Contact())
-        a, b = still[surface.edges[surface.edge_parts == 1] - len(scene.bodies[0].mesh.vertices)].transpose(1, 0, 2)
+        a, b = still[
+            surface.points[surface.edges[surface.edge_parts == 1]] - len(scene.bodies[0].mesh.vertices)
+        ].transpose(1, 0, 2)
         outward = np.column_stack([a[:, 1] - b[:, 1], b[:, 0] - a[:, 0]])
         assert (outward * ((a + b) / 2 - still.mean(axis=0))).sum(axis=1).min() > 0
 
