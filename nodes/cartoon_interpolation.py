@@ -70,7 +70,7 @@ def _missing(name: str, file: str) -> str:
 
 
 def _options(choice: dict[str, Any]) -> InterpolationOptions:
-    same = ("steps", "solver", "guidance", "control_scale", "pairs_together")
+    same = ("steps", "solver", "guidance", "control_scale", "pairs_together", "decoded_together")
     chosen = {name: choice[name] for name in same}
     area, seed = AREAS[choice["working_size"]], choice["noise_from"]
     return InterpolationOptions(area=area, seed=seed, frame_rate=choice["fs"], **chosen)

@@ -92,6 +92,13 @@ def tooncrafter_inputs() -> list[Any]:
             max=16,
             tooltip="Pairs of keyframes that are drawn at once; fewer need less memory.",
         ),
+        io.Int.Input(
+            "decoded_together",
+            default=_USUAL.decoded_together,
+            min=1,
+            max=16,
+            tooltip="Frames whose pictures are made at once; fewer need less memory, and give the same pictures.",
+        ),
         io.Combo.Input(
             "precision",
             options=list(PRECISIONS),

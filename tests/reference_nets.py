@@ -101,7 +101,7 @@ def recorded(case: str, prefix: str, network: nn.Module) -> Iterator[dict[str, T
             continue
 
         def keep(_: nn.Module, given: Any, out: Any, name: str = name, is_input: str = is_input) -> None:
-            found[name] = given[0] if is_input else out
+            found[name] = (given[0] if is_input else out).clone()  # which may be changed in place
 
         hooks.append(modules[path].register_forward_hook(keep))
     try:

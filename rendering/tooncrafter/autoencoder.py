@@ -7,16 +7,16 @@ from typing import Any
 
 import torch
 from torch import Tensor, nn
-from torch.nn import functional
 
 from ..checkpoints import assign, below, build_without_storage
-from ..svd.residual_block import normalised
-from ..svd.unet import Upsample
-from .autoencoder_blocks import PictureAttention, PictureBlock, VideoBlock
+from .clip_decoder import ClipDecoder
 from .configuration import AutoencoderConfiguration
-from .reference_features import AddReferences, AttendToReferences
+from .picture_encoder import PictureEncoder
 
-__all__ = ["DualReferenceAutoencoder"]
+__all__ = ["PIXELS_PER_LATENT", "DualReferenceAutoencoder"]
+
+PIXELS_PER_LATENT = 8
+"""Width and height of the part of a picture that a latent stands for [px]."""
 
 
 class DualReferenceAutoencoder(nn.Module):
@@ -28,8 +28,8 @@ class DualReferenceAutoencoder(nn.Module):
     def __init__(self, config: AutoencoderConfiguration) -> None:
         super().__init__()
         self.config = config
-        self.encoder = _Encoder(config)
-        self.decoder = _Decoder(config)
+        self.encoder = PictureEncoder(config)
+        self.decoder = ClipDecoder(config)
         self.quant_conv = nn.Conv2d(2 * config.z_channels, 2 * config.embed_dim, 1)
         # Part of the public file, without use: the decoder was trained on the latents as they are.
         self.post_quant_conv = nn.Conv2d(config.embed_dim, config.z_channels, 1)
@@ -46,139 +46,40 @@ class DualReferenceAutoencoder(nn.Module):
         )
         return network
 
-    def encode(self, frames: Tensor) -> tuple[Tensor, list[Tensor]]:
+    def encode(self, frames: Tensor, *, together: int | None = None) -> tuple[Tensor, list[Tensor]]:
         """Encode pictures; the first and the last are the keyframes.
 
         Args:
             frames: -1..1, shape [t, 3, h, w].
+            together: pictures that are encoded at once; None encodes all at once.
 
         Returns:
             Means and logarithms of variances, one after the other, shape [t, 8, h / 8, w / 8]; and the features of both
             keyframes on each level, then at the entrance, shapes [1, c, 2, h', w'].
         """
-        h, features = self.encoder(frames)
-        references = [torch.stack([each[0], each[-1]], dim=1)[None] for each in features]
-        return self.quant_conv(h), references
+        moments: list[Tensor] = []
+        ends: list[list[Tensor]] = []
+        for part in frames.split(together or len(frames)):
+            h, features = self.encoder(part)
+            moments.append(self.quant_conv(h))
+            ends = [*ends[:1], features]
+        references = [
+            torch.stack([first[0], last[-1]], dim=1)[None] for first, last in zip(ends[0], ends[-1], strict=True)
+        ]
+        return torch.cat(moments), references
 
-    def decode(self, latents: Tensor, references: Sequence[Tensor]) -> Tensor:
+    def decode(self, latents: Tensor, references: Sequence[Tensor], *, together: int | None = None) -> Tensor:
         """Decode one clip.
 
         Args:
             latents: not scaled, shape [t, 4, h, w].
             references: features of both keyframes, from ``encode``.
+            together: about as many frames' results are in memory at once; None decodes all at once. The pictures are
+                the same but for rounding.
 
         Returns:
             Pictures, about -1..1, shape [t, 3, 8 h, 8 w].
         """
-        return self.decoder(latents, references)
-
-
-class _Downsample(nn.Module):
-    """Half the height and width; the added row and column are at the far ends only."""
-
-    def __init__(self, channels: int) -> None:
-        super().__init__()
-        self.conv = nn.Conv2d(channels, channels, 3, stride=2)
-
-    def forward(self, x: Tensor) -> Tensor:
-        return self.conv(functional.pad(x, (0, 1, 0, 1)))
-
-
-class _Level(nn.Module):
-    """Blocks of one level and, but for the last, the way to the next."""
-
-    def __init__(
-        self, blocks: Sequence[nn.Module], downsample: nn.Module | None = None, upsample: nn.Module | None = None
-    ) -> None:
-        super().__init__()
-        self.block = nn.ModuleList(blocks)
-        self.downsample = downsample
-        self.upsample = upsample
-
-    def forward(self, x: Tensor) -> Tensor:
-        """The blocks alone."""
-        for block in self.block:
-            x = block(x)
-        return x
-
-
-class _Middle(nn.Module):
-    def __init__(self, block: type[PictureBlock], channels: int) -> None:
-        super().__init__()
-        self.block_1, self.block_2 = block(channels, channels), block(channels, channels)
-        self.attn_1 = PictureAttention(channels)
-
-    def forward(self, x: Tensor) -> Tensor:
-        return self.block_2(self.attn_1(self.block_1(x)))
-
-
-class _Encoder(nn.Module):
-    def __init__(self, config: AutoencoderConfiguration) -> None:
-        super().__init__()
-        levels, last = config.level_channels, config.level_channels[-1]
-        self.conv_in = nn.Conv2d(3, config.ch, 3, padding=1)
-        self.down = nn.ModuleList()
-        channels = config.ch
-        for number, width in enumerate(levels):
-            blocks = [PictureBlock(channels if not each else width, width) for each in range(config.num_res_blocks)]
-            self.down.append(_Level(blocks, downsample=_Downsample(width) if number + 1 < len(levels) else None))
-            channels = width
-        self.mid = _Middle(PictureBlock, last)
-        self.norm_out = normalised(last, epsilon=1e-6)
-        self.conv_out = nn.Conv2d(last, 2 * config.z_channels, 3, padding=1)
-
-    def forward(self, x: Tensor) -> tuple[Tensor, list[Tensor]]:
-        entrance = x = self.conv_in(x)
-        features = []
-        for level in self.down:
-            assert isinstance(level, _Level)
-            x = level(x)
-            features.append(x)
-            if level.downsample is not None:
-                x = level.downsample(x)
-        x = functional.silu(self.norm_out(self.mid(x)))
-        return self.conv_out(x), [*features, entrance]
-
-
-class _LastConvolution(nn.Conv2d):
-    """To colours, then over time."""
-
-    def __init__(self, channels: int) -> None:
-        super().__init__(channels, 3, 3, padding=1)
-        self.time_mix_conv = nn.Conv3d(3, 3, (3, 1, 1), padding=(1, 0, 0))
-
-    def forward(self, x: Tensor) -> Tensor:
-        pictures = super().forward(x)
-        return self.time_mix_conv(pictures.transpose(0, 1)[None])[0].transpose(0, 1)
-
-
-class _Decoder(nn.Module):
-    def __init__(self, config: AutoencoderConfiguration) -> None:
-        super().__init__()
-        levels, channels = config.level_channels, config.level_channels[-1]
-        self.conv_in = nn.Conv2d(config.z_channels, channels, 3, padding=1)
-        self.mid = _Middle(VideoBlock, channels)
-        up = []
-        for number, width in reversed(list(enumerate(levels))):
-            blocks = [VideoBlock(channels if not each else width, width) for each in range(config.num_res_blocks + 1)]
-            up.append(_Level(blocks, upsample=Upsample(width) if number else None))
-            channels = width
-        self.up = nn.ModuleList(reversed(up))
-        refinements = [
-            AttendToReferences(width, config) if number in config.fusion_levels else AddReferences(width)
-            for number, width in enumerate(levels)
-        ]
-        self.attn_refinement = nn.ModuleList([*refinements, AddReferences(channels)])
-        self.norm_out = normalised(channels, epsilon=1e-6)
-        self.conv_out = _LastConvolution(channels)
-
-    def forward(self, x: Tensor, references: Sequence[Tensor]) -> Tensor:
-        x = self.mid(self.conv_in(x))
-        for number in reversed(range(len(self.up))):
-            level = self.up[number]
-            assert isinstance(level, _Level)
-            x = self.attn_refinement[number](level(x), references[number])
-            if level.upsample is not None:
-                x = level.upsample(x)
-        x = functional.silu(self.norm_out(x))
-        return self.conv_out(self.attn_refinement[len(self.up)](x, references[-1]))
+        each = self.config.ch * latents[0, 0].numel() * PIXELS_PER_LATENT**2
+        budget = together * each if together is not None and together < len(latents) else None
+        return self.decoder(latents, references, budget)

@@ -63,7 +63,7 @@ def encode_pair(autoencoder: DualReferenceAutoencoder, keyframes: Tensor, noise:
         noise: of the latents, which are drawn from a distribution, shape [2, 4, h / 8, w / 8].
         frames: of the clip.
     """
-    moments, references = autoencoder.encode(keyframes)
+    moments, references = autoencoder.encode(keyframes, together=1)
     mean, log_variance = moments.chunk(2, dim=1)
     latents = LATENT_SCALE * (mean + (log_variance.clamp(-30, 20) / 2).exp() * noise)
     condition = latents.new_zeros((1, latents.shape[1], frames, *latents.shape[2:]))

@@ -32,6 +32,7 @@ class InterpolationOptions:
         control_scale: how closely frames follow the sketches; 0 ignores them.
         area: of the pictures that the networks work on [px^2].
         pairs_together: pairs of keyframes that are drawn at once; fewer need less memory.
+        decoded_together: frames whose pictures are made at once; fewer need less memory, and give the same pictures.
         seed: of the noise.
     """
 
@@ -44,6 +45,7 @@ class InterpolationOptions:
     control_scale: float = 0.1
     area: int = TRAINED_WIDTH * TRAINED_HEIGHT
     pairs_together: int = 1
+    decoded_together: int = 3
     seed: int = 0
 
     def __post_init__(self) -> None:
@@ -55,3 +57,4 @@ class InterpolationOptions:
         require("frame_rate", self.frame_rate, self.frame_rate >= 1, "1 or more")
         require("control_scale", self.control_scale, self.control_scale >= 0, "0 or more")
         require("pairs_together", self.pairs_together, self.pairs_together >= 1, "1 or more")
+        require("decoded_together", self.decoded_together, self.decoded_together >= 1, "1 or more")

@@ -9,11 +9,13 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..svd.memory import autoencoder_bytes, sampling_bytes
+from ..svd.memory import sampling_bytes
 from ..svd.placement import Placement
+from .autoencoder import PIXELS_PER_LATENT
 from .clip import guided_velocity, sample_clips
 from .conditioning import LATENT_SCALE, Context, KeyframePair, Tokens, contexts, empty_prompt_of, encode_pair, look_at
 from .decoding import decode_clip
+from .memory import decoding_bytes, encoding_bytes
 from .models import InterpolationModels
 from .options import InterpolationOptions
 from .sampler import Watch
@@ -25,8 +27,6 @@ LookAt = Callable[[Sequence[Tensor]], Tokens]
 
 Prompts = tuple[Tensor, Tensor]
 """Embedded prompt and embedded empty prompt, each of shape [1, l, c]."""
-
-_PIXELS_PER_LATENT = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,8 +104,8 @@ class PairDrawing:
     def _encoded(self, pairs: Sequence[Pair], generators: Sequence[torch.Generator], count: int) -> list[KeyframePair]:
         autoencoder, device = self.models.autoencoder, self.placement.device
         height, width = pairs[0].keyframes.shape[-2:]
-        needed = autoencoder_bytes(2 * height * width, autoencoder.config.ch)
-        shape = (2, autoencoder.config.embed_dim, height // _PIXELS_PER_LATENT, width // _PIXELS_PER_LATENT)
+        needed = encoding_bytes(height * width, autoencoder.config.ch)
+        shape = (2, autoencoder.config.embed_dim, height // PIXELS_PER_LATENT, width // PIXELS_PER_LATENT)
         with self.placement.at_work(autoencoder, working_bytes=needed):
             return [
                 encode_pair(
@@ -142,16 +142,18 @@ class PairDrawing:
     def _decoded(self, latents: Tensor, encoded: Sequence[KeyframePair]) -> list[Tensor]:
         autoencoder, device = self.models.autoencoder, self.placement.device
         halved = self.models.dtype != torch.float32 and device.type == "cuda"
-        pixels = latents[0, 0].numel() * _PIXELS_PER_LATENT**2
+        frames, pixels = latents.shape[2], latents[0, 0, 0].numel() * PIXELS_PER_LATENT**2
+        together, dtype = self.options.decoded_together, self.models.dtype if halved else torch.float32
+        needed = decoding_bytes(pixels, autoencoder.config.ch, frames, together=together, dtype=dtype)
         clips = []
-        with self.placement.at_work(autoencoder, working_bytes=autoencoder_bytes(pixels, autoencoder.config.ch)):
+        with self.placement.at_work(autoencoder, working_bytes=needed):
             for clip, pair in zip(latents, encoded, strict=True):
 
                 def decoder(part: Tensor, references: list[Tensor] = pair.references) -> Tensor:
-                    with torch.autocast(device.type, self.models.dtype if halved else None, enabled=halved):
-                        pictures = autoencoder.decode(part, references).float()
+                    with torch.autocast(device.type, dtype if halved else None, enabled=halved):
+                        pictures = autoencoder.decode(part, references, together=together).float()
                     if halved and not pictures.isfinite().all():  # half precision overflows for some pictures
-                        pictures = autoencoder.decode(part, references)
+                        pictures = autoencoder.decode(part, references, together=together)
                     return pictures
 
                 clips.append(decode_clip(decoder, clip.transpose(0, 1) / LATENT_SCALE).cpu())

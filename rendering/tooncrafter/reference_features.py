@@ -6,6 +6,7 @@ from torch import Tensor, nn
 from torch.nn import functional
 
 from ..svd.residual_block import normalised
+from .clip_features import ClipFeatures
 from .configuration import AutoencoderConfiguration
 
 __all__ = ["AddReferences", "AttendToReferences"]
@@ -18,10 +19,15 @@ class AddReferences(nn.Module):
         super().__init__()
         self.conv = nn.Conv2d(channels, channels, 1)
 
-    def forward(self, x: Tensor, references: Tensor) -> Tensor:
-        """x: features of one clip, shape [t, c, h, w]; references: of both keyframes, shape [1, c, 2, h, w]."""
+    def forward(self, features: ClipFeatures, references: Tensor) -> Tensor:
+        """Change the features of a clip, and return what they are then.
+
+        Args:
+            features: of the clip.
+            references: of both keyframes, shape [1, c, 2, h, w].
+        """
         first, last = self.conv(references[0].transpose(0, 1))
-        x = x.clone()
+        x = features.settled()
         x[0] += first
         x[-1] += last
         return x
@@ -37,13 +43,17 @@ class AttendToReferences(nn.Module):
         self.to_q, self.to_k, self.to_v = (nn.Linear(channels, inner, bias=False) for _ in range(3))
         self.to_out = nn.Sequential(nn.Linear(inner, channels))
 
-    def forward(self, x: Tensor, references: Tensor) -> Tensor:
-        """x: features of one clip, shape [t, c, h, w]; references: of both keyframes, shape [1, c, 2, h, w]."""
-        queries = self.to_q(self.norm(x).flatten(2).transpose(1, 2))
+    def keys_and_values(self, references: Tensor) -> tuple[Tensor, Tensor]:
+        """references: of both keyframes, shape [1, c, 2, h, w]; what all frames find there."""
         pixels = references.flatten(2).transpose(1, 2)
-        q, k, v = (
-            each.unflatten(-1, (-1, self.head_channels)).transpose(1, 2).expand(len(x), -1, -1, -1)
-            for each in (queries, self.to_k(pixels), self.to_v(pixels))
-        )
+        return self._in_heads(self.to_k(pixels)), self._in_heads(self.to_v(pixels))
+
+    def forward(self, x: Tensor, keys: Tensor, values: Tensor) -> Tensor:
+        """x: features of pictures, shape [n, c, h, w]; keys and values: shape [1, heads, places, channels]."""
+        q = self._in_heads(self.to_q(self.norm(x).flatten(2).transpose(1, 2)))
+        k, v = (each.expand(len(x), -1, -1, -1) for each in (keys, values))
         mixed = self.to_out(functional.scaled_dot_product_attention(q, k, v).transpose(1, 2).flatten(2))
         return x + mixed.transpose(1, 2).unflatten(2, x.shape[2:])
+
+    def _in_heads(self, x: Tensor) -> Tensor:
+        return x.unflatten(-1, (-1, self.head_channels)).transpose(1, 2)

@@ -22,7 +22,6 @@ from typing import Any
 import numpy as np
 import source_tree  # loads this source tree as the package physanimator
 import torch
-from live_tensors import LiveTensors
 from physanimator.rendering.svd.autoencoder import build_autoencoder
 from physanimator.rendering.svd.configuration import NetworkConfiguration
 from physanimator.rendering.svd.controlnet import SketchControlNet
@@ -37,6 +36,7 @@ from physanimator.rendering.svd.unet import SpatioTemporalUNet
 from torch._subclasses.fake_tensor import FakeTensorMode
 
 random_svd = source_tree.helper("random_svd")
+LiveTensors = source_tree.helper("live_tensors").LiveTensors
 
 GIB = 2**30
 AREAS = {"448x256": (448, 256), "576x320": (576, 320), "768x448": (768, 448), "1024x576": (1024, 576)}

@@ -2,9 +2,11 @@
 
     python tests/benchmarks/tooncrafter.py --json
 
-Pairs are drawn on a GPU if there is one, in half precision, eager and compiled. On a CPU, where a pair would take the
-better part of an hour, --steps says how many sampling steps are really measured; the seconds of a pair follow from
-them. --size tiny takes small networks. Memory is also counted, without a device, for each working size.
+Pairs are drawn on a GPU if there is one, in half precision, eager and compiled. On a CPU, where a pair would take
+hours, two sampling steps are drawn, and the seconds of a pair are extrapolated from them; --steps says how many. Each
+pair is led by sketches, and drawn at once from pictures to pictures, so that a step is two predictions of the UNet and
+of the sketch encoder. --size tiny takes small networks. Memory is also counted, without a device, for each working
+size and number of frames that are decoded together.
 """
 
 from __future__ import annotations
@@ -18,7 +20,6 @@ from typing import Any
 import numpy as np
 import source_tree  # loads this source tree as the package physanimator
 import torch
-from live_tensors import LiveTensors
 from physanimator.rendering.checkpoints import assign, build_without_storage
 from physanimator.rendering.inbetweening import Clip
 from physanimator.rendering.svd.image_encoder import ImageEncoder
@@ -35,9 +36,12 @@ from torch._subclasses.fake_tensor import FakeTensorMode
 
 random_svd = sys.modules["random_svd"] = source_tree.helper("random_svd")
 random_tooncrafter = source_tree.helper("random_tooncrafter")
+LiveTensors = source_tree.helper("live_tensors").LiveTensors
 
 GIB = 2**30
 GAP = 15
+DECODED_TOGETHER = (InterpolationOptions.decoded_together, 8, 16)
+STAGES = ("picture encoder", "resampler", "encoding", "sampling", "decoding")
 AREAS = {"512x320": (512, 320), "768x512": (768, 512), "128x64": (128, 64)}
 
 
@@ -59,28 +63,38 @@ def random_models(sizes: ModelSizes, dtype: torch.dtype) -> InterpolationModels:
     )
 
 
-def drawing(models: InterpolationModels, size: tuple[int, int], steps: int, device: torch.device) -> dict[str, float]:
+def drawing(models: InterpolationModels, size: tuple[int, int], steps: int, device: torch.device) -> dict[str, Any]:
     """Seconds and peak memory of one pair, led by sketches."""
     width, height = size
     random = np.random.default_rng(0)
     keyframes = list(random.random((2, height, width, 3), dtype=np.float32))
     clip = Clip(keyframes, (0, GAP), sketches=list(random.random((GAP + 1, height, width), dtype=np.float32)))
-    marks: list[float] = []
+    ends: list[float] = []
+
+    def left() -> None:
+        if device.type == "cuda":
+            torch.cuda.synchronize(device)
+        ends.append(time.perf_counter())
+
     options = InterpolationOptions(steps=steps, area=width * height)
-    backend = ToonCrafterInterpolator(
-        models, options=options, placement=Placement(device), watch=lambda _: marks.append(time.perf_counter())
-    )
+    backend = ToonCrafterInterpolator(models, options=options, placement=Placement(device, left=left))
     if device.type == "cuda":
         torch.cuda.reset_peak_memory_stats(device)
-    began = time.perf_counter()
+    left()
     assert len(list(backend.in_betweens(clip, 0))) == GAP - 1
-    seconds = time.perf_counter() - began
-    found = {"seconds": seconds, "peak_gib": peak_memory(device) / GIB}
-    if len(marks) > 1:
-        usual = InterpolationOptions().steps
-        step = float(np.median(np.diff(marks)))
-        found |= {"seconds_a_step": step, f"seconds_with_{usual}_steps": seconds + (usual - steps) * step}
-    return found
+    stages = dict(zip(STAGES, np.diff(ends).tolist(), strict=True))
+    step, usual = stages["sampling"] / steps, InterpolationOptions().steps
+    found = {"seconds_of": stages, "steps": steps, "seconds_a_step": step}
+    if steps != usual:
+        found[f"seconds_with_{usual}_steps_extrapolated"] = ends[-1] - ends[0] + (usual - steps) * step
+    return found | {"seconds": ends[-1] - ends[0], "peak_gib": peak_memory(device) / GIB}
+
+
+def as_on_a_gpu(autoencoder: DualReferenceAutoencoder) -> None:
+    """Let it normalise in single precision, which a GPU does in half precision too."""
+    for module in autoencoder.modules():
+        if isinstance(module, torch.nn.GroupNorm):
+            module.register_forward_pre_hook(lambda _, given: (given[0].float(),))
 
 
 def counted_memory(size: tuple[int, int], sizes: ModelSizes) -> dict[str, float]:
@@ -102,15 +116,22 @@ def counted_memory(size: tuple[int, int], sizes: ModelSizes) -> dict[str, float]
             control = sketch(empty(frames, 4, *latent), empty(frames, 1, height, width), timestep, context)
             unet(empty(1, 8, frames, *latent), timestep, context, timestep, control)
         autoencoder = DualReferenceAutoencoder(sizes.autoencoder)
-        references = autoencoder.encode(torch.empty(2, 3, height, width))[1]
-        with LiveTensors(autoencoder) as decoding:
-            autoencoder.decode(torch.empty(frames, 4, *latent), references)
+        with LiveTensors(autoencoder) as encoding:
+            references = autoencoder.encode(torch.empty(2, 3, height, width), together=1)[1]
+        kept = sum(each.nbytes for each in references)
+        decoding = {}
+        as_on_a_gpu(autoencoder)
+        for together in DECODED_TOGETHER:
+            with LiveTensors(autoencoder) as live, torch.autocast("cpu", torch.bfloat16):
+                autoencoder.decode(torch.empty(frames, 4, *latent), references, together=together)
+            decoding[f"decoding, {together} together"] = live.peak + kept
     found = {
         "unet": bytes_of(unet),
         "sketch_encoder": bytes_of(sketch),
         "sampling": sampling.peak,
         "autoencoder": bytes_of(autoencoder),
-        "decoding": decoding.peak // 2,  # half of what single precision needs
+        "encoding": encoding.peak,
+        **decoding,
     }
     return {name: size / GIB for name, size in found.items()}
 

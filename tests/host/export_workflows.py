@@ -11,6 +11,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import shutil
 import sys
 import tempfile
 import uuid
@@ -21,6 +22,7 @@ from typing import Any
 import numpy as np
 from browser import Page, opened
 from comfy_host import ROOT, Host
+from frame_interpolation_graph import NAME, with_frame_interpolation
 from graphs import WORKFLOWS, Group, without_models
 from video_model_graphs import VIDEO_MODEL_WORKFLOWS, without_video_model
 
@@ -141,6 +143,15 @@ def _write(path: Path, data: Any) -> None:
     print(path.relative_to(ROOT))
 
 
+def _write_for_newer_hosts() -> None:
+    """What is made of the quickstart; its thumbnail is that one's, whose frames it shows."""
+    folders = ROOT / "workflows", ROOT / "workflows" / "api"
+    quickstart = [json.loads((folder / "quickstart.json").read_text(encoding="utf-8")) for folder in folders]
+    for folder, graph in zip(folders, with_frame_interpolation(*quickstart), strict=True):
+        _write(folder / f"{NAME}.json", graph)
+    shutil.copyfile(folders[0] / "quickstart.jpg", folders[0] / f"{NAME}.jpg")
+
+
 def main() -> None:
     if "COMFYUI_PATH" not in os.environ:
         sys.exit("set COMFYUI_PATH to a ComfyUI checkout")
@@ -156,6 +167,7 @@ def main() -> None:
                     _write(ROOT / "workflows" / f"{name}.json", ui)
                     _write(ROOT / "workflows" / "api" / f"{name}.json", api)
                     thumbnail(host, without_video_model(without_models(api)), ROOT / "workflows" / f"{name}.jpg")
+            _write_for_newer_hosts()
         finally:
             host.stop()
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from frame_interpolation_graph import for_newer_hosts
 from graphs import without_models
 from video_model_graphs import led_by, without_video_model
 
@@ -16,7 +17,8 @@ ROOT = Path(__file__).resolve().parents[2]
 ALL = {
     path: json.loads(path.read_text(encoding="utf-8")) for path in sorted((ROOT / "workflows" / "api").glob("*.json"))
 }
-WORKFLOWS = [path for path, api in ALL.items() if led_by(api) is None]
+WORKFLOWS = [path for path, api in ALL.items() if led_by(api) is None and not for_newer_hosts(api)]
+FOR_NEWER_HOSTS = [path for path, api in ALL.items() if for_newer_hosts(api)]
 FOR_VIDEO_MODELS = [path for path, api in ALL.items() if led_by(api) is not None]
 LOADERS = {"UNETLoader", "CLIPLoader", "VAELoader", "CLIPVisionLoader"}
 
@@ -69,6 +71,16 @@ def test_what_a_video_model_is_given_has_its_length_and_size(host: Any, path: Pa
     else:
         assert frames.shape == (81, 480, 832, 3)
         assert (np.abs(np.diff(frames.astype(np.int16), axis=0)) > 24).any(axis=(1, 2, 3)).mean() > 0.9
+
+
+@pytest.mark.parametrize("path", FOR_NEWER_HOSTS, ids=lambda path: path.stem)
+def test_a_workflow_for_newer_hosts_lacks_nothing_but_its_file(host: Any, path: Path) -> None:
+    prompt = ALL[path]
+    missing = {node["class_type"] for node in prompt.values()} - set(host.get("/object_info"))
+    if missing:
+        pytest.skip(f"this host has no {', '.join(sorted(missing))}")
+    _, answer = host.post("/prompt", {"prompt": prompt, "client_id": host.client})
+    assert {prompt[key]["class_type"] for key in answer["node_errors"]} == {"FrameInterpolationModelLoader"}, answer
 
 
 def test_what_was_not_changed_is_not_computed_again(host: Any) -> None:

@@ -178,3 +178,17 @@ def test_nothing_of_this_machine_is_in_the_files(name: str) -> None:
     assert "127.0.0.1" not in text
     assert "/tmp" not in text
     assert "/home" not in text
+
+
+def test_the_workflow_for_newer_hosts_is_the_quickstart_with_frames_between() -> None:
+    api, shorter = api_of("frame_interpolation"), api_of("quickstart")
+    added = {key: node for key, node in api.items() if key not in shorter}
+    assert {node["class_type"] for node in added.values()} == {"FrameInterpolationModelLoader", "FrameInterpolate"}
+    (drawn,) = (key for key, node in added.items() if node["class_type"] == "FrameInterpolate")
+    (video,) = (node for node in api.values() if node["class_type"] == "CreateVideo")
+    (scene,) = (node for node in api.values() if node["class_type"] == "PhysAnimator_AutomaticScene")
+    assert video["inputs"]["images"] == [drawn, 0]
+    assert api[api[drawn]["inputs"]["images"][0]]["class_type"] == "PhysAnimator_Render"
+    assert video["inputs"]["fps"] == api[drawn]["inputs"]["multiplier"] * scene["inputs"]["frame_rate"]
+    note = next(node for node in ui_of("frame_interpolation")["nodes"] if node["type"] == "MarkdownNote")
+    assert "0.8.0 has not" in note["widgets_values"][0]

@@ -219,6 +219,44 @@ def test_flow_leaves_what_stands_still_as_it_is() -> None:
         np.testing.assert_array_equal(frame[:, 200:], marks[:, 200:])
 
 
+def test_flow_that_finds_nothing_alike_fades() -> None:
+    """Two pictures without anything in common: what flow is found between them is worth no more than half."""
+    first, last = (np.rint(smooth_noise(seed, 3) * 255).astype(np.uint8)[:HEIGHT, :WIDTH] for seed in (8, 9))
+    followed, dissolved = (list(interpolate([first, last], [0, 2], backend=each))[1] for each in ("flow", "blend"))
+    blended = ((first.astype(int) + last) / 2 - dissolved).std()
+    assert blended < 1
+    assert (followed.astype(int) - dissolved).std() < 0.6 * (first.astype(int) - dissolved).std()
+
+
+@pytest.mark.parametrize(("gap", "follows"), [(2, True), (4, True), (5, False), (16, False)])
+def test_flow_fades_keyframes_that_are_far_apart(gap: int, follows: bool) -> None:
+    wide = np.rint(smooth_noise(5, 2) * 255).astype(np.uint8)
+    keyframes = [wide[20 : 20 + HEIGHT, x : x + WIDTH] for x in (20, 28)]
+    followed, dissolved = (list(interpolate(keyframes, [0, gap], backend=each)) for each in ("flow", "blend"))
+    assert (np.abs(np.stack(followed).astype(int) - dissolved).max() > 20) == follows
+
+
+def test_flow_is_nearer_than_fading_where_a_swing_is_short() -> None:
+    """A leaf that swings on an arc: along the flow while frames are few, and never worse when they are many."""
+    ground, leaf = (np.rint(smooth_noise(seed, 4) * 255).astype(np.uint8)[:HEIGHT, :WIDTH] for seed in (10, 11))
+
+    def drawn(frame: int) -> NDArray[np.uint8]:
+        angle = 40 * np.sin(frame * 2 * np.pi / 24)
+        shape = np.zeros((HEIGHT, WIDTH), np.uint8)
+        cv2.ellipse(shape, (WIDTH // 2, HEIGHT // 2), (12, 40), 0, 0, 360, 255, -1)
+        turn = cv2.getRotationMatrix2D((WIDTH / 2, 10.0), angle, 1.0)
+        turned, mask = (cv2.warpAffine(each, turn, (WIDTH, HEIGHT)) for each in (leaf, shape))
+        return np.where(mask[..., None] > 127, turned, ground)
+
+    for gap in range(2, 17):
+        truth = [drawn(frame) for frame in range(gap + 1)]
+        found = {}
+        for backend in ("flow", "blend"):
+            frames = list(interpolate([truth[0], truth[gap]], [0, gap], backend=backend))
+            found[backend] = np.mean([psnr(a, b) for a, b in zip(frames[1:-1], truth[1:-1], strict=True)])
+        assert found["flow"] > found["blend"] + (0.5 if gap == 2 else -0.01), gap
+
+
 def test_without_a_motion_the_default_is_flow(frames: list[NDArray[np.uint8]]) -> None:
     keyframes, indices = [frames[0], frames[2]], [0, 2]
     default = list(interpolate(keyframes, indices))
