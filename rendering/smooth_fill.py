@@ -49,11 +49,12 @@ def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
     Returns:
         RGB, shape [h, w, 3]; unchanged outside the hole.
     """
-    trend = _trend(picture, hole)
+    trend, curved = _trend(picture, hole)
     near = np.where(hole[..., None], spread_colours(picture - trend, ~hole, hole, power=_FILL_POWER) + trend, picture)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.minimum(depth / np.float32(_DEPTH), 1)[..., None]
-    deep = _harmonic(picture - trend, hole) + trend
+    # A plane is harmonic by itself, and where the hole meets the picture's border better left out.
+    deep = _harmonic(picture - trend, hole) + trend if curved else _harmonic(picture, hole)
     known = picture[~hole]
     if not len(known):
         return picture
@@ -64,13 +65,13 @@ def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
     return np.where(hole[..., None], filled, picture)
 
 
-def _trend(picture: FloatImage, hole: Mask) -> FloatImage:
-    """The plane, or the bowl if it fits far better, that most colours beside a hole lie near, shape [h, w, 3]."""
+def _trend(picture: FloatImage, hole: Mask) -> tuple[FloatImage, bool]:
+    """The plane that most colours beside a hole lie near, shape [h, w, 3]; or a bowl, if it fits far better, and true."""
     height, width = hole.shape
     beside = cv2.dilate(hole.astype(np.uint8), np.ones((2 * _BESIDE + 1,) * 2, np.uint8)) > 0
     row, column = np.nonzero(beside & ~hole)
     if len(row) < _FEWEST:
-        return np.zeros_like(picture)
+        return np.zeros_like(picture), False
     row, column = row[:: 1 + len(row) // _MOST], column[:: 1 + len(row) // _MOST]
     x, y = column / width - 0.5, row / height - 0.5
     colours = picture[row, column].astype(np.float64)
@@ -78,8 +79,9 @@ def _trend(picture: FloatImage, hole: Mask) -> FloatImage:
     bowl, bowl_error = _fitted(_terms(x, y), colours)
     grid = np.meshgrid(np.arange(width) / width - 0.5, np.arange(height) / height - 0.5)
     terms = _terms(*(each.reshape(-1) for each in grid))
-    trend = terms @ bowl if bowl_error < _BETTER * error else terms[:, :3] @ plane
-    return np.asarray(trend.reshape(height, width, 3), dtype=np.float32)
+    curved = bowl_error < _BETTER * error
+    trend = terms @ bowl if curved else terms[:, :3] @ plane
+    return np.asarray(trend.reshape(height, width, 3), dtype=np.float32), curved
 
 
 def _terms(x: FloatArray, y: FloatArray) -> FloatArray:
