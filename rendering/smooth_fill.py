@@ -66,7 +66,7 @@ def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
 
 
 def _trend(picture: FloatImage, hole: Mask) -> tuple[FloatImage, bool]:
-    """The plane that most colours beside a hole lie near, shape [h, w, 3], or a bowl that fits far better; and which."""
+    """The plane that most colours beside a hole lie near, shape [h, w, 3], or a bowl that fits far better; which."""
     height, width = hole.shape
     beside = cv2.dilate(hole.astype(np.uint8), np.ones((2 * _BESIDE + 1,) * 2, np.uint8)) > 0
     row, column = np.nonzero(beside & ~hole)
