@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..physics.errors import InvalidInputError
 from ..physics.masks import coverage_of, fitted
+from .line_continuation import continue_lines
 from .matte import with_outline
 from .patch_synthesis import continue_texture
 from .pixel_windows import window_around
@@ -71,7 +72,8 @@ def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
     """
     window = window_around(hole, margin=_CONTEXT)
     around, inside = picture[window], hole[window]
-    smooth = smooth_fill(around, inside)
+    lined, lines = continue_lines(around, inside)
+    smooth = smooth_fill(lined, inside & ~lines)
     # Fine scales take long in a large hole, and most of it stays hidden.
     finest = max(0, int(np.ceil(np.log2(inside.sum() / _MATCHED_PIXELS) / 2)))
     scales = tuple(range(max(3, finest + 2), finest - 1, -1))

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 __all__ = ["smooth_fill", "spread_colours"]
 
 FloatImage = NDArray[np.float32]
+FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 # What a part bares first lies beside its edge, and looks like what is next to it.
@@ -22,16 +23,22 @@ _BESIDE = 6
 _FEWEST = 30
 _MOST = 4000
 _REWEIGHTINGS = 12
+# A bowl is believed in if its mean deviation is less than this share of the plane's.
+_BETTER = 0.4
+# How far a trend may lead beyond the colours that are there, as a share of their range.
+_BEYOND = 0.25
 # Colours that differ less than this are equally good.
 _CLOSE = 0.004
 _COARSEST = 8
+# Up to so many pixels the harmonic fill is solved for directly.
+_SOLVED = 16_000
 _MEAN_OF_FOUR = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]], dtype=np.float32) / 4
 
 
 def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
     """Fill a hole smoothly: near its edge with the colours there, deep inside harmonically.
 
-    What changes evenly all around, such as a sky, is continued as a plane, and the rest by distance.
+    What changes evenly all around, such as a sky, is continued as a plane or a bowl, and the rest by distance.
     A harmonic fill alone lets colours from the far side of a narrow hole, often another part of the same figure,
     shine through to where the background will show; colours by distance alone meet in visible ridges.
 
@@ -42,32 +49,54 @@ def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
     Returns:
         RGB, shape [h, w, 3]; unchanged outside the hole.
     """
-    trend = _trend(picture, hole)
+    trend, curved = _trend(picture, hole)
     near = np.where(hole[..., None], spread_colours(picture - trend, ~hole, hole, power=_FILL_POWER) + trend, picture)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.minimum(depth / np.float32(_DEPTH), 1)[..., None]
-    return near + share * (_harmonic(picture, hole) - near)
+    # A plane is harmonic by itself, and where the hole meets the picture's border better left out.
+    deep = _harmonic(picture - trend, hole) + trend if curved else _harmonic(picture, hole)
+    known = picture[~hole]
+    if not len(known):
+        return picture
+    # A trend must not lead far beyond the colours that are there.
+    lowest, highest = known.min(axis=0), known.max(axis=0)
+    beyond = np.float32(_BEYOND) * (highest - lowest)
+    filled = np.clip(near + share * (deep - near), np.maximum(lowest - beyond, 0), np.minimum(highest + beyond, 1))
+    return np.where(hole[..., None], filled, picture)
 
 
-def _trend(picture: FloatImage, hole: Mask) -> FloatImage:
-    """The plane of colours that most pixels beside a hole lie near, shape [h, w, 3] (least absolute deviations)."""
+def _trend(picture: FloatImage, hole: Mask) -> tuple[FloatImage, bool]:
+    """The plane that most colours beside a hole lie near, shape [h, w, 3], or a bowl that fits far better; which."""
     height, width = hole.shape
     beside = cv2.dilate(hole.astype(np.uint8), np.ones((2 * _BESIDE + 1,) * 2, np.uint8)) > 0
     row, column = np.nonzero(beside & ~hole)
     if len(row) < _FEWEST:
-        return np.zeros_like(picture)
+        return np.zeros_like(picture), False
     row, column = row[:: 1 + len(row) // _MOST], column[:: 1 + len(row) // _MOST]
-    terms = np.stack([np.ones(len(row)), column / width - 0.5, row / height - 0.5], axis=1)
+    x, y = column / width - 0.5, row / height - 0.5
     colours = picture[row, column].astype(np.float64)
-    weights = np.ones(len(row))
+    plane, error = _fitted(_terms(x, y)[:, :3], colours)
+    bowl, bowl_error = _fitted(_terms(x, y), colours)
+    grid = np.meshgrid(np.arange(width) / width - 0.5, np.arange(height) / height - 0.5)
+    terms = _terms(*(each.reshape(-1) for each in grid))
+    curved = bowl_error < _BETTER * error
+    trend = terms @ bowl if curved else terms[:, :3] @ plane
+    return np.asarray(trend.reshape(height, width, 3), dtype=np.float32), curved
+
+
+def _terms(x: FloatArray, y: FloatArray) -> FloatArray:
+    return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
+
+
+def _fitted(terms: FloatArray, colours: FloatArray) -> tuple[FloatArray, float]:
+    """Coefficients of least absolute deviations, shape [terms, 3], and the mean deviation."""
+    weights = np.ones(len(terms))
     for _ in range(_REWEIGHTINGS):
         weighted = terms * weights[:, None]
-        plane = np.linalg.lstsq(weighted.T @ terms, weighted.T @ colours, rcond=None)[0]
-        weights = 1 / np.maximum(np.linalg.norm(colours - terms @ plane, axis=1), _CLOSE)
-    x = np.linspace(-0.5, 0.5, width, endpoint=False, dtype=np.float32)[None, :, None]
-    y = np.linspace(-0.5, 0.5, height, endpoint=False, dtype=np.float32)[:, None, None]
-    plane = plane.astype(np.float32)
-    return np.asarray(plane[0] + plane[1] * x + plane[2] * y, dtype=np.float32)
+        found = np.linalg.lstsq(weighted.T @ terms, weighted.T @ colours, rcond=None)[0]
+        deviation = np.linalg.norm(colours - terms @ found, axis=1)
+        weights = 1 / np.maximum(deviation, _CLOSE)
+    return found, float(deviation.mean())
 
 
 def spread_colours(picture: FloatImage, known: Mask, wanted: Mask, *, power: float = 4.0) -> FloatImage:
@@ -123,9 +152,10 @@ def _spread_at_half_size(picture: FloatImage, known: Mask, wanted: Mask, power: 
 
 def _harmonic(picture: FloatImage, hole: Mask) -> FloatImage:
     """The hole filled so that every pixel is the mean of its neighbours (Laplace), from coarse to fine."""
-    if min(hole.shape) <= _COARSEST:
-        known = picture[~hole]
-        return np.where(hole[..., None], known.mean(axis=0) if len(known) else np.float32(0), picture)
+    if not hole.any():
+        return picture
+    if hole.sum() <= _SOLVED or min(hole.shape) <= _COARSEST:
+        return _solved(picture, hole)
     size = (hole.shape[1] + 1) // 2, (hole.shape[0] + 1) // 2
     weight = (~hole).astype(np.float32)
     known = cv2.resize(weight, size, interpolation=cv2.INTER_AREA)
@@ -136,4 +166,32 @@ def _harmonic(picture: FloatImage, hole: Mask) -> FloatImage:
     for _ in range(_SWEEPS):
         mean = cv2.filter2D(filled, -1, _MEAN_OF_FOUR, borderType=cv2.BORDER_REPLICATE)
         np.copyto(filled, mean, where=hole[..., None])
+    return filled
+
+
+def _solved(picture: FloatImage, hole: Mask) -> FloatImage:
+    """The harmonic fill by a direct solver."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.linalg import splu
+
+    if hole.all():
+        return np.zeros_like(picture)
+    count = int(hole.sum())
+    number = np.full(hole.shape, -1)
+    number[hole] = np.arange(count)
+    row, column = np.nonzero(hole)
+    right = np.zeros((count, 3))
+    entries = [(np.arange(count), np.arange(count), np.zeros(count))]
+    for down, across in ((0, 1), (1, 0), (0, -1), (-1, 0)):
+        y, x = row + down, column + across
+        within = np.flatnonzero((y >= 0) & (y < hole.shape[0]) & (x >= 0) & (x < hole.shape[1]))
+        other = number[y[within], x[within]]
+        entries[0][2][within] += 1
+        entries.append((within[other >= 0], other[other >= 0], np.full(int((other >= 0).sum()), -1.0)))
+        outside = within[other < 0]
+        right[outside] += picture[y[outside], x[outside]]
+    rows, columns, values = (np.concatenate(each) for each in zip(*entries, strict=True))
+    matrix = coo_array((values, (rows, columns)), shape=(count, count)).tocsc()
+    filled = picture.copy()
+    filled[hole] = splu(matrix).solve(right).astype(np.float32)
     return filled

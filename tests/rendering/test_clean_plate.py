@@ -117,3 +117,26 @@ def test_the_smallest_pictures_get_a_plate(shape: tuple[int, int]) -> None:
     mask[0, 0] = True
     plate = clean_plate(image, mask)
     assert (plate[~mask] == image[~mask]).all()
+
+
+def with_line(picture: np.ndarray, middle: np.ndarray) -> np.ndarray:
+    """A picture with an ink line 4 px thick along a middle that is given for every column [px]."""
+    share = np.clip(2.5 - np.abs(Y - middle), 0, 1)[..., None]
+    return np.rint(picture * (1 - share) + 20 * share).astype(np.uint8)
+
+
+@pytest.mark.parametrize("bend", [0.0, 0.0015], ids=["straight", "curved"])
+def test_a_line_with_both_ends_in_sight_runs_through(bend: float) -> None:
+    middle = 50 + 0.1 * X + bend * (X - 80) ** 2
+    truth = with_line(gradient(), middle)
+    plate = clean_plate(with_disc(truth), MASK)
+    on_line, beside = np.abs(Y - middle) < 1, (np.abs(Y - middle) > 4) & (np.abs(Y - middle) < 8)
+    assert plate[MASK & on_line].max() < 90
+    assert np.abs(plate.astype(int) - truth)[MASK & beside].max() < 40
+
+
+def test_both_borders_of_an_edge_keep_their_colours() -> None:
+    truth = np.where((Y > 55 + 0.15 * X)[..., None], np.uint8((200, 190, 120)), np.uint8((90, 120, 200)))
+    plate = clean_plate(with_disc(truth), MASK)
+    away = np.abs(Y - 55 - 0.15 * X) > 3
+    assert np.abs(plate.astype(int) - truth)[MASK & away].max() < 30

@@ -41,3 +41,20 @@ def test_a_plane_of_colour_stays_a_plane() -> None:
     filled = smooth_fill(np.where(hole[..., None], np.float32(1), plane), hole)
     assert np.abs(filled - plane).max() < 0.06
     assert np.abs(filled - plane)[hole].mean() < 0.015
+
+
+def test_a_vignette_stays_a_vignette() -> None:
+    bowl = np.repeat(0.9 - ((X - 80) ** 2 + (Y - 60) ** 2)[..., None] / 20_000, 3, axis=2).astype(np.float32)
+    hole = np.hypot(X - 80, Y - 60) < 40
+    filled = smooth_fill(np.where(hole[..., None], np.float32(0), bowl), hole)
+    assert np.abs(filled - bowl)[hole].max() < 0.04
+
+
+def test_little_shines_through_a_line_across_a_deep_hole() -> None:
+    picture = np.full((500, 500, 3), 0.2, np.float32)
+    picture[250:] = 0.8
+    hole = np.zeros((500, 500), bool)
+    hole[20:480, 20:480] = True
+    hole[247:253] = False
+    filled = smooth_fill(np.where(hole[..., None], np.float32(0), picture), hole)
+    assert np.abs(filled - picture).max() < 0.15
