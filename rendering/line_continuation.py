@@ -69,7 +69,7 @@ def continue_lines(picture: FloatImage, hole: Mask) -> tuple[FloatImage, Mask]:
     Returns:
         The picture with strips along the continued lines, shape [h, w, 3], and where in the hole these are.
     """
-    total = np.zeros((*hole.shape, 4), dtype=np.float64)
+    total = np.zeros((*hole.shape, 4), dtype=np.float32)
     ends = line_ends(picture, hole)
     for bridge in _whole_bands(_bridges(ends, hole), ends):
         _draw(total, bridge)
@@ -185,7 +185,7 @@ def _pixels(points: FloatArray, shape: tuple[int, ...]) -> tuple[IndexArray, Ind
     return np.clip(row, 0, shape[0] - 1), np.clip(column, 0, shape[1] - 1)
 
 
-def _draw(total: FloatArray, bridge: _Bridge) -> None:
+def _draw(total: FloatImage, bridge: _Bridge) -> None:
     """Add a strip, its weight in the last channel."""
     curve = bridge.curve
     tangent = np.gradient(curve, axis=0)

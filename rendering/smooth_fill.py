@@ -75,17 +75,17 @@ def _trend(picture: FloatImage, hole: Mask) -> tuple[FloatImage, bool]:
     row, column = row[:: 1 + len(row) // _MOST], column[:: 1 + len(row) // _MOST]
     x, y = column / width - 0.5, row / height - 0.5
     colours = picture[row, column].astype(np.float64)
-    plane, error = _fitted(_terms(x, y)[:, :3], colours)
-    bowl, bowl_error = _fitted(_terms(x, y), colours)
-    grid = np.meshgrid(np.arange(width) / width - 0.5, np.arange(height) / height - 0.5)
-    terms = _terms(*(each.reshape(-1) for each in grid))
+    terms = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=1)
+    plane, error = _fitted(terms[:, :3], colours)
+    bowl, bowl_error = _fitted(terms, colours)
     curved = bowl_error < _BETTER * error
-    trend = terms @ bowl if curved else terms[:, :3] @ plane
-    return np.asarray(trend.reshape(height, width, 3), dtype=np.float32), curved
-
-
-def _terms(x: FloatArray, y: FloatArray) -> FloatArray:
-    return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
+    found = (bowl if curved else plane).astype(np.float32)
+    across = np.linspace(-0.5, 0.5, width, endpoint=False, dtype=np.float32)[None, :, None]
+    down = np.linspace(-0.5, 0.5, height, endpoint=False, dtype=np.float32)[:, None, None]
+    trend = found[0] + found[1] * across + found[2] * down
+    if curved:
+        trend += (found[3] * across + found[4] * down) * across + found[5] * down * down
+    return np.asarray(trend, dtype=np.float32), curved
 
 
 def _fitted(terms: FloatArray, colours: FloatArray) -> tuple[FloatArray, float]:
