@@ -18,7 +18,7 @@ import { ACTIONS } from "../panels/toolbar.js";
 import { emptyDocument, itemAt, withItem, withValue } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
 import { handlesOf } from "../scene/shapes.js";
-import { drawOverlay } from "../stage/overlay.js";
+import { Layers } from "../stage/layers.js";
 import { Scheduler } from "../stage/scheduler.js";
 import { Backdrop } from "./backdrop.js";
 import { Commands } from "./commands.js";
@@ -42,12 +42,18 @@ export class Editor {
     /** Length of the preview [frames]; 0 follows the scene. */
     this.frames = 0;
     this.brushRadius = 20;
+    /** Whether buttons, values and timeline are behind the document. */
+    this.stale = false;
     /** @type {Reference | null} rig point whose region is to be drawn anew */
     this.replacing = null;
     /** @type {Point | null} */
     this.pointer = null;
     this.shown = { mesh: false, items: true, panel: options.moves };
-    this.store = new Store(emptyDocument(1280, 720), () => this.show(), () => this.#keep());
+    this.store = new Store(emptyDocument(1280, 720), {
+      show: () => this.show(),
+      showSoon: () => this.showSoon(),
+      keep: () => this.#keep(),
+    });
     this.notes = new Notes();
     this.scheduler = new Scheduler((now, asked) => this.#draw(now, asked));
     this.backdrop = new Backdrop(this);
@@ -63,6 +69,7 @@ export class Editor {
     this.inspector = parts.inspector;
     this.timeline = parts.timeline;
     this.status = parts.status;
+    this.layers = new Layers(this.stage);
     this.live = new Live(this.stage.film, options.fetch, {
       redraw: () => this.redraw(),
       trouble: (error) => this.backdrop.trouble(error),
@@ -199,8 +206,20 @@ export class Editor {
     if (BRUSHES.includes(this.tool.id)) this.redraw();
   }
 
-  /** Bring buttons, values and timeline up to date, and draw. */
+  /** Bring buttons, values and timeline up to date at once, and draw. */
   show() {
+    this.#showPanels();
+    this.redraw();
+  }
+
+  /** Do so with the next drawing, where changes may follow each other faster than they are seen. */
+  showSoon() {
+    this.stale = true;
+    this.redraw();
+  }
+
+  #showPanels() {
+    this.stale = false;
     const { history, selection, document } = this.store;
     const pressed = { ...this.shown, expand: this.dialog.open };
     for (const id of this.tools.keys()) Object.assign(pressed, { [id]: id === this.tool.id });
@@ -213,7 +232,6 @@ export class Editor {
     if (!playback.header) playback.duration = this.frameCount;
     playback.frameRate = document.frame_rate ?? 24;
     this.timeline.showItems(document, selection, playback.duration / playback.frameRate);
-    this.redraw();
   }
 
   /** What the tool does, how large the picture is shown, and its size. */
@@ -242,21 +260,25 @@ export class Editor {
     // An editor out of sight rests; it is drawn again when it gets its size back.
     const more = live.playback.advance(now) && stage.across > 0;
     if (!asked && frame === live.playback.shown) return more;
-    const context = stage.sharpen();
-    live.draw(stage.view, stage.across, stage.down);
+    if (this.stale) this.#showPanels();
+    const { shows } = live;
+    const meshShown = this.shown.mesh || !live.player.ready;
     const brushing = BRUSHES.includes(this.tool.id) && this.pointer;
-    drawOverlay(context, {
+    this.layers.draw({
       document: this.document,
+      settled: this.store.history.present,
       selection: this.selection,
       view: stage.view,
-      background: live.shows ? null : this.backdrop.picture,
-      mesh: this.shown.mesh || !live.player.ready ? live.mesh : null,
+      background: shows ? null : this.backdrop.picture,
+      restingMesh: meshShown && !live.playback.shown ? live.mesh : null,
+      movingMesh: meshShown && live.playback.shown && !shows ? live.mesh : null,
       frame: live.playback.shown,
       unit: live.unit,
       draft: this.tool.draft,
       brush: brushing ? { at: brushing, radius: this.brushRadius } : null,
       itemsShown: this.shown.items,
     });
+    live.draw(stage.view, stage.across, stage.down, this.shown.mesh);
     this.#showStatus();
     if (this.options.moves) this.timeline.showPosition(live.playback);
     return more;

@@ -121,14 +121,15 @@ export class Live {
    * @param {import("../scene/geometry.js").View} view
    * @param {number} across  of the stage [CSS px]
    * @param {number} down
+   * @param {boolean} meshShown  its edges too
    */
-  draw(view, across, down) {
+  draw(view, across, down, meshShown) {
     const frame = this.playback.shown;
     if (!this.shows || !frame) {
       this.player.clear();
       return;
     }
-    this.player.draw(view, across, down, frame.displacements, this.unit);
+    this.player.draw(view, across, down, frame.displacements, this.unit, meshShown);
     if (frame.number && !this.measured.drawn) {
       this.measured.drawn = performance.now() - this.measured.asked;
       mark(MOVES);

@@ -61,11 +61,12 @@ export const STYLE = `
 .physanimator-keyhead { justify-content: space-between; }
 .physanimator-table button { height: 22px; white-space: nowrap; background: var(--physanimator-field); }
 .physanimator-timeline { grid-area: timeline; border-top: 1px solid var(--physanimator-rim); }
-.physanimator-bar { display: flex; align-items: center; gap: 4px; padding: 2px 6px; }
+.physanimator-bar { display: flex; align-items: center; gap: 4px; height: 30px; padding: 2px 6px; contain: strict; }
 .physanimator-slider { flex: 1; min-width: 40px; margin: 0; accent-color: var(--physanimator-accent); }
 .physanimator-readout { min-width: 84px; text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .physanimator-editor input.physanimator-length { width: 48px; }
-.physanimator-lanes { position: relative; height: 46px; margin: 0 6px 4px; overflow-y: auto; scrollbar-width: thin; }
+.physanimator-lanes { height: 46px; margin: 0 6px 4px; overflow-y: auto; scrollbar-width: thin; }
+.physanimator-track { position: relative; min-height: 100%; overflow: hidden; contain: layout paint style; }
 .physanimator-lane { position: relative; height: 10px; margin-top: 1px; border-radius: 2px; background: rgba(128, 128, 128, 0.16); cursor: pointer; }
 .physanimator-lane[data-selected="true"] { outline: 1px solid var(--physanimator-text); outline-offset: -1px; }
 .physanimator-span { position: absolute; inset: 2px auto 2px 0; border-radius: 2px; background: var(--physanimator-colour); opacity: 0.75; }
@@ -76,7 +77,7 @@ export const STYLE = `
 .physanimator-edge::before { content: ""; position: absolute; inset: 0 0 0 auto; width: 3px; border-radius: 1px; background: var(--physanimator-text); opacity: 0; }
 .physanimator-edge[data-edge="start"]::before { inset: 0 auto 0 0; }
 .physanimator-lane:hover .physanimator-edge::before, .physanimator-lane[data-selected="true"] .physanimator-edge::before { opacity: 0.9; }
-.physanimator-now { position: absolute; inset: 0 auto 0 calc(var(--physanimator-now, 0) * 100%); width: 1px; background: var(--physanimator-text); pointer-events: none; }
+.physanimator-now { position: absolute; inset: 0; width: calc(100% - 1px); border-left: 1px solid var(--physanimator-text); pointer-events: none; }
 .physanimator-dialog { width: 100vw; height: 100vh; max-width: none; max-height: none; margin: 0; padding: 10px; border: 0; background: rgba(0, 0, 0, 0.7); }
 .physanimator-dialog .physanimator-frame { grid-template-columns: minmax(0, 1fr) 252px; }
 .physanimator-dialog .physanimator-frame[data-panel="false"] { grid-template-columns: minmax(0, 1fr) 0; }
@@ -87,6 +88,7 @@ export const STYLE = `
 .physanimator-dialog .physanimator-frame { font-size: 13px; }
 .physanimator-dialog :is(.physanimator-toolbar, .physanimator-bar) button { min-width: 36px; height: 36px; }
 .physanimator-dialog :is(.physanimator-toolbar, .physanimator-bar) svg { width: 22px; height: 22px; }
+.physanimator-dialog .physanimator-bar { height: 42px; }
 .physanimator-dialog .physanimator-lanes { height: 120px; }
 .physanimator-dialog .physanimator-lane { height: 14px; }
 @container (max-width: 519px) {
@@ -97,6 +99,7 @@ export const STYLE = `
 }
 @media (pointer: coarse) {
   .physanimator-editor button { min-width: 34px; height: 34px; }
+  .physanimator-bar { height: 40px; }
   .physanimator-editor .physanimator-lane { height: 20px; }
   .physanimator-edge { width: 20px; }
 }
