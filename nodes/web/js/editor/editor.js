@@ -202,7 +202,7 @@ export class Editor {
   hover(point) {
     this.pointer = point;
     if (point) this.tool.hover(point);
-    this.stage.overlay.style.cursor = this.stage.spaceHeld ? "grab" : this.tool.cursor;
+    this.stage.keys.style.cursor = this.stage.spaceHeld ? "grab" : this.tool.cursor;
     if (BRUSHES.includes(this.tool.id)) this.redraw();
   }
 

@@ -32,10 +32,9 @@ export const STYLE = `
 .physanimator-editor :is(button, input, select, canvas, textarea):focus-visible { outline: 2px solid var(--physanimator-accent); outline-offset: -2px; }
 .physanimator-stage { grid-area: stage; position: relative; min-width: 0; min-height: 0; overflow: hidden;
   background: repeating-conic-gradient(rgba(128, 128, 128, 0.16) 0% 25%, transparent 0% 50%) 0 0 / 20px 20px, var(--physanimator-field); }
-.physanimator-stage canvas { position: absolute; inset: 0; width: 100%; height: 100%; touch-action: none; outline: none; }
-.physanimator-editor input.physanimator-keys { position: absolute; left: 0; bottom: 0; width: 1px; height: 1px; padding: 0; border: 0; opacity: 0; pointer-events: none; }
+.physanimator-stage canvas { position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none; }
+.physanimator-editor input.physanimator-keys { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; padding: 0; border: 0; opacity: 0; touch-action: none; user-select: none; cursor: crosshair; }
 .physanimator-stage:focus-within { box-shadow: inset 0 0 0 1px var(--physanimator-accent); }
-.physanimator-film { pointer-events: none; }
 .physanimator-notes { position: absolute; inset: auto 8px 8px; display: flex; flex-direction: column; align-items: flex-start; gap: 4px; pointer-events: none; }
 .physanimator-note { max-width: 100%; padding: 4px 8px; border-radius: 5px; color: #fff; background: rgba(16, 18, 24, 0.86); pointer-events: auto; overflow-wrap: anywhere; }
 .physanimator-note[data-kind="error"] { background: rgba(150, 28, 36, 0.94); }

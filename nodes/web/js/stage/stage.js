@@ -36,12 +36,12 @@ export class Stage {
     this.film = canvas("physanimator-film");
     this.still = canvas("physanimator-still");
     this.overlay = canvas("physanimator-overlay");
-    // The keys go to an input, because every host leaves the keys of inputs alone: Delete would take the node, and
-    // Ctrl+Z the last change of the graph.
+    // Pointer and keys go to an input, because every host leaves inputs with the focus alone: Delete would take the node,
+    // Ctrl+Z the last change of the graph, and the middle button would move the graph.
     this.keys = document.createElement("input");
     Object.assign(this.keys, { className: "physanimator-keys", readOnly: true, inputMode: "none" });
     this.keys.setAttribute("aria-label", "Picture");
-    root.append(this.keys, this.film, this.still, this.overlay);
+    root.append(this.film, this.still, this.overlay, this.keys);
     /** @type {View} */
     this.view = { scale: 1, x: 0, y: 0 };
     /** Size of the stage [CSS px]; kept, because asking the page for it may make it lay everything out. */
@@ -141,15 +141,15 @@ export class Stage {
   }
 
   #listen() {
-    const { overlay } = this;
-    overlay.addEventListener("pointerdown", (event) => this.#down(event));
-    overlay.addEventListener("pointermove", (event) => this.#move(event));
-    overlay.addEventListener("pointerup", (event) => this.#up(event));
-    overlay.addEventListener("pointercancel", (event) => this.#lost(event));
-    overlay.addEventListener("pointerleave", () => this.listener.hover(null));
-    overlay.addEventListener("dblclick", () => this.listener.double());
-    overlay.addEventListener("contextmenu", (event) => event.preventDefault());
-    overlay.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
+    const { keys } = this;
+    keys.addEventListener("pointerdown", (event) => this.#down(event));
+    keys.addEventListener("pointermove", (event) => this.#move(event));
+    keys.addEventListener("pointerup", (event) => this.#up(event));
+    keys.addEventListener("pointercancel", (event) => this.#lost(event));
+    keys.addEventListener("pointerleave", () => this.listener.hover(null));
+    keys.addEventListener("dblclick", () => this.listener.double());
+    keys.addEventListener("contextmenu", (event) => event.preventDefault());
+    keys.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
   }
 
   /** @param {PointerEvent} event */
@@ -157,7 +157,7 @@ export class Stage {
     event.preventDefault();
     this.focus();
     try {
-      this.overlay.setPointerCapture(event.pointerId);
+      this.keys.setPointerCapture(event.pointerId);
     } catch {
       // The pointer may be gone already; without capture it is followed as far as the canvas reaches.
     }
