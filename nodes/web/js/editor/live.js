@@ -130,7 +130,8 @@ export class Live {
       return;
     }
     this.player.draw(view, across, down, frame.displacements, this.unit, meshShown);
-    if (frame.number && !this.measured.drawn) {
+    // The motion before this request goes on until the new one comes, and does not count.
+    if (frame.number && this.measured.frames > 1 && !this.measured.drawn) {
       this.measured.drawn = performance.now() - this.measured.asked;
       mark(MOVES);
     }
