@@ -11,6 +11,7 @@
  * @property {boolean} moves  whether there is time and motion
  * @property {import("../preview/client.js").Fetch} fetch
  * @property {(text: string) => void} onChange  a new value
+ * @property {() => void} onKept  the same, a moment later where something is about to move
  * @property {() => void} onRun  the user wants this node to run
  */
 
@@ -31,6 +32,8 @@ import { BRUSHES, toolsOf } from "./toolbox.js";
 
 /** Length of a preview [s], where the scene is no loop. */
 const PREVIEW = 3;
+/** After this time the host hears of a change whatever moves [ms]. */
+const LATEST = 300;
 /** Radius of the brush to begin with, in longest sides of the picture. */
 const BRUSH = 0.02;
 
@@ -42,6 +45,8 @@ export class Editor {
     /** Length of the preview [frames]; 0 follows the scene. */
     this.frames = 0;
     this.brushRadius = 20;
+    /** @type {any} until the host hears of the last change; 0 where it has */
+    this.untold = 0;
     /** Whether buttons, values and timeline are behind the document. */
     this.stale = false;
     /** @type {Reference | null} rig point whose region is to be drawn anew */
@@ -74,6 +79,7 @@ export class Editor {
       redraw: () => this.redraw(),
       trouble: (error) => this.backdrop.trouble(error),
       started: () => this.notes.show("run", ""),
+      moved: () => setTimeout(() => this.tell()),
     });
     listenTo(this);
     this.show();
@@ -161,6 +167,7 @@ export class Editor {
   }
 
   release() {
+    clearTimeout(this.untold);
     this.root.dataset.released = "true";
     this.scheduler.stop();
     this.stage.release();
@@ -242,12 +249,24 @@ export class Editor {
     if (this.status.textContent !== text) this.status.textContent = text;
   }
 
+  /** Let the host hear of the last change at once, if it has not yet. */
+  tell() {
+    if (!this.untold) return;
+    clearTimeout(this.untold);
+    this.untold = 0;
+    this.options.onKept();
+  }
+
   #keep() {
+    this.tell();
     this.simulate();
     this.text = this.options.format.write(this.document);
     this.notes.show("value", "");
     this.resize(this.document);
     this.options.onChange(this.text);
+    // What the host does about a change can take longer than the simulation of the first frames, which it would hold up.
+    this.untold = setTimeout(() => this.tell(), LATEST);
+    if (!this.live.playback.waiting) this.tell();
   }
 
   /**

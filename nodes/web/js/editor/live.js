@@ -16,6 +16,7 @@
  * @property {() => void} redraw
  * @property {(error: Error | null) => void} trouble
  * @property {() => void} started  the first frame has come
+ * @property {() => void} moved  the first frame in which something moves is on the screen
  */
 
 import { PreviewClient } from "../preview/client.js";
@@ -82,6 +83,7 @@ export class Live {
   request(document, frames) {
     if (!this.run || !this.mesh) return;
     this.measured = { asked: performance.now(), firstFrame: 0, drawn: 0, frames: 0, largest: 0 };
+    this.playback.waiting = true;
     this.client.request(this.run.key, document, frames);
   }
 
@@ -134,6 +136,7 @@ export class Live {
     if (frame.number && this.measured.frames > 1 && !this.measured.drawn) {
       this.measured.drawn = performance.now() - this.measured.asked;
       mark(MOVES);
+      this.listener.moved();
     }
   }
 
