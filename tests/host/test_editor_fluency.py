@@ -31,7 +31,9 @@ _BURST = """([id]) => new Promise((done) => {
   const count = () => {
     passed += 1;
     if (passed < 30) requestAnimationFrame(count);
-    else done({ drawn: scheduler.drawn - drawn, requested: scheduler.requested - requested, items: layers.drawn - items, passed });
+    else done({
+      drawn: scheduler.drawn - drawn, requested: scheduler.requested - requested, items: layers.drawn - items, passed,
+    });
   };
   for (let k = 0; k < 500; k++) editor.redraw();
   requestAnimationFrame(count);
