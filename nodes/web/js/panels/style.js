@@ -27,7 +27,7 @@ export const STYLE = `
   color: inherit; background: transparent; border: 1px solid transparent; border-radius: 5px; font: inherit; cursor: pointer;
 }
 .physanimator-editor button:hover:not(:disabled) { background: var(--physanimator-field); }
-.physanimator-editor button[aria-pressed="true"] { color: #fff; background: var(--physanimator-accent); }
+.physanimator-editor button[aria-pressed="true"], .physanimator-editor button[aria-pressed="true"]:hover:not(:disabled) { color: #fff; background: var(--physanimator-accent); }
 .physanimator-editor button:disabled { opacity: 0.35; cursor: default; }
 .physanimator-editor :is(button, input, select, canvas, textarea):focus-visible { outline: 2px solid var(--physanimator-accent); outline-offset: -2px; }
 .physanimator-stage { grid-area: stage; position: relative; min-width: 0; min-height: 0; overflow: hidden;
@@ -46,12 +46,12 @@ export const STYLE = `
 .physanimator-section { justify-content: flex-start; margin-top: 8px; font-weight: 600; }
 .physanimator-caption { color: var(--physanimator-dim); }
 .physanimator-inputs { display: flex; align-items: center; gap: 4px; }
-.physanimator-unit { min-width: 20px; color: var(--physanimator-dim); font-size: 11px; white-space: nowrap; }
+.physanimator-unit { width: 46px; color: var(--physanimator-dim); font-size: 11px; white-space: nowrap; }
 .physanimator-editor :is(input[type="number"], select) {
-  width: 62px; height: 22px; margin: 0; padding: 0 4px; color: var(--physanimator-text); background: var(--physanimator-field);
+  width: 56px; height: 22px; margin: 0; padding: 0 4px; color: var(--physanimator-text); background: var(--physanimator-field);
   border: 1px solid var(--physanimator-rim); border-radius: 4px; font: inherit; appearance: textfield;
 }
-.physanimator-editor .physanimator-inputs select { width: 96px; padding: 0; appearance: auto; }
+.physanimator-editor .physanimator-inputs select { width: 104px; padding: 0; appearance: auto; }
 .physanimator-editor input[aria-invalid] { border-color: #f44; }
 .physanimator-inputs input[type="number"] + input[type="number"] { margin-left: 0; }
 .physanimator-field[data-field="gravity"] input, .physanimator-field[data-field="motion.direction"] input { width: 44px; }
@@ -64,6 +64,7 @@ export const STYLE = `
 .physanimator-slider { flex: 1; min-width: 40px; margin: 0; accent-color: var(--physanimator-accent); }
 .physanimator-readout { min-width: 84px; text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .physanimator-editor input.physanimator-length { width: 48px; }
+.physanimator-bar .physanimator-unit, .physanimator-key .physanimator-unit { width: auto; }
 .physanimator-lanes { height: 46px; margin: 0 6px 4px; overflow-y: auto; scrollbar-width: thin; }
 .physanimator-track { position: relative; min-height: 100%; overflow: hidden; contain: layout paint style; }
 .physanimator-lane { position: relative; height: 10px; margin-top: 1px; border-radius: 2px; background: rgba(128, 128, 128, 0.16); cursor: pointer; }
@@ -91,6 +92,7 @@ export const STYLE = `
 .physanimator-dialog .physanimator-lanes { height: 120px; }
 .physanimator-dialog .physanimator-lane { height: 14px; }
 @container (max-width: 519px) {
+  .physanimator-bar .physanimator-unit { display: none; }
   .physanimator-frame, .physanimator-frame[data-panel="false"] {
     grid-template: "toolbar" auto "stage" minmax(120px, 1fr) "inspector" auto "timeline" auto / minmax(0, 1fr);
   }

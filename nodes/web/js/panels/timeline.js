@@ -37,7 +37,7 @@ export class Timeline {
     this.length = element("input", { type: "number", min: "2", max: String(MOST_FRAMES), step: "1", title: "Length of the preview [frames]", "aria-label": "Length of the preview [frames]", className: "physanimator-length", onchange: () => this.#setLength() });
     this.lanes = element("div", { className: "physanimator-track" });
     this.now = element("div", { className: "physanimator-now" });
-    const bar = element("div", { className: "physanimator-bar" }, [this.play, this.loop, this.slider, this.readout, this.length]);
+    const bar = element("div", { className: "physanimator-bar" }, [this.play, this.loop, this.slider, this.readout, this.length, element("span", { className: "physanimator-unit" }, ["frames"])]);
     this.root = element("div", { className: "physanimator-timeline" }, [bar, element("div", { className: "physanimator-lanes" }, [this.lanes])]);
     /** @type {Partial<Record<"playing" | "looping" | "frame" | "duration" | "frameRate", any>>} */
     this.shown = {};
