@@ -308,6 +308,33 @@ def test_the_host_s_own_undo_brings_strokes_back(editor: EditorPage) -> None:
     assert editor.page.problems == []
 
 
+def test_the_host_hears_of_a_stroke_once_it_moves(editor: EditorPage) -> None:
+    editor.run_node()
+    editor.press("pin")
+    editor.click(560, 120)
+    editor.press("wind")
+    for y in (200, 400):
+        editor.drag((300, y), (900, y + 100))
+        editor.wait("editor.live.measured.drawn > 0 && !editor.untold")
+    assert_drawn(editor, strokes=2)
+    editor.page.run("async () => app.extensionManager.workflow.activeWorkflow.changeTracker.undo()")
+    editor.page.page.wait_for_timeout(600)
+    assert len(editor.shown()["strokes"]) == len(editor.value()["strokes"]) == 1
+    assert editor.page.problems == []
+
+
+def test_a_narrow_editor_cuts_no_number_off(editor: EditorPage) -> None:
+    editor.press("wind")
+    editor.drag((300, 200), (900, 300))
+    editor.ask("(() => { editor.root.style.width = '400px'; })()")
+    editor.wait("editor.stage.across < 420")
+    panel = "editor.inspector.root"
+    assert editor.ask(f"{panel}.scrollWidth <= {panel}.clientWidth")
+    assert editor.ask(f"{panel}.querySelectorAll('.physanimator-field').length") >= 9
+    assert editor.ask("editor.status.scrollHeight") <= 24
+    editor.ask("(() => { editor.root.style.width = ''; })()")
+
+
 def test_the_example_is_drawn_on_before_anything_has_run(editor: EditorPage) -> None:
     editor.wait("editor.backdrop.picture?.naturalWidth === 1280")
     assert "/physanimator/example" in editor.ask("editor.backdrop.picture.src")

@@ -82,7 +82,7 @@ export const STYLE = `
 .physanimator-dialog .physanimator-frame { grid-template-columns: minmax(0, 1fr) 252px; }
 .physanimator-dialog .physanimator-frame[data-panel="false"] { grid-template-columns: minmax(0, 1fr) 0; }
 .physanimator-status { position: absolute; left: 6px; top: 6px; max-width: calc(100% - 12px); padding: 2px 7px; border-radius: 5px;
-  color: #fff; background: rgba(16, 18, 24, 0.62); font-size: 11px; font-variant-numeric: tabular-nums; pointer-events: none; }
+  overflow: hidden; text-overflow: ellipsis; white-space: nowrap; color: #fff; background: rgba(16, 18, 24, 0.62); font-size: 11px; font-variant-numeric: tabular-nums; pointer-events: none; }
 .physanimator-status:empty { display: none; }
 .physanimator-empty { padding: 6px 2px; color: var(--physanimator-dim); }
 .physanimator-dialog .physanimator-frame { font-size: 13px; }
@@ -96,7 +96,10 @@ export const STYLE = `
   .physanimator-frame, .physanimator-frame[data-panel="false"] {
     grid-template: "toolbar" auto "stage" minmax(120px, 1fr) "inspector" auto "timeline" auto / minmax(0, 1fr);
   }
-  .physanimator-inspector { max-height: 120px; border-left: 0; border-top: 1px solid var(--physanimator-rim); columns: 2; }
+  .physanimator-inspector { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); column-gap: 14px; align-content: start;
+    max-height: 124px; border-left: 0; border-top: 1px solid var(--physanimator-rim); }
+  .physanimator-heading, .physanimator-section, .physanimator-table, .physanimator-field[data-field="region"] { grid-column: 1 / -1; }
+  .physanimator-inspector .physanimator-unit { width: 40px; }
 }
 @media (pointer: coarse) {
   .physanimator-editor button { min-width: 34px; height: 34px; }
