@@ -14,7 +14,7 @@ STORE = PreviewStore()
 """The bodies on which the editors of this process draw."""
 
 _registered = threading.Event()
-_warmed = threading.Event()
+_warmed = {contact: threading.Event() for contact in (False, True)}
 
 
 def register_routes() -> None:
@@ -29,17 +29,24 @@ def register_routes() -> None:
     PreviewRoutes(STORE, warm_up=warm_up).register(server.routes)
 
 
-def warm_up() -> None:
-    """Start the solver in the background, so that the first preview need not wait for that."""
-    if not _warmed.is_set():
-        _warmed.set()
-        threading.Thread(target=_start_solver, name="physanimator-warm-up", daemon=True).start()
+def warm_up(*, contact: bool = False) -> None:
+    """Start the solver in the background, so that the first preview need not wait for that.
+
+    Args:
+        contact: its kernels for contact too.
+    """
+    wanted = [kind for kind in ((False, True) if contact else (False,)) if not _warmed[kind].is_set()]
+    for kind in wanted:
+        _warmed[kind].set()
+    if wanted:
+        threading.Thread(target=_start_solver, args=(wanted,), name="physanimator-warm-up", daemon=True).start()
 
 
-def _start_solver() -> None:
+def _start_solver(wanted: list[bool]) -> None:
     from ..physics.preview_session import warm_up
 
     try:
-        warm_up()
+        for contact in wanted:
+            warm_up(contact=contact)
     except Exception:
         logging.exception("PhysAnimator: the solver has not started; live previews will not work")

@@ -84,7 +84,8 @@ class SceneEditor(io.ComfyNode):
             "image": _saved(shown),
             "plate": _saved(behind),
         }
-        warm_up()
+        # Where several bodies are drawn on, contact may be switched on at any moment.
+        warm_up(contact=len(bodies) > 1 or drawn.contact is not None)
         return scene_output(drawn, bodies, ui={"physanimator_editor": [info]})
 
 

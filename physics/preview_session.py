@@ -201,17 +201,39 @@ def _checking(run: PreviewRun) -> Callable[[int, int], None]:
     return lambda _done, _total: run.check()
 
 
-def warm_up() -> None:
-    """Load the kernels and all that a first preview needs, which takes some seconds once in a process."""
+def warm_up(*, contact: bool = False) -> None:
+    """Load the kernels and all that a first preview needs, which takes some seconds once in a process.
+
+    What had to be compiled for it is kept on disk at once: a server is usually ended by a signal.
+
+    Args:
+        contact: the kernels for contact instead.
+    """
+    from .simulation import simulate
+    from .taichi_runtime import keep_compiled
+
+    scene = _touching() if contact else _moving()
+    simulate(scene, frames=2)
+    if keep_compiled():
+        simulate(scene, frames=2)
+
+
+def _moving() -> Scene:
     from .rig import Circle, RigPoint
     from .scene import Body
-    from .simulation import simulate
     from .strokes import EnergyStroke
 
     # A part that a thread computes alone, and one that several may share, for which there is another kernel.
     small, large = (Body(_grid(cells)) for cells in (1, math.ceil(math.sqrt(TRIANGLES_PER_THREAD)) + 1))
     stroke = EnergyStroke("wind", ((0.0, 4.0), (8.0, 4.0)), 4.0)
-    simulate(Scene((small, large), (stroke,), (RigPoint((0.0, 0.0), Circle(1.0)),)), frames=2)
+    return Scene((small, large), (stroke,), (RigPoint((0.0, 0.0), Circle(1.0)),))
+
+
+def _touching() -> Scene:
+    from .collision import Contact
+    from .scene import Body
+
+    return Scene((Body(_grid(2)), Body(_grid(2))), contact=Contact())
 
 
 def _grid(cells: int) -> TriangleMesh:

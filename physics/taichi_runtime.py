@@ -26,7 +26,7 @@ from typing import Any, ParamSpec, TypeVar, cast
 from .errors import PhysAnimatorError
 from .taichi_reading import quick_reading
 
-__all__ = ["compiled", "run"]
+__all__ = ["compiled", "keep_compiled", "run"]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -34,6 +34,7 @@ T = TypeVar("T")
 _POLL_SECONDS = 0.2
 _PATIENCE = 1000  # hundredths of a second
 _LAST_SECONDS = 30.0  # that the end of the process waits for a kernel which still runs: some 15 ms on an idle machine
+_WORTH_KEEPING = 0.25  # seconds of compiling: kernels that were on disk already take some hundredths to read
 _QUIET = {"ENABLE_TAICHI_HEADER_PRINT": "0", "TI_SKIP_VERSION_CHECK": "ON"}
 
 
@@ -120,10 +121,23 @@ class _TaichiThread:
 
     def _close(self) -> None:
         self._closed = True
-        if self._program is not None and self._taichi.lang.impl.get_runtime().prog is self._program:
-            self._kernels.clear()
-            self._program = None
-            self._taichi.reset()
+        if self._is_ours():
+            self._drop()
+
+    def keep_compiled(self) -> bool:
+        if not self._is_ours() or self._program.get_total_compilation_time() < _WORTH_KEEPING:
+            return False
+        self._drop()
+        return True
+
+    def _is_ours(self) -> bool:
+        return self._program is not None and self._taichi.lang.impl.get_runtime().prog is self._program
+
+    def _drop(self) -> None:
+        """End our program, which writes what it has compiled to disk."""
+        self._kernels.clear()
+        self._program = None
+        self._taichi.reset()
 
     def _work(self) -> None:
         while True:
@@ -251,3 +265,12 @@ def compiled(build: Callable[[Any], T]) -> T:
         build: a module-level function that gets the taichi module and returns kernels.
     """
     return _taichi_thread.compiled(build)
+
+
+def keep_compiled() -> bool:
+    """Write kernels that were compiled in this process to Taichi's cache on disk, if there are any, and say so.
+
+    Taichi writes them only where its program ends, and never in a process that a signal ends. So the program is ended
+    between two jobs; the next one reads its kernels from disk, which takes half a second.
+    """
+    return _taichi_thread.run(_taichi_thread.keep_compiled)

@@ -88,9 +88,9 @@ def test_a_picture_from_the_clipboard_is_drawn_on(editor: EditorPage) -> None:
 def test_a_picture_is_dropped_on_the_editor_and_not_on_the_graph(editor: EditorPage) -> None:
     nodes = editor.page.run("() => app.graph.nodes.length")
     data = editor.page.page.evaluate_handle(_DRAGGED)
-    overlay = editor.selector("canvas.physanimator-overlay")
+    picture = editor.selector("input.physanimator-keys")
     for name in ("dragenter", "dragover", "drop"):
-        overlay.dispatch_event(name, {"dataTransfer": data})
+        picture.dispatch_event(name, {"dataTransfer": data})
     editor.wait("editor.document.width === 320")
     editor.press("wind")
     editor.drag((20, 20), (300, 100))

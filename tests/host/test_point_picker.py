@@ -133,8 +133,8 @@ def test_a_pen_s_pressure_sets_the_strength_along_the_stroke(host: Any, page: An
     places = [editor.place(x, y) for x, y in ((100, 100), (300, 110), (300, 300))]
     page.run(
         """([id, places]) => {
-        const { overlay } = app.graph.getNodeById(id).physanimatorEditor.stage;
-        const send = (name, [x, y], pressure) => overlay.dispatchEvent(new PointerEvent(name, {
+        const { keys } = app.graph.getNodeById(id).physanimatorEditor.stage;
+        const send = (name, [x, y], pressure) => keys.dispatchEvent(new PointerEvent(name, {
             pointerId: 77, pointerType: 'pen', clientX: x, clientY: y, pressure, buttons: 1, bubbles: true }));
         send('pointerdown', places[0], 0.25);
         send('pointermove', places[1], 0.5);
@@ -155,8 +155,8 @@ def test_two_fingers_zoom_and_pan_without_drawing(host: Any, page: Any, canvas: 
     left, right = editor.place(200, 200), editor.place(400, 200)
     page.run(
         """([id, left, right]) => {
-        const { overlay } = app.graph.getNodeById(id).physanimatorEditor.stage;
-        const send = (name, pointerId, [x, y]) => overlay.dispatchEvent(new PointerEvent(name, {
+        const { keys } = app.graph.getNodeById(id).physanimatorEditor.stage;
+        const send = (name, pointerId, [x, y]) => keys.dispatchEvent(new PointerEvent(name, {
             pointerId, pointerType: 'touch', clientX: x, clientY: y, buttons: 1, bubbles: true }));
         send('pointerdown', 1, left);
         send('pointerdown', 2, right);

@@ -140,6 +140,22 @@ test("playing begins with what moves, goes at the frame rate, waits for frames, 
   assert.equal(playback.shown.number, 0);
 });
 
+test("the motion before stands still on the screen until the new one has a frame", () => {
+  const playback = playing(3);
+  playback.advance(50);
+  const before = playback.shown;
+  playback.waiting = true;
+  playback.advance(500);
+  assert.equal(playback.shown, before);
+  assert.equal(playback.moves, false);
+  playback.begin(HEADER, 600);
+  assert.equal(playback.shown, before);
+  playback.add({ number: 0, fresh: true });
+  assert.equal(playback.shown.fresh, true);
+  playback.clear();
+  assert.equal(playback.shown, null);
+});
+
 test("without looping it stops at the last frame, and starts over from there", () => {
   const playback = playing(3);
   playback.looping = false;

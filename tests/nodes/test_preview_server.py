@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import threading
 from types import SimpleNamespace
 
 import pytest
@@ -36,3 +37,17 @@ def test_a_host_gets_the_routes_once(monkeypatch: pytest.MonkeyPatch) -> None:
         ("GET", "/physanimator/example"),
         ("POST", "/physanimator/warm-up"),
     ]
+
+
+def test_the_solver_is_readied_once_and_its_contact_only_where_bodies_may_touch(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    warmed: list[bool] = []
+    monkeypatch.setattr("physanimator.physics.preview_session.warm_up", lambda *, contact: warmed.append(contact))
+    monkeypatch.setattr(preview_server, "_warmed", {kind: threading.Event() for kind in (False, True)})
+    for contact in (False, False, True, True, False):
+        preview_server.warm_up(contact=contact)
+        for thread in threading.enumerate():
+            if thread.name == "physanimator-warm-up":
+                thread.join()
+    assert warmed == [False, True]

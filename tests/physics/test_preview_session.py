@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physanimator.physics import modes, schedule, simulation
+from physanimator.physics import modes, schedule, simulation, taichi_runtime
 from physanimator.physics.errors import Cancelled
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
@@ -266,9 +266,21 @@ def test_the_kernel_for_shared_parts_is_loaded_as_well(monkeypatch: pytest.Monke
     warmed: list[Scene] = []
     monkeypatch.setattr(schedule, "most_threads", lambda: 2)
     monkeypatch.setattr(simulation, "simulate", lambda scene, **_: warmed.append(scene))
+    monkeypatch.setattr(taichi_runtime, "keep_compiled", lambda: False)
     warm_up()
     planned = simulation.plan(warmed[0], frames=2)
     assert (planned.alone, planned.shared) == (1, (2,))
+    warm_up(contact=True)
+    assert warmed[-1].contact is not None
+    assert len(warmed[-1].bodies) > 1
+
+
+def test_what_was_compiled_is_kept_before_it_is_needed_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    done: list[str] = []
+    monkeypatch.setattr(simulation, "simulate", lambda *_, **__: done.append("simulated"))
+    monkeypatch.setattr(taichi_runtime, "keep_compiled", lambda: done.append("kept") or True)
+    warm_up()
+    assert done == ["simulated", "kept", "simulated"]
 
 
 def test_the_store_keeps_what_was_used_last_within_its_bytes() -> None:

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physanimator.physics.taichi_runtime import compiled, run
+from physanimator.physics.taichi_runtime import compiled, keep_compiled, run
 
 PREAMBLE = f"import sys; sys.path.insert(0, {str(Path(__file__).resolve().parents[1])!r}); import conftest\n"
 
@@ -177,6 +177,29 @@ def test_the_process_hears_nothing_of_taichi_and_ends_well() -> None:
     assert result.stdout == "taichi True\n"
     assert result.stderr == ""
     assert result.returncode == 0
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="this system has no such signal")
+def test_kernels_are_kept_although_a_signal_ends_the_process(tmp_path: Path) -> None:
+    code = (
+        f"import os, signal; os.environ['TI_OFFLINE_CACHE_FILE_PATH'] = {str(tmp_path)!r}\n"
+        "from physanimator.physics import taichi_runtime\n"
+        "from physanimator.physics.preview_session import warm_up\n"
+        "taichi_runtime._WORTH_KEEPING = 0.0\n"
+        "warm_up()\n"
+        "os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    ended = script(code)
+    assert ended.returncode == -signal.SIGKILL, ended.stderr
+    assert list(tmp_path.rglob("*.tic"))
+
+
+def test_a_program_of_others_is_not_ended_to_keep_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("physanimator.physics.taichi_runtime._WORTH_KEEPING", 0.0)
+    incremented()
+    initialise_elsewhere()
+    assert keep_compiled() is False
+    assert incremented() == 1
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system does not fork")

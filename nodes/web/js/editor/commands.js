@@ -70,7 +70,7 @@ export class Commands {
     editor.tool.cancel();
     editor.replacing = null;
     editor.tool = /** @type {import("../stage/tool.js").Tool} */ (editor.tools.get(id));
-    editor.stage.overlay.style.cursor = editor.tool.cursor;
+    editor.stage.keys.style.cursor = editor.tool.cursor;
     // A brush chosen anew begins a new area, unless what is selected was painted.
     if (BRUSHES.includes(id) && itemAt(editor.document, editor.selection)?.region?.type !== "mask") editor.select(null);
     editor.show();

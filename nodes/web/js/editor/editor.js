@@ -11,6 +11,7 @@
  * @property {boolean} moves  whether there is time and motion
  * @property {import("../preview/client.js").Fetch} fetch
  * @property {(text: string) => void} onChange  a new value
+ * @property {() => void} onKept  the same, a moment later where something is about to move
  * @property {() => void} onRun  the user wants this node to run
  */
 
@@ -18,7 +19,7 @@ import { ACTIONS } from "../panels/toolbar.js";
 import { emptyDocument, itemAt, withItem, withValue } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
 import { handlesOf } from "../scene/shapes.js";
-import { drawOverlay } from "../stage/overlay.js";
+import { Layers } from "../stage/layers.js";
 import { Scheduler } from "../stage/scheduler.js";
 import { Backdrop } from "./backdrop.js";
 import { Commands } from "./commands.js";
@@ -31,6 +32,8 @@ import { BRUSHES, toolsOf } from "./toolbox.js";
 
 /** Length of a preview [s], where the scene is no loop. */
 const PREVIEW = 3;
+/** After this time the host hears of a change whatever moves [ms]. */
+const LATEST = 300;
 /** Radius of the brush to begin with, in longest sides of the picture. */
 const BRUSH = 0.02;
 
@@ -42,12 +45,20 @@ export class Editor {
     /** Length of the preview [frames]; 0 follows the scene. */
     this.frames = 0;
     this.brushRadius = 20;
+    /** @type {any} until the host hears of the last change; 0 where it has */
+    this.untold = 0;
+    /** Whether buttons, values and timeline are behind the document. */
+    this.stale = false;
     /** @type {Reference | null} rig point whose region is to be drawn anew */
     this.replacing = null;
     /** @type {Point | null} */
     this.pointer = null;
     this.shown = { mesh: false, items: true, panel: options.moves };
-    this.store = new Store(emptyDocument(1280, 720), () => this.show(), () => this.#keep());
+    this.store = new Store(emptyDocument(1280, 720), {
+      show: () => this.show(),
+      showSoon: () => this.showSoon(),
+      keep: () => this.#keep(),
+    });
     this.notes = new Notes();
     this.scheduler = new Scheduler((now, asked) => this.#draw(now, asked));
     this.backdrop = new Backdrop(this);
@@ -63,10 +74,12 @@ export class Editor {
     this.inspector = parts.inspector;
     this.timeline = parts.timeline;
     this.status = parts.status;
+    this.layers = new Layers(this.stage);
     this.live = new Live(this.stage.film, options.fetch, {
       redraw: () => this.redraw(),
       trouble: (error) => this.backdrop.trouble(error),
       started: () => this.notes.show("run", ""),
+      moved: () => setTimeout(() => this.tell()),
     });
     listenTo(this);
     this.show();
@@ -154,6 +167,7 @@ export class Editor {
   }
 
   release() {
+    clearTimeout(this.untold);
     this.root.dataset.released = "true";
     this.scheduler.stop();
     this.stage.release();
@@ -195,12 +209,24 @@ export class Editor {
   hover(point) {
     this.pointer = point;
     if (point) this.tool.hover(point);
-    this.stage.overlay.style.cursor = this.stage.spaceHeld ? "grab" : this.tool.cursor;
+    this.stage.keys.style.cursor = this.stage.spaceHeld ? "grab" : this.tool.cursor;
     if (BRUSHES.includes(this.tool.id)) this.redraw();
   }
 
-  /** Bring buttons, values and timeline up to date, and draw. */
+  /** Bring buttons, values and timeline up to date at once, and draw. */
   show() {
+    this.#showPanels();
+    this.redraw();
+  }
+
+  /** Do so with the next drawing, where changes may follow each other faster than they are seen. */
+  showSoon() {
+    this.stale = true;
+    this.redraw();
+  }
+
+  #showPanels() {
+    this.stale = false;
     const { history, selection, document } = this.store;
     const pressed = { ...this.shown, expand: this.dialog.open };
     for (const id of this.tools.keys()) Object.assign(pressed, { [id]: id === this.tool.id });
@@ -213,7 +239,6 @@ export class Editor {
     if (!playback.header) playback.duration = this.frameCount;
     playback.frameRate = document.frame_rate ?? 24;
     this.timeline.showItems(document, selection, playback.duration / playback.frameRate);
-    this.redraw();
   }
 
   /** What the tool does, how large the picture is shown, and its size. */
@@ -224,12 +249,24 @@ export class Editor {
     if (this.status.textContent !== text) this.status.textContent = text;
   }
 
+  /** Let the host hear of the last change at once, if it has not yet. */
+  tell() {
+    if (!this.untold) return;
+    clearTimeout(this.untold);
+    this.untold = 0;
+    this.options.onKept();
+  }
+
   #keep() {
+    this.tell();
     this.simulate();
     this.text = this.options.format.write(this.document);
     this.notes.show("value", "");
     this.resize(this.document);
     this.options.onChange(this.text);
+    // What the host does about a change can take longer than the simulation of the first frames, which it would hold up.
+    this.untold = setTimeout(() => this.tell(), LATEST);
+    if (!this.live.playback.waiting) this.tell();
   }
 
   /**
@@ -242,21 +279,25 @@ export class Editor {
     // An editor out of sight rests; it is drawn again when it gets its size back.
     const more = live.playback.advance(now) && stage.across > 0;
     if (!asked && frame === live.playback.shown) return more;
-    const context = stage.sharpen();
-    live.draw(stage.view, stage.across, stage.down);
+    if (this.stale) this.#showPanels();
+    const { shows } = live;
+    const meshShown = this.shown.mesh || !live.player.ready;
     const brushing = BRUSHES.includes(this.tool.id) && this.pointer;
-    drawOverlay(context, {
+    this.layers.draw({
       document: this.document,
+      settled: this.store.history.present,
       selection: this.selection,
       view: stage.view,
-      background: live.shows ? null : this.backdrop.picture,
-      mesh: this.shown.mesh || !live.player.ready ? live.mesh : null,
+      background: shows ? null : this.backdrop.picture,
+      restingMesh: meshShown && !live.playback.shown ? live.mesh : null,
+      movingMesh: meshShown && live.playback.shown && !shows ? live.mesh : null,
       frame: live.playback.shown,
       unit: live.unit,
       draft: this.tool.draft,
       brush: brushing ? { at: brushing, radius: this.brushRadius } : null,
       itemsShown: this.shown.items,
     });
+    live.draw(stage.view, stage.across, stage.down, this.shown.mesh);
     this.#showStatus();
     if (this.options.moves) this.timeline.showPosition(live.playback);
     return more;

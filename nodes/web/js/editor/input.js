@@ -20,6 +20,7 @@ export function listenTo(editor) {
   root.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => onKeyDown(editor, event));
   root.addEventListener("keyup", (/** @type {KeyboardEvent} */ event) => onKeyUp(editor, event));
   root.addEventListener("focusout", () => (editor.stage.spaceHeld = false));
+  for (const name of ["focusout", "pointerleave"]) root.addEventListener(name, () => editor.tell());
   root.addEventListener("copy", (/** @type {ClipboardEvent} */ event) => onCopy(editor, event));
   root.addEventListener("cut", (/** @type {ClipboardEvent} */ event) => onCopy(editor, event) && editor.commands.run("delete"));
   root.addEventListener("paste", (/** @type {ClipboardEvent} */ event) => onPaste(editor, event));

@@ -16,6 +16,7 @@
  * @property {() => void} redraw
  * @property {(error: Error | null) => void} trouble
  * @property {() => void} started  the first frame has come
+ * @property {() => void} moved  the first frame in which something moves is on the screen
  */
 
 import { PreviewClient } from "../preview/client.js";
@@ -82,6 +83,7 @@ export class Live {
   request(document, frames) {
     if (!this.run || !this.mesh) return;
     this.measured = { asked: performance.now(), firstFrame: 0, drawn: 0, frames: 0, largest: 0 };
+    this.playback.waiting = true;
     this.client.request(this.run.key, document, frames);
   }
 
@@ -121,17 +123,20 @@ export class Live {
    * @param {import("../scene/geometry.js").View} view
    * @param {number} across  of the stage [CSS px]
    * @param {number} down
+   * @param {boolean} meshShown  its edges too
    */
-  draw(view, across, down) {
+  draw(view, across, down, meshShown) {
     const frame = this.playback.shown;
     if (!this.shows || !frame) {
       this.player.clear();
       return;
     }
-    this.player.draw(view, across, down, frame.displacements, this.unit);
-    if (frame.number && !this.measured.drawn) {
+    this.player.draw(view, across, down, frame.displacements, this.unit, meshShown);
+    // The motion before this request goes on until the new one comes, and does not count.
+    if (frame.number && this.measured.frames > 1 && !this.measured.drawn) {
       this.measured.drawn = performance.now() - this.measured.asked;
       mark(MOVES);
+      this.listener.moved();
     }
   }
 

@@ -3,6 +3,11 @@
  *
  * @typedef {import("../scene/document.js").SceneDocument} SceneDocument
  * @typedef {import("../scene/document.js").Reference} Reference
+ *
+ * @typedef {object} StoreListener
+ * @property {() => void} show  something else is to be seen
+ * @property {() => void} showSoon  the same, where more of it may follow at once
+ * @property {() => void} keep  there is a new document to keep
  */
 
 import { itemAt } from "../scene/document.js";
@@ -11,16 +16,14 @@ import { History } from "../scene/history.js";
 export class Store {
   /**
    * @param {SceneDocument} document
-   * @param {() => void} onShow  something else is to be seen
-   * @param {() => void} onCommit  there is a new document to keep
+   * @param {StoreListener} listener
    */
-  constructor(document, onShow, onCommit) {
+  constructor(document, listener) {
     this.history = new History(document);
     this.document = document;
     /** @type {Reference | null} */
     this.selection = null;
-    this.onShow = onShow;
-    this.onCommit = onCommit;
+    this.listener = listener;
   }
 
   /**
@@ -36,13 +39,13 @@ export class Store {
   /** @param {SceneDocument} document shown, but not yet a step to undo */
   propose(document) {
     this.document = document;
-    this.onShow();
+    this.listener.showSoon();
   }
 
   /** @param {Reference | null} reference */
   select(reference) {
     this.selection = reference;
-    this.onShow();
+    this.listener.show();
   }
 
   undo() {
@@ -71,7 +74,7 @@ export class Store {
     this.document = this.history.present;
     this.selection = itemAt(this.document, selection) ? selection : null;
     // First what the server must hear of, because that takes its time.
-    if (changed) this.onCommit();
-    this.onShow();
+    if (changed) this.listener.keep();
+    this.listener.show();
   }
 }

@@ -32,7 +32,8 @@ export function attachEditor(app, api, node, kind) {
   const editor = new Editor({
     ...kind,
     fetch: (path, options) => api.fetchApi(path, options),
-    onChange: (text) => keep(app, node, value, text),
+    onChange: (text) => (value.value = text),
+    onKept: () => tell(app, node, value),
     onRun: () => runNode(app, node),
   });
   hide(value);
@@ -78,18 +79,19 @@ function hide(value) {
 }
 
 /**
+ * Tell the host that a value has changed, so that it can be undone.
+ *
  * @param {any} app
  * @param {any} node
  * @param {any} value
- * @param {string} text
  */
-function keep(app, node, value, text) {
-  value.value = text;
-  value.callback?.(text);
-  node.graph?.change?.();
+function tell(app, node, value) {
+  value.callback?.(value.value);
+  // The graph itself looks as before; to draw it anew would keep the first moving frame waiting.
   const tracker = app.extensionManager?.workflow?.activeWorkflow?.changeTracker;
   if (tracker?.captureCanvasState) tracker.captureCanvasState();
-  else tracker?.checkState?.();
+  else if (tracker?.checkState) tracker.checkState();
+  else node.graph?.change?.();
 }
 
 /**

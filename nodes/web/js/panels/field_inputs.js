@@ -20,7 +20,8 @@ export function fieldRow(field, item, change) {
   if (field.kind === "keys") return keysRow(field, item, change);
   const value = valueAt(item, field.path) ?? field.default;
   const inputs = field.kind === "pair" ? pairInputs(field, value, change) : [singleInput(field, value, change)];
-  const unit = field.unit ? [element("span", { className: "physanimator-unit" }, [field.unit])] : [];
+  // Without a unit its place stays free, so that the numbers stand below each other.
+  const unit = field.unit || ["number", "integer", "pair"].includes(field.kind) ? [element("span", { className: "physanimator-unit" }, [field.unit ?? ""])] : [];
   const caption = element("span", { className: "physanimator-caption" }, [field.title]);
   return element("label", { className: "physanimator-field", title: field.hint, "data-field": field.path }, [
     caption,

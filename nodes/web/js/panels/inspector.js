@@ -11,7 +11,7 @@
  * @property {(radius: number) => void} brushSize
  */
 
-import { itemAt } from "../scene/document.js";
+import { itemAt, LISTS } from "../scene/document.js";
 import { CONTACT_FIELDS, fieldsOf, newMotion, SCENE_FIELDS, WIND_FIELDS } from "../scene/fields.js";
 import { titleOf } from "../scene/items.js";
 import { element } from "./elements.js";
@@ -21,6 +21,8 @@ export class Inspector {
   /** @param {InspectorListener} listener */
   constructor(listener) {
     this.listener = listener;
+    /** @type {any[]} on which depends what is shown */
+    this.values = [];
     this.root = element("div", { className: "physanimator-inspector", role: "group", "aria-label": "Values" });
   }
 
@@ -32,10 +34,16 @@ export class Inspector {
   show(document, selection, brush) {
     const active = this.root.contains(globalThis.document.activeElement) && globalThis.document.activeElement;
     // The field in which somebody types is left alone: it shows what is typed, not what became of it.
-    const typing = active && active.tagName === "INPUT" && this.subject === this.#subject(document, selection);
-    if (typing) return;
+    const typing = active && active.type === "number" && this.subject === this.#subject(document, selection);
+    if (typing) {
+      this.values = [];
+      return;
+    }
     this.subject = this.#subject(document, selection);
     const item = itemAt(document, selection);
+    const values = item ? [selection?.list, selection?.index, item, brush?.radius] : [brush?.radius, ...sceneValues(document)];
+    if (values.length === this.values.length && values.every((value, i) => value === this.values[i])) return;
+    this.values = values;
     const rows = selection && item ? this.#itemRows(selection, item) : this.#sceneRows(document);
     this.root.replaceChildren(...(brush ? [this.#brushRow(brush)] : []), ...rows);
   }
@@ -127,4 +135,13 @@ export class Inspector {
     });
     return fieldRow(field, brush, (changes) => this.listener.brushSize(changes[0][1]));
   }
+}
+
+/**
+ * What a document says besides its items.
+ *
+ * @param {SceneDocument} document
+ */
+function sceneValues(document) {
+  return Object.entries(document).flatMap(([name, value]) => (LISTS.includes(name) ? [] : [name, value]));
 }

@@ -27,15 +27,14 @@ export const STYLE = `
   color: inherit; background: transparent; border: 1px solid transparent; border-radius: 5px; font: inherit; cursor: pointer;
 }
 .physanimator-editor button:hover:not(:disabled) { background: var(--physanimator-field); }
-.physanimator-editor button[aria-pressed="true"] { color: #fff; background: var(--physanimator-accent); }
+.physanimator-editor button[aria-pressed="true"], .physanimator-editor button[aria-pressed="true"]:hover:not(:disabled) { color: #fff; background: var(--physanimator-accent); }
 .physanimator-editor button:disabled { opacity: 0.35; cursor: default; }
 .physanimator-editor :is(button, input, select, canvas, textarea):focus-visible { outline: 2px solid var(--physanimator-accent); outline-offset: -2px; }
 .physanimator-stage { grid-area: stage; position: relative; min-width: 0; min-height: 0; overflow: hidden;
   background: repeating-conic-gradient(rgba(128, 128, 128, 0.16) 0% 25%, transparent 0% 50%) 0 0 / 20px 20px, var(--physanimator-field); }
-.physanimator-stage canvas { position: absolute; inset: 0; width: 100%; height: 100%; touch-action: none; outline: none; }
-.physanimator-editor input.physanimator-keys { position: absolute; left: 0; bottom: 0; width: 1px; height: 1px; padding: 0; border: 0; opacity: 0; pointer-events: none; }
+.physanimator-stage canvas { position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none; }
+.physanimator-editor input.physanimator-keys { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; padding: 0; border: 0; opacity: 0; touch-action: none; user-select: none; cursor: crosshair; }
 .physanimator-stage:focus-within { box-shadow: inset 0 0 0 1px var(--physanimator-accent); }
-.physanimator-film { pointer-events: none; }
 .physanimator-notes { position: absolute; inset: auto 8px 8px; display: flex; flex-direction: column; align-items: flex-start; gap: 4px; pointer-events: none; }
 .physanimator-note { max-width: 100%; padding: 4px 8px; border-radius: 5px; color: #fff; background: rgba(16, 18, 24, 0.86); pointer-events: auto; overflow-wrap: anywhere; }
 .physanimator-note[data-kind="error"] { background: rgba(150, 28, 36, 0.94); }
@@ -47,12 +46,12 @@ export const STYLE = `
 .physanimator-section { justify-content: flex-start; margin-top: 8px; font-weight: 600; }
 .physanimator-caption { color: var(--physanimator-dim); }
 .physanimator-inputs { display: flex; align-items: center; gap: 4px; }
-.physanimator-unit { min-width: 20px; color: var(--physanimator-dim); font-size: 11px; white-space: nowrap; }
+.physanimator-unit { width: 46px; color: var(--physanimator-dim); font-size: 11px; white-space: nowrap; }
 .physanimator-editor :is(input[type="number"], select) {
-  width: 62px; height: 22px; margin: 0; padding: 0 4px; color: var(--physanimator-text); background: var(--physanimator-field);
+  width: 56px; height: 22px; margin: 0; padding: 0 4px; color: var(--physanimator-text); background: var(--physanimator-field);
   border: 1px solid var(--physanimator-rim); border-radius: 4px; font: inherit; appearance: textfield;
 }
-.physanimator-editor .physanimator-inputs select { width: 96px; padding: 0; appearance: auto; }
+.physanimator-editor .physanimator-inputs select { width: 104px; padding: 0; appearance: auto; }
 .physanimator-editor input[aria-invalid] { border-color: #f44; }
 .physanimator-inputs input[type="number"] + input[type="number"] { margin-left: 0; }
 .physanimator-field[data-field="gravity"] input, .physanimator-field[data-field="motion.direction"] input { width: 44px; }
@@ -61,11 +60,13 @@ export const STYLE = `
 .physanimator-keyhead { justify-content: space-between; }
 .physanimator-table button { height: 22px; white-space: nowrap; background: var(--physanimator-field); }
 .physanimator-timeline { grid-area: timeline; border-top: 1px solid var(--physanimator-rim); }
-.physanimator-bar { display: flex; align-items: center; gap: 4px; padding: 2px 6px; }
+.physanimator-bar { display: flex; align-items: center; gap: 4px; height: 30px; padding: 2px 6px; contain: strict; }
 .physanimator-slider { flex: 1; min-width: 40px; margin: 0; accent-color: var(--physanimator-accent); }
 .physanimator-readout { min-width: 84px; text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .physanimator-editor input.physanimator-length { width: 48px; }
-.physanimator-lanes { position: relative; height: 46px; margin: 0 6px 4px; overflow-y: auto; scrollbar-width: thin; }
+.physanimator-bar .physanimator-unit, .physanimator-key .physanimator-unit { width: auto; }
+.physanimator-lanes { height: 46px; margin: 0 6px 4px; overflow-y: auto; scrollbar-width: thin; }
+.physanimator-track { position: relative; min-height: 100%; overflow: hidden; contain: layout paint style; }
 .physanimator-lane { position: relative; height: 10px; margin-top: 1px; border-radius: 2px; background: rgba(128, 128, 128, 0.16); cursor: pointer; }
 .physanimator-lane[data-selected="true"] { outline: 1px solid var(--physanimator-text); outline-offset: -1px; }
 .physanimator-span { position: absolute; inset: 2px auto 2px 0; border-radius: 2px; background: var(--physanimator-colour); opacity: 0.75; }
@@ -76,27 +77,33 @@ export const STYLE = `
 .physanimator-edge::before { content: ""; position: absolute; inset: 0 0 0 auto; width: 3px; border-radius: 1px; background: var(--physanimator-text); opacity: 0; }
 .physanimator-edge[data-edge="start"]::before { inset: 0 auto 0 0; }
 .physanimator-lane:hover .physanimator-edge::before, .physanimator-lane[data-selected="true"] .physanimator-edge::before { opacity: 0.9; }
-.physanimator-now { position: absolute; inset: 0 auto 0 calc(var(--physanimator-now, 0) * 100%); width: 1px; background: var(--physanimator-text); pointer-events: none; }
+.physanimator-now { position: absolute; inset: 0; width: calc(100% - 1px); border-left: 1px solid var(--physanimator-text); pointer-events: none; }
 .physanimator-dialog { width: 100vw; height: 100vh; max-width: none; max-height: none; margin: 0; padding: 10px; border: 0; background: rgba(0, 0, 0, 0.7); }
 .physanimator-dialog .physanimator-frame { grid-template-columns: minmax(0, 1fr) 252px; }
 .physanimator-dialog .physanimator-frame[data-panel="false"] { grid-template-columns: minmax(0, 1fr) 0; }
 .physanimator-status { position: absolute; left: 6px; top: 6px; max-width: calc(100% - 12px); padding: 2px 7px; border-radius: 5px;
-  color: #fff; background: rgba(16, 18, 24, 0.62); font-size: 11px; font-variant-numeric: tabular-nums; pointer-events: none; }
+  overflow: hidden; text-overflow: ellipsis; white-space: nowrap; color: #fff; background: rgba(16, 18, 24, 0.62); font-size: 11px; font-variant-numeric: tabular-nums; pointer-events: none; }
 .physanimator-status:empty { display: none; }
 .physanimator-empty { padding: 6px 2px; color: var(--physanimator-dim); }
 .physanimator-dialog .physanimator-frame { font-size: 13px; }
 .physanimator-dialog :is(.physanimator-toolbar, .physanimator-bar) button { min-width: 36px; height: 36px; }
 .physanimator-dialog :is(.physanimator-toolbar, .physanimator-bar) svg { width: 22px; height: 22px; }
+.physanimator-dialog .physanimator-bar { height: 42px; }
 .physanimator-dialog .physanimator-lanes { height: 120px; }
 .physanimator-dialog .physanimator-lane { height: 14px; }
 @container (max-width: 519px) {
+  .physanimator-bar .physanimator-unit { display: none; }
   .physanimator-frame, .physanimator-frame[data-panel="false"] {
     grid-template: "toolbar" auto "stage" minmax(120px, 1fr) "inspector" auto "timeline" auto / minmax(0, 1fr);
   }
-  .physanimator-inspector { max-height: 120px; border-left: 0; border-top: 1px solid var(--physanimator-rim); columns: 2; }
+  .physanimator-inspector { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); column-gap: 14px; align-content: start;
+    max-height: 124px; border-left: 0; border-top: 1px solid var(--physanimator-rim); }
+  .physanimator-heading, .physanimator-section, .physanimator-table, .physanimator-field[data-field="region"] { grid-column: 1 / -1; }
+  .physanimator-inspector .physanimator-unit { width: 40px; }
 }
 @media (pointer: coarse) {
   .physanimator-editor button { min-width: 34px; height: 34px; }
+  .physanimator-bar { height: 40px; }
   .physanimator-editor .physanimator-lane { height: 20px; }
   .physanimator-edge { width: 20px; }
 }

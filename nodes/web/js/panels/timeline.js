@@ -5,6 +5,7 @@
  * @typedef {import("../scene/document.js").Reference} Reference
  * @typedef {import("../scene/document.js").Item} Item
  * @typedef {import("../preview/playback.js").Playback} Playback
+ * @typedef {{reference: Reference, item: Item, duration: number, root: HTMLElement}} Lane  when one item acts
  *
  * @typedef {object} TimelineListener
  * @property {() => void} toggle
@@ -32,13 +33,17 @@ export class Timeline {
     this.play = element("button", { type: "button", "data-action": "play", onclick: listener.toggle });
     this.loop = element("button", { type: "button", innerHTML: icon("loop"), title: "Play again and again", "aria-label": "Play again and again", "data-action": "loop", onclick: listener.loop });
     this.slider = element("input", { type: "range", min: "0", step: "1", "aria-label": "Frame", className: "physanimator-slider", oninput: () => listener.seek(Number(this.slider.value)) });
-    this.readout = element("span", { className: "physanimator-readout", "aria-live": "off" });
+    this.readout = element("span", { className: "physanimator-readout", "aria-live": "off" }, [""]);
     this.length = element("input", { type: "number", min: "2", max: String(MOST_FRAMES), step: "1", title: "Length of the preview [frames]", "aria-label": "Length of the preview [frames]", className: "physanimator-length", onchange: () => this.#setLength() });
-    this.lanes = element("div", { className: "physanimator-lanes" });
-    const bar = element("div", { className: "physanimator-bar" }, [this.play, this.loop, this.slider, this.readout, this.length]);
-    this.root = element("div", { className: "physanimator-timeline" }, [bar, this.lanes]);
-    this.shown = "";
+    this.lanes = element("div", { className: "physanimator-track" });
+    this.now = element("div", { className: "physanimator-now" });
+    const bar = element("div", { className: "physanimator-bar" }, [this.play, this.loop, this.slider, this.readout, this.length, element("span", { className: "physanimator-unit" }, ["frames"])]);
+    this.root = element("div", { className: "physanimator-timeline" }, [bar, element("div", { className: "physanimator-lanes" }, [this.lanes])]);
+    /** @type {Partial<Record<"playing" | "looping" | "frame" | "duration" | "frameRate", any>>} */
+    this.shown = {};
     this.duration = 1;
+    /** @type {Lane[]} */
+    this.rows = [];
     /** @type {{reference: Reference, item: Item, edge: import("../scene/timing.js").Edge, changed: Item} | null} */
     this.dragged = null;
     this.#listen();
@@ -92,19 +97,27 @@ export class Timeline {
   /** @param {Playback} playback */
   showPosition(playback) {
     const frame = Math.floor(playback.position);
-    const state = `${playback.playing} ${playback.looping} ${frame} ${playback.duration} ${playback.frameRate}`;
-    if (state === this.shown) return;
-    this.shown = state;
-    const title = playback.playing ? "Pause (Space)" : "Play (Space)";
-    this.play.innerHTML = icon(playback.playing ? "pause" : "play");
+    const { playing, looping, duration, frameRate } = playback;
+    const before = this.shown;
+    this.shown = { playing, looping, frame, duration, frameRate };
+    if (playing !== before.playing) this.#showPlaying(playing);
+    if (looping !== before.looping) this.loop.setAttribute("aria-pressed", String(looping));
+    if (duration !== before.duration) {
+      this.slider.max = String(duration - 1);
+      if (globalThis.document.activeElement !== this.length) this.length.value = String(duration);
+    } else if (frame === before.frame && frameRate === before.frameRate) return;
+    this.slider.value = String(frame);
+    this.readout.firstChild.data = `${frame} · ${(frame / frameRate).toFixed(2)} s`;
+    // As a movement, for which nothing is laid out anew.
+    this.now.style.transform = `translateX(${(100 * frame) / Math.max(duration - 1, 1)}%)`;
+  }
+
+  /** @param {boolean} playing */
+  #showPlaying(playing) {
+    const title = playing ? "Pause (Space)" : "Play (Space)";
+    this.play.innerHTML = icon(playing ? "pause" : "play");
     this.play.title = title;
     this.play.setAttribute("aria-label", title);
-    this.loop.setAttribute("aria-pressed", String(playback.looping));
-    this.slider.max = String(playback.duration - 1);
-    this.slider.value = String(frame);
-    this.readout.textContent = `${frame} · ${(frame / playback.frameRate).toFixed(2)} s`;
-    if (globalThis.document.activeElement !== this.length) this.length.value = String(playback.duration);
-    this.lanes.style.setProperty("--physanimator-now", String(frame / Math.max(playback.duration - 1, 1)));
   }
 
   /**
@@ -114,29 +127,43 @@ export class Timeline {
    */
   showItems(document, selection, duration) {
     this.duration = duration;
-    const items = allItems(document).filter(({ reference }) => reference.list !== "query_points");
-    const lanes = items.slice(0, MOST_LANES).map(({ reference, item }) => {
-      const lane = element("div", {
-        className: "physanimator-lane",
-        title: titleOf(reference, item),
-        "data-selected": String(selection?.list === reference.list && selection.index === reference.index),
-        onclick: () => this.listener.select(reference),
-      });
-      lane.style.setProperty("--physanimator-colour", colourOf(reference.list, item));
-      const spans = spansOf(reference, item, duration).map(([from, to]) => this.#piece("physanimator-span", from, to, duration));
-      const ticks = reference.list === "strokes" ? departures(item, duration).slice(0, 200) : [];
-      const edges = edgesOf(reference, item, duration).map(([edge, time]) => {
-        const grip = this.#piece("physanimator-edge", time, time, duration);
-        grip.dataset.edge = edge;
-        grip.title = `${titleOf(reference, item)}: drag its ${edge}`;
-        grip.addEventListener("pointerdown", (/** @type {PointerEvent} */ event) => this.#grasp(event, reference, item, edge));
-        return grip;
-      });
-      lane.append(...spans, ...ticks.map((time) => this.#piece("physanimator-tick", time, time, duration)), ...edges);
-      return lane;
+    const placed = allItems(document).filter(({ reference }) => reference.list !== "query_points").slice(0, MOST_LANES);
+    const before = this.rows;
+    this.rows = placed.map(({ reference, item }, number) => {
+      const lane = before[number];
+      return lane && isOf(lane, reference, item, duration) ? lane : this.#lane(reference, item, duration);
     });
-    const empty = lanes.length ? [] : [element("div", { className: "physanimator-empty" }, ["What you draw appears here, with the times at which it acts."])];
-    this.lanes.replaceChildren(...lanes, ...empty, element("div", { className: "physanimator-now" }));
+    for (const { reference, root } of this.rows) {
+      root.dataset.selected = String(selection?.list === reference.list && selection.index === reference.index);
+    }
+    if (this.rows.length && this.rows.length === before.length) {
+      this.rows.forEach(({ root }, number) => root !== before[number].root && before[number].root.replaceWith(root));
+      return;
+    }
+    const empty = element("div", { className: "physanimator-empty" }, ["What you draw appears here, with the times at which it acts."]);
+    this.lanes.replaceChildren(...(this.rows.length ? this.rows.map(({ root }) => root) : [empty]), this.now);
+  }
+
+  /**
+   * @param {Reference} reference
+   * @param {Item} item
+   * @param {number} duration  [s]
+   * @returns {Lane}
+   */
+  #lane(reference, item, duration) {
+    const root = element("div", { className: "physanimator-lane", title: titleOf(reference, item), onclick: () => this.listener.select(reference) });
+    root.style.setProperty("--physanimator-colour", colourOf(reference.list, item));
+    const spans = spansOf(reference, item, duration).map(([from, to]) => this.#piece("physanimator-span", from, to, duration));
+    const ticks = reference.list === "strokes" ? departures(item, duration).slice(0, 200) : [];
+    const edges = edgesOf(reference, item, duration).map(([edge, time]) => {
+      const grip = this.#piece("physanimator-edge", time, time, duration);
+      grip.dataset.edge = edge;
+      grip.title = `${titleOf(reference, item)}: drag its ${edge}`;
+      grip.addEventListener("pointerdown", (/** @type {PointerEvent} */ event) => this.#grasp(event, reference, item, edge));
+      return grip;
+    });
+    root.append(...spans, ...ticks.map((time) => this.#piece("physanimator-tick", time, time, duration)), ...edges);
+    return { reference, item, duration, root };
   }
 
   /**
@@ -151,4 +178,16 @@ export class Timeline {
     if (to > from) piece.style.width = `${(100 * (to - from)) / duration}%`;
     return piece;
   }
+}
+
+/**
+ * Whether a lane shows just this.
+ *
+ * @param {Lane} lane
+ * @param {Reference} reference
+ * @param {Item} item
+ * @param {number} duration  [s]
+ */
+function isOf(lane, { list, index }, item, duration) {
+  return lane.item === item && lane.duration === duration && lane.reference.list === list && lane.reference.index === index;
 }

@@ -10,6 +10,10 @@ export class Playback {
     this.header = null;
     /** @type {Frame[]} */
     this.frames = [];
+    /** @type {Frame | null} of the motion before, on the screen until the new one has a frame */
+    this.last = null;
+    /** Whether a new motion has been asked for; until it comes, the old one stands still and leaves it the processor. */
+    this.waiting = false;
     this.playing = true;
     this.looping = true;
     /** Position [frames]; a fraction while playing. */
@@ -24,6 +28,8 @@ export class Playback {
    * @param {number} now  [ms]
    */
   begin(header, now) {
+    this.last = this.shown;
+    this.waiting = false;
     this.header = header;
     this.frames = [];
     this.frameRate = header.frame_rate;
@@ -35,6 +41,8 @@ export class Playback {
   }
 
   clear() {
+    this.last = null;
+    this.waiting = false;
     this.header = null;
     this.frames = [];
   }
@@ -46,7 +54,7 @@ export class Playback {
 
   /** The frame at the position, or the last one before it that has arrived. */
   get shown() {
-    if (!this.frames.length) return null;
+    if (!this.frames.length) return this.last;
     return this.frames[Math.min(Math.floor(this.position), this.frames.length - 1)] ?? null;
   }
 
@@ -56,7 +64,7 @@ export class Playback {
 
   /** Whether the position goes on by itself. */
   get moves() {
-    return this.playing && this.frames.length > 1;
+    return this.playing && this.frames.length > 1 && !this.waiting;
   }
 
   /**

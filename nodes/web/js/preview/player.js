@@ -22,8 +22,12 @@ void main() {
 const FRAGMENT = `
 precision mediump float;
 uniform sampler2D picture;
+uniform vec4 ink;
 varying vec2 place;
-void main() { gl_FragColor = texture2D(picture, place); }`;
+void main() { gl_FragColor = ink.a > 0.0 ? ink : texture2D(picture, place); }`;
+
+/** Colour of the mesh's edges, multiplied by how opaque it is. */
+const INK = /** @type {const} */ ([0, 0.55, 0.7, 0.7]);
 
 export class Player {
   /** @param {HTMLCanvasElement} canvas */
@@ -48,7 +52,11 @@ export class Player {
   /** A page has only a few contexts: each editor takes one when there is something to play. */
   #open() {
     if (this.gl) return;
-    this.gl = this.canvas.getContext("webgl", { alpha: true, premultipliedAlpha: true, preserveDrawingBuffer: true });
+    const wanted = { alpha: true, premultipliedAlpha: true, preserveDrawingBuffer: true };
+    const context = (/** @type {WebGLContextAttributes} */ more) => this.canvas.getContext("webgl", { ...wanted, ...more });
+    // Smooth edges where a graphics card draws them; without one they would take several times as long as all the rest.
+    const gl = context({ failIfMajorPerformanceCaveat: true }) ?? context({ antialias: false });
+    this.gl = /** @type {WebGLRenderingContext | null} */ (gl);
     if (this.gl) this.#prepare(this.gl);
   }
 
@@ -63,13 +71,15 @@ export class Player {
       stage: gl.getUniformLocation(program, "stage"),
       view: gl.getUniformLocation(program, "view"),
       unit: gl.getUniformLocation(program, "unit"),
+      ink: gl.getUniformLocation(program, "ink"),
     };
     gl.enableVertexAttribArray(this.places.rest);
     gl.enableVertexAttribArray(this.places.displacement);
     gl.getExtension("OES_element_index_uint");
     const plate = { rest: gl.createBuffer(), displacement: gl.createBuffer() };
-    this.buffers = { rest: gl.createBuffer(), displacement: gl.createBuffer(), triangles: gl.createBuffer(), plate };
+    this.buffers = { rest: gl.createBuffer(), displacement: gl.createBuffer(), triangles: gl.createBuffer(), edges: gl.createBuffer(), plate };
     this.textures = { picture: texture(gl), plate: texture(gl) };
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     this.ready = true;
   }
 
@@ -93,6 +103,7 @@ export class Player {
     if (!gl || !buffers || !textures) return;
     fill(gl, gl.ARRAY_BUFFER, buffers.rest, mesh.positions);
     fill(gl, gl.ELEMENT_ARRAY_BUFFER, buffers.triangles, mesh.triangles);
+    fill(gl, gl.ELEMENT_ARRAY_BUFFER, buffers.edges, edgesOf(mesh.triangles));
     const { width, height } = mesh;
     fill(gl, gl.ARRAY_BUFFER, buffers.plate.rest, new Float32Array([0, 0, width, 0, 0, height, width, height]));
     fill(gl, gl.ARRAY_BUFFER, buffers.plate.displacement, new Int16Array(8));
@@ -116,8 +127,9 @@ export class Player {
    * @param {number} down
    * @param {Int16Array} displacements  [unit]
    * @param {number} unit  [px]
+   * @param {boolean} meshShown  its edges too
    */
-  draw(view, across, down, displacements, unit) {
+  draw(view, across, down, displacements, unit, meshShown) {
     const { gl, mesh, places, buffers, textures } = this;
     if (!gl || !mesh || !places || !buffers || !textures || !this.ready) return;
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
@@ -134,6 +146,22 @@ export class Player {
     gl.bindTexture(gl.TEXTURE_2D, textures.picture);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers.triangles);
     gl.drawElements(gl.TRIANGLES, mesh.triangles.length, gl.UNSIGNED_INT, 0);
+    if (meshShown) this.#drawEdges(gl, mesh);
+  }
+
+  /**
+   * @param {WebGLRenderingContext} gl
+   * @param {Mesh} mesh  of which the vertices are in place already
+   */
+  #drawEdges(gl, mesh) {
+    const { places, buffers } = this;
+    if (!places || !buffers) return;
+    gl.enable(gl.BLEND);
+    gl.uniform4f(places.ink, ...INK);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers.edges);
+    gl.drawElements(gl.LINES, 2 * mesh.triangles.length, gl.UNSIGNED_INT, 0);
+    gl.uniform4f(places.ink, 0, 0, 0, 0);
+    gl.disable(gl.BLEND);
   }
 
   /**
@@ -154,6 +182,20 @@ export class Player {
     this.ready = false;
     this.gl?.getExtension("WEBGL_lose_context")?.loseContext();
   }
+}
+
+/**
+ * The ends of each triangle's edges.
+ *
+ * @param {Uint32Array} triangles
+ */
+function edgesOf(triangles) {
+  const ends = new Uint32Array(2 * triangles.length);
+  for (let i = 0; i < triangles.length; i += 3) {
+    const [a, b, c] = triangles.subarray(i, i + 3);
+    ends.set([a, b, b, c, c, a], 2 * i);
+  }
+  return ends;
 }
 
 /** @param {WebGLRenderingContext} gl */

@@ -9,17 +9,23 @@
  */
 
 import { along, lengthOf, toStage } from "../scene/geometry.js";
-import { bitmapOf } from "../scene/masks.js";
 import { handlesOf, verticesOf } from "../scene/shapes.js";
 import { colourOf } from "./colours.js";
 import { Painter } from "./painter.js";
+import { regionMask } from "./tints.js";
 
 /** Distance from one arrow of a wind stroke to the next [CSS px]. */
 const ARROWS = 70;
 const MANY_POINTS = 400;
 
-/** @type {WeakMap<object, {colour: string, canvas: HTMLCanvasElement}>} coloured masks, made once each */
-const tinted = new WeakMap();
+/**
+ * Whether a rig point is led away from where it was drawn.
+ *
+ * @param {Item} rigPoint
+ */
+export function moves(rigPoint) {
+  return (rigPoint.motion?.type ?? "pinned") !== "pinned";
+}
 
 export class ItemPainter {
   /**
@@ -40,12 +46,11 @@ export class ItemPainter {
    * @param {Reference} reference
    * @param {Item} item
    * @param {boolean} selected
-   * @param {Point} shift  how far a rig point is away from where it was drawn at this moment [px]
    */
-  draw(reference, item, selected, shift = [0, 0]) {
+  draw(reference, item, selected) {
     const colour = colourOf(reference.list, item);
     if (reference.list === "strokes") this.#stroke(item, colour, selected);
-    else if (reference.list === "rig_points") this.#rigPoint(item, colour, selected, shift);
+    else if (reference.list === "rig_points") this.#rigPoint(item, colour, selected);
     else if (reference.list === "query_points") this.#query(item, colour, selected);
     else this.#region(item, colour, selected);
     if (selected) this.#grips(reference, item, colour);
@@ -91,12 +96,22 @@ export class ItemPainter {
    * @param {Item} item
    * @param {string} colour
    * @param {boolean} selected
-   * @param {Point} shift
    */
-  #rigPoint(item, colour, selected, [dx, dy]) {
-    const { position } = item;
+  #rigPoint(item, colour, selected) {
     this.#region({ ...item, region: item.region ?? { type: "circle", radius: 20 } }, colour, selected);
     this.#motion(item, colour);
+    if (!moves(item)) this.anchor(item, [0, 0]);
+  }
+
+  /**
+   * The rig point itself, which may be on its way.
+   *
+   * @param {Item} item
+   * @param {Point} shift  from where it was drawn [px]
+   */
+  anchor(item, [dx, dy]) {
+    const { position } = item;
+    const colour = colourOf("rig_points", item);
     const at = this.at([position[0] + dx, position[1] + dy]);
     if (dx || dy) this.painter.line([this.at(position), at], colour, { width: 1, dash: [3, 3] });
     this.painter.dot(at, 6, colour);
@@ -196,9 +211,7 @@ export class ItemPainter {
    * @param {number} alpha
    */
   mask(region, colour, alpha) {
-    let known = tinted.get(region);
-    if (known?.colour !== colour) tinted.set(region, (known = { colour, canvas: tintedMask(bitmapOf(region), colour) }));
-    this.stretched(known?.canvas, alpha);
+    this.stretched(regionMask(region, colour), alpha);
   }
 
   /**
@@ -250,20 +263,4 @@ export class ItemPainter {
       this.painter.dot(this.at(at), 3.5, colour);
     }
   }
-}
-
-/**
- * @param {import("../scene/masks.js").Bitmap} bitmap
- * @param {string} colour  as #rrggbb
- */
-export function tintedMask({ width, height, bits }, colour) {
-  const canvas = Object.assign(globalThis.document.createElement("canvas"), { width, height });
-  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
-  const image = context.createImageData(width, height);
-  const channels = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
-  for (let i = 0; i < bits.length; i++) {
-    if (bits[i]) image.data.set([...channels, 255], i * 4);
-  }
-  context.putImageData(image, 0, 0);
-  return canvas;
 }

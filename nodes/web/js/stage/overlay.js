@@ -1,16 +1,21 @@
 /**
- * The overlay as a whole: picture, mesh, items, what is being drawn, particles.
+ * What is drawn on the still layer and on the overlay.
  *
  * @typedef {import("../scene/document.js").Point} Point
  * @typedef {import("../scene/document.js").SceneDocument} SceneDocument
+ * @typedef {import("../scene/document.js").Reference} Reference
  * @typedef {import("../scene/geometry.js").View} View
+ * @typedef {import("../preview/records.js").Mesh} Mesh
+ * @typedef {{reference: Reference, item: import("../scene/document.js").Item}} Placed
  *
  * @typedef {object} Picture  all that one drawing shows
  * @property {SceneDocument} document
- * @property {import("../scene/document.js").Reference | null} selection
+ * @property {SceneDocument} settled  as it was before what is being changed at this moment
+ * @property {Reference | null} selection
  * @property {View} view
  * @property {CanvasImageSource | null} background  null where the moving mesh is shown instead
- * @property {import("../preview/records.js").Mesh | null} mesh  null where it is hidden
+ * @property {Mesh | null} restingMesh  to be drawn where it was before anything moved
+ * @property {Mesh | null} movingMesh  to be drawn here, where the film cannot show it
  * @property {import("../preview/records.js").Frame | null} frame
  * @property {number} unit  of the frame [px]
  * @property {import("./tool.js").Draft | null} draft
@@ -18,30 +23,46 @@
  * @property {boolean} itemsShown
  */
 
-import { allItems } from "../scene/document.js";
 import { toStage } from "../scene/geometry.js";
 import { COLOURS } from "./colours.js";
-import { ItemPainter, tintedMask } from "./item_painter.js";
+import { ItemPainter, moves } from "./item_painter.js";
+import { draftMask } from "./tints.js";
 
 /** Particles up to which each shows how far it reaches: of more, the circles hide the picture and take long to draw. */
 const MOST_REACHES = 40;
 const PARTICLES = [COLOURS.wind, COLOURS.repel, COLOURS.attract];
 
 /**
+ * The picture, and the items that are not being changed: the selected one above the others.
+ *
  * @param {CanvasRenderingContext2D} context
  * @param {Picture} shown
+ * @param {Placed[]} still
  */
-export function drawOverlay(context, shown) {
+export function drawStill(context, shown, still) {
   const { document, view, selection } = shown;
   const items = new ItemPainter(context, view, document);
   if (shown.background) items.stretched(shown.background, 1);
   frame(context, shown);
-  if (shown.mesh) wireframe(context, shown);
+  if (shown.restingMesh) wireframe(context, view, shown.restingMesh, null, 1);
+  if (!shown.itemsShown) return;
+  const chosen = still.find((one) => isChosen(one, selection));
+  for (const one of still) if (one !== chosen) items.draw(one.reference, one.item, false);
+  if (chosen) items.draw(chosen.reference, chosen.item, true);
+}
+
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Picture} shown
+ * @param {Placed[]} changing
+ */
+export function drawOverlay(context, shown, changing) {
+  const { document, view, selection, movingMesh } = shown;
+  const items = new ItemPainter(context, view, document);
+  if (movingMesh) wireframe(context, view, movingMesh, shown.frame, shown.unit);
   if (shown.itemsShown) {
-    for (const { reference, item } of allItems(document)) {
-      const selected = selection?.list === reference.list && selection.index === reference.index;
-      items.draw(reference, item, selected, reference.list === "rig_points" ? shiftOf(shown, reference.index) : [0, 0]);
-    }
+    for (const one of changing) items.draw(one.reference, one.item, isChosen(one, selection));
+    anchors(items, shown);
   }
   if (shown.frame) particles(items, shown);
   if (shown.draft) draft(items, shown);
@@ -51,15 +72,25 @@ export function drawOverlay(context, shown) {
 }
 
 /**
- * How far a rig point is away from its place at this moment.
- *
- * @param {Picture} shown
- * @param {number} index
- * @returns {Point}
+ * @param {Placed} one
+ * @param {Reference | null} selection
  */
-function shiftOf({ frame, unit }, index) {
-  if (!frame || frame.anchors.length <= index * 2 + 1) return [0, 0];
-  return [frame.anchors[index * 2] * unit, frame.anchors[index * 2 + 1] * unit];
+function isChosen({ reference }, selection) {
+  return selection?.list === reference.list && selection.index === reference.index;
+}
+
+/**
+ * The rig points that move, where they are at this moment.
+ *
+ * @param {ItemPainter} items
+ * @param {Picture} shown
+ */
+function anchors(items, { document, frame, unit }) {
+  (document.rig_points ?? []).forEach((/** @type {any} */ item, /** @type {number} */ index) => {
+    if (!moves(item)) return;
+    const known = frame && frame.anchors.length > index * 2 + 1;
+    items.anchor(item, known ? [frame.anchors[index * 2] * unit, frame.anchors[index * 2 + 1] * unit] : [0, 0]);
+  });
 }
 
 /**
@@ -76,11 +107,12 @@ function frame(context, { document, view }) {
 
 /**
  * @param {CanvasRenderingContext2D} context
- * @param {Picture} shown
+ * @param {View} view
+ * @param {Mesh} mesh
+ * @param {import("../preview/records.js").Frame | null} frame
+ * @param {number} unit  of the frame [px]
  */
-function wireframe(context, { mesh, frame, unit, view }) {
-  if (!mesh) return;
-  const { positions, triangles } = mesh;
+function wireframe(context, view, { positions, triangles }, frame, unit) {
   /** @type {(vertex: number) => Point} */
   const place = (vertex) => {
     const moved = frame?.displacements;
@@ -123,13 +155,13 @@ function particles(items, { frame, unit, view }) {
  * @param {ItemPainter} items
  * @param {Picture} shown
  */
-function draft(items, { draft: drawn, view }) {
+function draft(items, { draft: drawn }) {
   const colour = drawn?.colour ?? COLOURS.pin;
   if (drawn?.path) {
     const path = drawn.path.map(items.at);
     items.painter.line(path, colour, { closed: drawn.closed, fill: drawn.closed ? `${colour}30` : "" });
     if (drawn.closed) items.painter.square(path[0], colour);
   }
-  if (drawn?.circle) items.painter.circle(items.at(drawn.circle.at), drawn.circle.radius * view.scale, colour, { fill: `${colour}30` });
-  if (drawn?.bitmap) items.stretched(tintedMask(drawn.bitmap, colour), 0.6);
+  if (drawn?.circle) items.painter.circle(items.at(drawn.circle.at), drawn.circle.radius * items.view.scale, colour, { fill: `${colour}30` });
+  if (drawn?.bitmap) items.stretched(draftMask(drawn.bitmap, colour), 0.6);
 }

@@ -1,5 +1,5 @@
 /**
- * The place where the picture lies: two canvases, the view on them, and the pointer.
+ * The place where the picture lies: three canvases, the view on them, and the pointer.
  *
  * @typedef {import("../scene/document.js").Point} Point
  * @typedef {import("../scene/geometry.js").View} View
@@ -34,15 +34,18 @@ export class Stage {
     this.size = { width, height };
     this.listener = listener;
     this.film = canvas("physanimator-film");
+    this.still = canvas("physanimator-still");
     this.overlay = canvas("physanimator-overlay");
-    // The keys go to an input, because every host leaves the keys of inputs alone: Delete would take the node, and
-    // Ctrl+Z the last change of the graph.
+    // Pointer and keys go to an input, because every host leaves inputs with the focus alone: Delete would take the node,
+    // Ctrl+Z the last change of the graph, and the middle button would move the graph.
     this.keys = document.createElement("input");
     Object.assign(this.keys, { className: "physanimator-keys", readOnly: true, inputMode: "none" });
     this.keys.setAttribute("aria-label", "Picture");
-    root.append(this.keys, this.film, this.overlay);
+    root.append(this.film, this.still, this.overlay, this.keys);
     /** @type {View} */
     this.view = { scale: 1, x: 0, y: 0 };
+    /** Size of the stage [CSS px]; kept, because asking the page for it may make it lay everything out. */
+    this.across = this.down = 0;
     this.fitted = true;
     this.panning = false;
     this.panned = false;
@@ -53,14 +56,6 @@ export class Stage {
     this.#listen();
     this.observer = new ResizeObserver(() => this.resized());
     this.observer.observe(root);
-  }
-
-  get across() {
-    return this.root.clientWidth;
-  }
-
-  get down() {
-    return this.root.clientHeight;
   }
 
   focus() {
@@ -80,6 +75,7 @@ export class Stage {
 
   fit() {
     this.fitted = true;
+    this.#measure();
     if (!this.across || !this.down) return;
     this.view = fittingView(this.size.width, this.size.height, this.across, this.down, MARGIN);
     this.listener.redraw();
@@ -97,21 +93,37 @@ export class Stage {
   }
 
   resized() {
+    this.#measure();
     if (this.fitted) this.fit();
     this.listener.redraw();
   }
 
-  /** Give the canvases as many pixels as the screen shows, also where the graph is zoomed. */
+  #measure() {
+    this.across = this.root.clientWidth;
+    this.down = this.root.clientHeight;
+  }
+
+  /**
+   * Give the canvases as many pixels as the screen shows, also where the graph is zoomed.
+   *
+   * @returns {boolean} whether they had others, and so have lost what was on them
+   */
   sharpen() {
     const shown = this.overlay.getBoundingClientRect().width / (this.across || 1);
     const ratio = Math.min(Math.max(1, shown) * (globalThis.devicePixelRatio || 1), MOST_PIXELS / Math.max(this.across, this.down, 1));
     const size = [Math.max(1, Math.round(this.across * ratio)), Math.max(1, Math.round(this.down * ratio))];
-    for (const one of [this.film, this.overlay]) {
-      if (one.width !== size[0]) one.width = size[0];
-      if (one.height !== size[1]) one.height = size[1];
-    }
-    const context = /** @type {CanvasRenderingContext2D} */ (this.overlay.getContext("2d"));
-    context.setTransform(size[0] / (this.across || 1), 0, 0, size[1] / (this.down || 1), 0, 0);
+    if (this.overlay.width === size[0] && this.overlay.height === size[1]) return false;
+    for (const one of [this.film, this.still, this.overlay]) [one.width, one.height] = size;
+    return true;
+  }
+
+  /**
+   * @param {HTMLCanvasElement} one
+   * @returns {CanvasRenderingContext2D} on which nothing is left, in CSS pixels of the stage
+   */
+  wiped(one) {
+    const context = /** @type {CanvasRenderingContext2D} */ (one.getContext("2d"));
+    context.setTransform(one.width / (this.across || 1), 0, 0, one.height / (this.down || 1), 0, 0);
     context.clearRect(0, 0, this.across, this.down);
     return context;
   }
@@ -129,15 +141,15 @@ export class Stage {
   }
 
   #listen() {
-    const { overlay } = this;
-    overlay.addEventListener("pointerdown", (event) => this.#down(event));
-    overlay.addEventListener("pointermove", (event) => this.#move(event));
-    overlay.addEventListener("pointerup", (event) => this.#up(event));
-    overlay.addEventListener("pointercancel", (event) => this.#lost(event));
-    overlay.addEventListener("pointerleave", () => this.listener.hover(null));
-    overlay.addEventListener("dblclick", () => this.listener.double());
-    overlay.addEventListener("contextmenu", (event) => event.preventDefault());
-    overlay.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
+    const { keys } = this;
+    keys.addEventListener("pointerdown", (event) => this.#down(event));
+    keys.addEventListener("pointermove", (event) => this.#move(event));
+    keys.addEventListener("pointerup", (event) => this.#up(event));
+    keys.addEventListener("pointercancel", (event) => this.#lost(event));
+    keys.addEventListener("pointerleave", () => this.listener.hover(null));
+    keys.addEventListener("dblclick", () => this.listener.double());
+    keys.addEventListener("contextmenu", (event) => event.preventDefault());
+    keys.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
   }
 
   /** @param {PointerEvent} event */
@@ -145,7 +157,7 @@ export class Stage {
     event.preventDefault();
     this.focus();
     try {
-      this.overlay.setPointerCapture(event.pointerId);
+      this.keys.setPointerCapture(event.pointerId);
     } catch {
       // The pointer may be gone already; without capture it is followed as far as the canvas reaches.
     }
