@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from .contact_functions import ContactOptions, build_contact_functions
 from .contact_search import build_contact_search
 from .contact_surface import CONTACTS, GOOD_FOR, LEFT, ContactSurface
-from .contact_team import LARGE, Team
+from .contact_team import FLAGS, FREE, LARGE, Team
 from .kernel_functions import build_functions
 from .kernels import BLOCKS_AT_ONCE, SMALL, VERTICES_AT_ONCE, array_types
 from .solver_arrays import Drive, Solid, State, WindTable
@@ -70,7 +70,7 @@ def build_contact_kernel(ti: Any) -> Any:
     @ti.func
     def take(piece: ti.i32, phase: ti.i32, scene: ti.template()):
         """Whether nobody else has taken a piece in a phase; phases are counted from 1 and never fall."""
-        return ti.atomic_max(scene.team.claims[2 + piece], phase) < phase
+        return ti.atomic_max(scene.team.claims[FLAGS + piece], phase) < phase
 
     @ti.func
     def give(team: ti.template()):
@@ -194,7 +194,7 @@ def build_contact_kernel(ti: Any) -> Any:
                         for n in range(first[1] & SMALL, end[1] & SMALL):
                             add_forces(solid, state, n)
                         move_vertices(first[0], end[0], tick, step, count, solid, state, drive, scene.pairs)
-                ti.atomic_add(team.claims[1], 1)
+                ti.atomic_add(team.claims[FREE], 1)
 
     @ti.func
     def settle_tick(tick: ti.i32, scene: ti.template()):
@@ -224,7 +224,7 @@ def build_contact_kernel(ti: Any) -> Any:
             put_apart(surface, solid, state, options, interval, intervals, 1)
         surface.memory[LEFT] = surface.memory[LEFT] - dt
         if last or surface.memory[LEFT] < 0.5 * dt:
-            wait_for(team.claims, 1, (tick + 1) * team.order.shape[0])
+            wait_for(team.claims, FREE, (tick + 1) * team.order.shape[0])
         if last:
             for part in range(surface.touching.shape[0]):
                 surface.touching[part] = 0

@@ -12,13 +12,16 @@ from .kernels import BLOCKS_AT_ONCE, VERTICES_AT_ONCE
 from .schedule import TRIANGLES_PER_THREAD
 from .solver_arrays import LANES, Solid
 
-__all__ = ["LARGE", "Pieces", "Team", "pieces_of", "team_for"]
+__all__ = ["FLAGS", "FREE", "LARGE", "Pieces", "Team", "pieces_of", "team_for"]
 
 Float32Array = NDArray[np.float32]
 Int32Array = NDArray[np.int32]
 
 LARGE = 2 * TRIANGLES_PER_THREAD // LANES
 """Blocks of triangles of a part that threads share even while it touches nothing."""
+
+FREE, FLAGS = 32, 64
+"""Where in ``Team.claims`` the second counter stands, and where the pieces begin: in cache lines of their own."""
 
 
 class Pieces(NamedTuple):
@@ -42,8 +45,8 @@ class Team(NamedTuple):
 
     Attributes:
         blocks, vertices, large, order: the pieces.
-        claims: how many pieces are done by all threads, how many parts that touch nothing have ended their ticks, and
-            for each piece the latest phase in which it was taken, int32.
+        claims: how many pieces are done by all threads, at ``FREE`` how many parts that touch nothing have ended their
+            ticks, and from ``FLAGS`` on for each piece the latest phase in which it was taken, int32.
         highest: omega^2 of the parts in each tick [1/s^2], float32, shape [n, p].
         steps: substeps of the parts in each tick, negative for those that touch nothing, and last the intervals of the
             tick, int32, shape [n, p + 1].
@@ -90,7 +93,7 @@ def team_for(pieces: Pieces, solid: Solid, points: int, ticks: int) -> Team:
     most = max(len(pieces.blocks), len(pieces.vertices), parts, -(-points // POINTS_AT_ONCE))
     return Team(
         *pieces,
-        claims=np.zeros(2 + most, np.int32),
+        claims=np.zeros(FLAGS + most, np.int32),
         highest=np.zeros((ticks, parts), np.float32),
         steps=np.zeros((ticks, parts + 1), np.int32),
     )
