@@ -4,12 +4,12 @@ The figure's sprite is cut in two along the mask. What moves is every pixel of t
 that are left between the mask and the background, which are its outline and its soft rim. What is cut off stays where
 it is. Both are laid over the true background.
 
-Three things the layers do not know, and there nothing is judged. Nobody drew what is behind the part *within* the figure
-(the sleeve under the hair): a bared pixel that lies nearer to the still rest of the figure than to the background is
-left out while it is bared; all others show the background. And to whom the drawn line between the part and the still
-rest belongs is not said: the figure's pixels next to the mask are left out, where they were and where they would be
-had they moved along, unless the part covers them. Nor does anything tell how a part goes on that the picture's border
-cuts off, once the motion brings the cut into the picture.
+Three things the layers do not know, and there nothing is judged. Nobody drew what is behind the part *within* the
+figure (the sleeve under the hair): a bared pixel that lies nearer to the still rest of the figure than to the
+background is left out while it is bared; all others show the background. And to whom the drawn line between the part
+and the still rest belongs is not said: the figure's pixels next to the mask are left out, where they were and where
+they would be had they moved along, unless the part covers them. Nor does anything tell how a part goes on that the
+picture's border cuts off, once the motion brings the cut into the picture.
 """
 
 from __future__ import annotations
