@@ -297,7 +297,8 @@ def physanimator_paper() -> tuple[Group, ...]:
         rig_points="shoulder.rig_points",
     )
     segment = ours("segment", "SegmentByPoints", 440, values={"points": CAPE_POINTS}, image="example.image")
-    led = {"backend.sketches": "warp.sketches"}
+    # The motion is for those who choose the backend that needs no model files.
+    led = {"motion": "simulate.motion", "backend.sketches": "warp.sketches"}
     drawn = ours("interpolate", "Interpolate", values={"backend": "tooncrafter"}, images="render.frames", **led)
     video = _video("physanimator_paper", 420, "interpolate.frames", drawn, renderer=_SKETCH_GUIDED)
     return (
