@@ -42,7 +42,7 @@ Int32Array = NDArray[np.int32]
 LIST_LENGTH = 4
 """Contacts of one vertex, each with another part."""
 
-CANDIDATES = 48
+CANDIDATES = 96
 """Edges around a vertex, on average over a piece of a search, that are remembered at most."""
 
 POINTS_AT_ONCE = 32

@@ -1,0 +1,189 @@
+# mypy: ignore-errors
+"""The phases of a tick that the contact kernel's threads share: in each they take pieces until none is left."""
+
+# Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
+
+from types import SimpleNamespace
+from typing import Any
+
+from .contact_team import FLAGS, FREE, LARGE
+from .kernels import BLOCKS_AT_ONCE, SMALL, VERTICES_AT_ONCE
+from .stepping import TICK
+
+__all__ = ["build_contact_phases"]
+
+
+def build_contact_phases(
+    ti: Any, functions: SimpleNamespace, contact: SimpleNamespace, searching: SimpleNamespace
+) -> SimpleNamespace:
+    """The phases, by name, made of the functions of bodies, of contacts and of the search for these.
+
+    Each works on the kernel's whole ``scene``, which also says which of how many threads this is.
+    """
+    add_forces, highest_frequency = functions.add_forces, functions.highest_frequency
+    begin_tick, move_vertices, record = functions.begin_tick, functions.move_vertices, functions.record
+    steps_in = contact.steps_in
+
+    @ti.func
+    def in_turn(n: ti.i32, pieces: ti.i32, scene: ti.template()):
+        """The n-th piece that a thread tries to take: first its own ones, which stay in its cache, then others'.
+
+        Of those it begins with what their owners come to last.
+        """
+        first, end = scene.thread * pieces // scene.threads, (scene.thread + 1) * pieces // scene.threads
+        piece = first + n
+        if piece >= end:
+            piece = end - 1 - n
+            if piece < 0:
+                piece = piece + pieces
+        return piece
+
+    @ti.func
+    def take(piece: ti.i32, phase: ti.i32, scene: ti.template()):
+        """Whether nobody else has taken a piece in a phase; phases are counted from 1 and never fall."""
+        return ti.atomic_max(scene.team.claims[FLAGS + piece], phase) < phase
+
+    @ti.func
+    def give(team: ti.template()):
+        """A piece is done; returns how many are done by all threads together."""
+        return ti.atomic_add(team.claims[0], 1) + 1
+
+    @ti.func
+    def wait_for(claims: ti.template(), counter: ti.template(), due: ti.i32):
+        """Wait until so many pieces are done by all threads together."""
+        while ti.atomic_add(claims[counter], 0) < due:
+            pass
+
+    @ti.func
+    def is_large(part: ti.i32, solid: ti.template()):
+        """Whether threads share a part; others go through a step in one piece, which keeps them in the cache."""
+        return solid.starts[part + 1][1] - solid.starts[part][1] >= LARGE
+
+    @ti.func
+    def end_of_piece(column: ti.template(), part: ti.i32, first: ti.i32, solid: ti.template()):
+        """Where the blocks (column 1) or vertices (column 0) of a piece end that begins with the first."""
+        end = solid.starts[part + 1][column]
+        if is_large(part, solid):
+            end = ti.min(end, first + ti.static(BLOCKS_AT_ONCE if column == 1 else VERTICES_AT_ONCE))
+        return end
+
+    @ti.func
+    def move_piece(low: ti.i32, part: ti.i32, tick: ti.i32, interval: ti.i32, intervals: ti.i32, scene: ti.template()):
+        """What an interval brings to a piece of a part's vertices: a step at most, and before the first their tick."""
+        solid, state, drive = ti.static(scene.solid, scene.state, scene.drive)
+        count, high = scene.team.steps[tick, part], end_of_piece(0, part, low, solid)
+        if interval == 0 and count > 0:
+            begin_tick(low, high, tick, TICK / count, solid, state, drive)
+        if steps_in(interval, intervals, count) > 0:
+            step = interval * count // intervals
+            move_vertices(low, high, tick, step, count, solid, state, drive, scene.pairs)
+
+    @ti.func
+    def record_piece(piece: ti.i32, tick: ti.i32, scene: ti.template()):
+        """Write down where a piece's vertices are after a tick, if it is one of those."""
+        part, low = scene.team.vertices[piece][0], scene.team.vertices[piece][1]
+        record(low, end_of_piece(0, part, low, scene.solid), tick, scene.state, scene.drive)
+
+    @ti.func
+    def plan_together(phase: ti.i32, due: ti.i32, tick: ti.i32, scene: ti.template()):
+        """Take pieces of a tick's plan, and of the record of the one before, until none is left.
+
+        Returns whether this thread did the last one.
+        """
+        solid, team = ti.static(scene.solid, scene.team)
+        last, blocks = False, team.blocks.shape[0]
+        pieces = ti.max(blocks, team.vertices.shape[0])
+        for n in range(pieces):
+            piece = in_turn(n, pieces, scene)
+            if take(piece, phase, scene):
+                if piece < team.vertices.shape[0] and tick > 0:
+                    record_piece(piece, tick - 1, scene)
+                if piece < blocks:
+                    part, low = team.blocks[piece][0], team.blocks[piece][1]
+                    high = end_of_piece(1, part, low, solid) & SMALL
+                    ti.atomic_max(team.highest[tick, part], highest_frequency(solid, scene.state, low, high))
+                last = give(team) == due
+        return last
+
+    @ti.func
+    def step_together(
+        phase: ti.i32, due: ti.i32, tick: ti.i32, interval: ti.i32, intervals: ti.i32, scene: ti.template()
+    ):
+        """Take pieces of an interval, of large parts only the forces, until none is left; whether it did the last."""
+        solid, team = ti.static(scene.solid, scene.team)
+        last = False
+        for turn in range(team.blocks.shape[0]):
+            piece = in_turn(turn, team.blocks.shape[0], scene)
+            if take(piece, phase, scene):
+                part, low = team.blocks[piece][0], team.blocks[piece][1]
+                high = end_of_piece(1, part, low, solid) & SMALL
+                if steps_in(interval, intervals, team.steps[tick, part]) > 0:
+                    for n in range(low, high):
+                        add_forces(solid, scene.state, n)
+                if not is_large(part, solid):
+                    move_piece(solid.starts[part][0], part, tick, interval, intervals, scene)
+                last = give(team) == due
+        return last
+
+    @ti.func
+    def move_large(phase: ti.i32, due: ti.i32, tick: ti.i32, interval: ti.i32, intervals: ti.i32, scene: ti.template()):
+        """Take pieces of the large parts' vertices until none is left; whether this thread did the last one."""
+        team = ti.static(scene.team)
+        last = False
+        for n in range(team.large.shape[0]):
+            piece = in_turn(n, team.large.shape[0], scene)
+            if take(piece, phase, scene):
+                move_piece(team.large[piece][1], team.large[piece][0], tick, interval, intervals, scene)
+                last = give(team) == due
+        return last
+
+    @ti.func
+    def search_together(phase: ti.i32, due: ti.i32, scene: ti.template()):
+        """Take pieces of the search at the end of a tick until none is left; whether this thread did the last one."""
+        team = ti.static(scene.team)
+        last, pieces = False, searching.pieces(scene.surface)
+        for n in range(pieces):
+            piece = in_turn(n, pieces, scene)
+            if take(piece, phase, scene):
+                searching.search(scene.surface, scene.solid, scene.options, piece)
+                last = give(team) == due
+        return last
+
+    @ti.func
+    def advance_free(phase: ti.i32, tick: ti.i32, scene: ti.template()):
+        """Take parts that touch nothing through all of their tick, which others need not wait for."""
+        solid, state, drive, team = ti.static(scene.solid, scene.state, scene.drive, scene.team)
+        for turn in range(team.order.shape[0]):
+            piece = in_turn(turn, team.order.shape[0], scene)
+            if take(piece, phase, scene):
+                part = team.order[piece]
+                count = 0 - team.steps[tick, part]
+                if count > 0:
+                    first, end = solid.starts[part], solid.starts[part + 1]
+                    begin_tick(first[0], end[0], tick, TICK / count, solid, state, drive)
+                    for step in range(count):
+                        for n in range(first[1] & SMALL, end[1] & SMALL):
+                            add_forces(solid, state, n)
+                        move_vertices(first[0], end[0], tick, step, count, solid, state, drive, scene.pairs)
+                ti.atomic_add(team.claims[FREE], 1)
+
+    @ti.func
+    def record_together(phase: ti.i32, tick: ti.i32, scene: ti.template()):
+        """Take pieces of the record of a launch's last tick until none is left."""
+        pieces = scene.team.vertices.shape[0]
+        for n in range(pieces):
+            piece = in_turn(n, pieces, scene)
+            if take(piece, phase, scene):
+                record_piece(piece, tick, scene)
+
+    return SimpleNamespace(
+        give=give,
+        wait_for=wait_for,
+        is_large=is_large,
+        plan_together=plan_together,
+        step_together=step_together,
+        move_large=move_large,
+        search_together=search_together,
+        advance_free=advance_free,
+        record_together=record_together,
+    )
