@@ -20,8 +20,8 @@ from ..physics.pixel_box import PixelBox, bounding_box
 from ..physics.raster import interpolate, triangle_ids
 from .apron import ApronedMesh, canvas_of
 from .clean_plate import fill_hole
+from .colour_spreading import spread_colours
 from .matte import fitting_plate, in_levels, mixed_rim, soft_alpha, with_outline
-from .smooth_fill import spread_colours
 
 __all__ = ["Layer", "take_apart"]
 

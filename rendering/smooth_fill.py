@@ -6,7 +6,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["smooth_fill", "spread_colours"]
+from .colour_spreading import spread_sides
+
+__all__ = ["smooth_fill"]
 
 FloatImage = NDArray[np.float32]
 FloatArray = NDArray[np.float64]
@@ -14,10 +16,11 @@ Mask = NDArray[np.bool_]
 
 # What a part bares first lies beside its edge, and looks like what is next to it.
 _FILL_POWER = 5.0
-_LARGEST_WINDOW = 600_000
 # How deep in a hole the harmonic fill has taken over [px].
 _DEPTH = 100.0
 _SWEEPS = 30
+# It has taken over only where it differs by less than about this from the colours nearby.
+_AGREEMENT = 0.4
 # The plane is fitted to pixels this near to the hole [px], to no fewer and to about no more of them than these numbers.
 _BESIDE = 6
 _FEWEST = 30
@@ -38,7 +41,8 @@ _MEAN_OF_FOUR = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]], dtype=np.float32) / 
 def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
     """Fill a hole smoothly: near its edge with the colours there, deep inside harmonically.
 
-    What changes evenly all around, such as a sky, is continued as a plane or a bowl, and the rest by distance.
+    What changes evenly all around, such as a sky, is continued as a plane or a bowl, and the rest by distance, with a
+    sharp border between two sides that differ.
     A harmonic fill alone lets colours from the far side of a narrow hole, often another part of the same figure,
     shine through to where the background will show; colours by distance alone meet in visible ridges.
 
@@ -50,11 +54,13 @@ def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
         RGB, shape [h, w, 3]; unchanged outside the hole.
     """
     trend, curved = _trend(picture, hole)
-    near = np.where(hole[..., None], spread_colours(picture - trend, ~hole, hole, power=_FILL_POWER) + trend, picture)
+    near = np.where(hole[..., None], spread_sides(picture - trend, ~hole, hole, power=_FILL_POWER) + trend, picture)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.minimum(depth / np.float32(_DEPTH), 1)[..., None]
     # A plane is harmonic by itself, and where the hole meets the picture's border better left out.
     deep = _harmonic(picture - trend, hole) + trend if curved else _harmonic(picture, hole)
+    # Where it is far from what is beside, colours of another side shine through.
+    share = share * np.exp(-((np.linalg.norm(deep - near, axis=-1, keepdims=True) / np.float32(_AGREEMENT)) ** 2))
     known = picture[~hole]
     if not len(known):
         return picture
@@ -97,57 +103,6 @@ def _fitted(terms: FloatArray, colours: FloatArray) -> tuple[FloatArray, float]:
         deviation = np.linalg.norm(colours - terms @ found, axis=1)
         weights = 1 / np.maximum(deviation, _CLOSE)
     return found, float(deviation.mean())
-
-
-def spread_colours(picture: FloatImage, known: Mask, wanted: Mask, *, power: float = 4.0) -> FloatImage:
-    """Continue colours smoothly: the mean of the known ones, weighted by distance^-power.
-
-    Args:
-        picture: RGB, shape [h, w, 3].
-        known: where colours may be taken from, shape [h, w]; those at the edge of ``wanted`` if any.
-        wanted: where colours are to be found, shape [h, w].
-        power: how much nearer colours count for more.
-
-    Returns:
-        The picture with the wanted colours, shape [h, w, 3]; unchanged where no colour is known.
-    """
-    if wanted.size > _LARGEST_WINDOW:
-        return _spread_at_half_size(picture, known, wanted, power)
-    edge = known & (cv2.dilate(wanted.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
-    if not edge.any():
-        edge = known
-    if not edge.any():
-        return picture
-    filled = picture.copy()
-    filled[wanted] = _weighted_by_distance(picture, edge, power)[wanted]
-    return filled
-
-
-def _weighted_by_distance(picture: FloatImage, known: Mask, power: float) -> FloatImage:
-    """Mean of the known colours weighted by distance^-power at every pixel, as a convolution, shape [h, w, 3]."""
-    from scipy import fft
-
-    height, width = known.shape
-    # Double precision: the weights span more than the range of single precision.
-    y = np.minimum(np.arange(2 * height), 2 * height - np.arange(2 * height)).astype(np.float64)
-    x = np.minimum(np.arange(2 * width), 2 * width - np.arange(2 * width)).astype(np.float64)
-    kernel = fft.rfft2((y[:, None] ** 2 + x**2 + 0.5) ** (-power / 2))
-    planes = [known.astype(np.float64), *(picture[..., k] * known.astype(np.float64) for k in range(3))]
-    spread = [
-        fft.irfft2(fft.rfft2(plane, s=(2 * height, 2 * width)) * kernel, s=(2 * height, 2 * width))[:height, :width]
-        for plane in planes
-    ]
-    return (np.stack(spread[1:], axis=-1) / np.maximum(spread[0], 1e-13)[..., None]).astype(np.float32)
-
-
-def _spread_at_half_size(picture: FloatImage, known: Mask, wanted: Mask, power: float) -> FloatImage:
-    size = (wanted.shape[1] + 1) // 2, (wanted.shape[0] + 1) // 2
-    weight = cv2.resize(known.astype(np.float32), size, interpolation=cv2.INTER_AREA)
-    total = cv2.resize(picture * known[..., None], size, interpolation=cv2.INTER_AREA)
-    some = cv2.resize(wanted.astype(np.float32), size, interpolation=cv2.INTER_AREA) > 0
-    small = spread_colours(total / np.maximum(weight, 1e-6)[..., None], (weight > 0.5) & ~some, some, power=power)
-    large = cv2.resize(small, wanted.shape[::-1], interpolation=cv2.INTER_LINEAR)
-    return np.where(wanted[..., None], large, picture)
 
 
 def _harmonic(picture: FloatImage, hole: Mask) -> FloatImage:

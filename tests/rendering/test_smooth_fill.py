@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
-from physanimator.rendering.smooth_fill import smooth_fill, spread_colours
+from numpy.typing import NDArray
+from physanimator.rendering.colour_spreading import spread_colours, spread_sides
+from physanimator.rendering.smooth_fill import smooth_fill
 
 HEIGHT, WIDTH = 120, 160
 Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5
@@ -58,3 +62,30 @@ def test_little_shines_through_a_line_across_a_deep_hole() -> None:
     hole[247:253] = False
     filled = smooth_fill(np.where(hole[..., None], np.float32(0), picture), hole)
     assert np.abs(filled - picture).max() < 0.15
+
+
+def test_two_sides_of_a_narrow_hole_meet_sharply() -> None:
+    def blurred_columns(spread: Callable[..., NDArray[np.float32]]) -> int:
+        row = spread(picture, ~hole, hole, power=5.0)[60, :, 0]
+        return int(((row > 0.26) & (row < 0.74)).sum())
+
+    picture = np.full((120, 160, 3), 0.2, np.float32)
+    picture[:, 80:] = 0.8
+    hole = np.zeros((120, 160), bool)
+    hole[10:110, 50:110] = True
+    assert blurred_columns(spread_colours) > 2.5 * blurred_columns(spread_sides)
+
+
+def test_sides_of_like_colours_blend() -> None:
+    ramp = np.repeat(np.linspace(0.4, 0.6, 160, dtype=np.float32)[None, :, None], 120, axis=0).repeat(3, axis=2)
+    hole = np.zeros((120, 160), bool)
+    hole[10:110, 50:110] = True
+    filled = spread_sides(ramp, ~hole, hole, power=5.0)
+    assert np.abs(np.diff(filled[60, 45:115, 0])).max() < 0.03
+
+
+def test_sides_of_one_colour_have_one_group() -> None:
+    grey = np.full((40, 40, 3), 0.5, np.float32)
+    hole = np.zeros((40, 40), bool)
+    hole[10:30, 10:30] = True
+    assert np.abs(spread_sides(grey, ~hole, hole) - 0.5).max() < 1e-5

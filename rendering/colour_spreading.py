@@ -1,0 +1,144 @@
+"""Colours of known pixels, spread to others by distance: a weighted mean, or that of the side that outweighs others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["spread_colours", "spread_sides"]
+
+FloatImage = NDArray[np.float32]
+FloatArray = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+_LARGEST_WINDOW = 600_000
+# Colours along the edge are averaged over this width before they are grouped [px]: a texture is one thing.
+_ALONG = 12.0
+_GROUPS = 8
+# Groups that differ less than this are on one side.
+_ALIKE = 0.12
+# How much more a side counts that outweighs the others, and within which distance of the edge [px]. Deeper in the
+# hole, where a border between two sides would run is a guess, and a blend is wrong by less.
+_SHARPNESS = 4.0
+_REACH = 50.0
+
+
+def spread_colours(picture: FloatImage, known: Mask, wanted: Mask, *, power: float = 4.0) -> FloatImage:
+    """Continue colours smoothly: the mean of the known ones, weighted by distance^-power.
+
+    Args:
+        picture: RGB, shape [h, w, 3].
+        known: where colours may be taken from, shape [h, w]; those at the edge of ``wanted`` if any.
+        wanted: where colours are to be found, shape [h, w].
+        power: how much nearer colours count for more.
+
+    Returns:
+        The picture with the wanted colours, shape [h, w, 3]; unchanged where no colour is known.
+    """
+    return _spread(picture, known, wanted, power, sides=False)
+
+
+def spread_sides(picture: FloatImage, known: Mask, wanted: Mask, *, power: float = 4.0) -> FloatImage:
+    """The same, but where different colours meet from two sides, one gives way to the other along a sharp border.
+
+    Between a dress and the sky behind it, their mean is a fog that belongs to neither.
+    """
+    return _spread(picture, known, wanted, power, sides=True)
+
+
+def _spread(picture: FloatImage, known: Mask, wanted: Mask, power: float, *, sides: bool) -> FloatImage:
+    if wanted.size > _LARGEST_WINDOW:
+        return _spread_at_half_size(picture, known, wanted, power, sides=sides)
+    edge = known & (cv2.dilate(wanted.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
+    if not edge.any():
+        edge = known
+    if not edge.any():
+        return picture
+    groups = _groups(picture, edge) if sides else np.zeros(int(edge.sum()), dtype=np.int32)
+    weights, colours = _by_distance(picture, edge, groups, power)
+    if len(weights) > 1:
+        depth = cv2.distanceTransform((~edge).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+        means = np.stack([picture[edge][groups == k].mean(axis=0) for k in range(len(weights))])
+        weights = _competing(weights, means, depth)
+    shares = weights / weights.sum(axis=0)
+    filled = picture.copy()
+    filled[wanted] = np.einsum("khw,khwc->hwc", shares, colours)[wanted]
+    return filled
+
+
+def _groups(picture: FloatImage, edge: Mask) -> NDArray[np.int32]:
+    """To which group of like colours each pixel of an edge belongs, in the order of ``picture[edge]``, shape [n]."""
+    from scipy.cluster.vq import kmeans2
+
+    weight = edge.astype(np.float32)
+    along = [
+        cv2.GaussianBlur(plane, (0, 0), _ALONG, borderType=cv2.BORDER_CONSTANT)[edge]
+        for plane in (weight, *(picture[..., k] * weight for k in range(3)))
+    ]
+    colours = np.stack(along[1:], axis=1).astype(np.float64) / np.maximum(along[0], 1e-9)[:, None]
+    count = min(_GROUPS, len(np.unique(np.round(colours, 3), axis=0)))
+    if count < 2:
+        return np.zeros(len(colours), dtype=np.int32)
+    labels = kmeans2(colours, _far_apart(colours, count), minit="matrix", missing="warn")[1]
+    return np.unique(labels, return_inverse=True)[1].astype(np.int32)  # a group may have remained empty
+
+
+def _far_apart(colours: FloatArray, count: int) -> FloatArray:
+    """The first colour, then always the one farthest from those chosen, shape [count, 3]."""
+    chosen = [colours[0]]
+    distance = np.linalg.norm(colours - chosen[0], axis=1)
+    while len(chosen) < count:
+        chosen.append(colours[np.argmax(distance)])
+        distance = np.minimum(distance, np.linalg.norm(colours - chosen[-1], axis=1))
+    return np.array(chosen)
+
+
+def _by_distance(
+    picture: FloatImage, known: Mask, groups: NDArray[np.int32], power: float
+) -> tuple[FloatArray, FloatArray]:
+    """Sum of distance^-power to each group's pixels, shape [k, h, w], and their mean colour so weighted, [k, h, w, 3].
+
+    Both are convolutions.
+    """
+    from scipy import fft
+
+    # Double precision: the weights span more than the range of single precision.
+    size = [fft.next_fast_len(2 * length, real=True) for length in known.shape]
+    y, x = (np.minimum(np.arange(length), length - np.arange(length)).astype(np.float64) for length in size)
+    kernel = fft.rfft2((y[:, None] ** 2 + x**2 + 0.5) ** (-power / 2))
+
+    def convolved(planes: Sequence[FloatArray]) -> list[FloatArray]:
+        spread = (fft.irfft2(fft.rfft2(plane, s=size) * kernel, s=size) for plane in planes)
+        return [plane[: known.shape[0], : known.shape[1]] for plane in spread]
+
+    number = np.full(known.shape, -1, dtype=np.int32)
+    number[known] = groups
+    weights, colours = [], []
+    for k in range(int(groups.max()) + 1):
+        own = (number == k).astype(np.float64)
+        weight, *sums = convolved([own, *(picture[..., c] * own for c in range(3))])
+        weights.append(np.maximum(weight, 1e-13))
+        colours.append(np.stack(sums, axis=-1) / weights[-1][..., None])
+    return np.stack(weights), np.stack(colours)
+
+
+def _competing(weights: FloatArray, means: FloatImage, depth: FloatImage) -> FloatArray:
+    """Weights of groups of these mean colours, shape [k, h, w], where those that outweigh the others count for more."""
+    apart = np.linalg.norm(means[:, None] - means[None], axis=-1)
+    shares = weights / weights.sum(axis=0)
+    support = np.tensordot(np.exp(-((apart / _ALIKE) ** 2)), shares, axes=1)
+    return np.asarray(shares * support ** (_SHARPNESS * np.exp(-((depth / _REACH) ** 2))))
+
+
+def _spread_at_half_size(picture: FloatImage, known: Mask, wanted: Mask, power: float, *, sides: bool) -> FloatImage:
+    size = (wanted.shape[1] + 1) // 2, (wanted.shape[0] + 1) // 2
+    weight = cv2.resize(known.astype(np.float32), size, interpolation=cv2.INTER_AREA)
+    total = cv2.resize(picture * known[..., None], size, interpolation=cv2.INTER_AREA)
+    some = cv2.resize(wanted.astype(np.float32), size, interpolation=cv2.INTER_AREA) > 0
+    small = total / np.maximum(weight, 1e-6)[..., None]
+    small = _spread(small, (weight > 0.5) & ~some, some, power, sides=sides)
+    large = cv2.resize(small, wanted.shape[::-1], interpolation=cv2.INTER_LINEAR)
+    return np.where(wanted[..., None], large, picture)
