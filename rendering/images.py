@@ -24,6 +24,8 @@ LONGEST_SIDE = 8192
 
 StrPath = str | os.PathLike[str]
 
+_COMPRESSION = 4  # of PNG: within 2 % of the size at Pillow's own 6, in a third of the time
+
 
 def load_image(path: StrPath) -> NDArray[np.uint8]:
     """Read an illustration.
@@ -96,7 +98,7 @@ def save_image(path: StrPath, image: NDArray[Any]) -> None:
 
     target = check_image_output(path)
     with replacing(target) as temporary:
-        Image.fromarray(to_uint8(image)).save(temporary)
+        Image.fromarray(to_uint8(image)).save(temporary, compress_level=_COMPRESSION)
 
 
 def check_image_output(path: StrPath) -> Path:
