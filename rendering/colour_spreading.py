@@ -18,11 +18,11 @@ _LARGEST_WINDOW = 600_000
 # Colours along the edge are averaged over this width before they are grouped [px]: a texture is one thing.
 _ALONG = 12.0
 _GROUPS = 8
-# Groups that differ less than this are on one side.
-_ALIKE = 0.12
+# Groups that differ less than about this are on one side.
+_ALIKE = 0.2
 # How much more a side counts that outweighs the others, and within which distance of the edge [px]. Deeper in the
 # hole, where a border between two sides would run is a guess, and a blend is wrong by less.
-_SHARPNESS = 4.0
+_SHARPNESS = 3.0
 _REACH = 50.0
 
 
