@@ -111,7 +111,7 @@ def _by_distance(
     kernel = fft.rfft2((y[:, None] ** 2 + x**2 + 0.5) ** (-power / 2))
 
     def convolved(planes: Sequence[FloatArray]) -> list[FloatArray]:
-        spread = (fft.irfft2(fft.rfft2(plane, s=size) * kernel, s=size) for plane in planes)
+        spread = (fft.irfft2(fft.rfft2(plane, s=size, workers=-1) * kernel, s=size, workers=-1) for plane in planes)
         return [plane[: known.shape[0], : known.shape[1]] for plane in spread]
 
     number = np.full(known.shape, -1, dtype=np.int32)
