@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 
 import cv2
@@ -82,8 +83,10 @@ def _groups(picture: FloatImage, edge: Mask) -> NDArray[np.int32]:
     count = min(_GROUPS, len(np.unique(np.round(colours, 3), axis=0)))
     if count < 2:
         return np.zeros(len(colours), dtype=np.int32)
-    labels = kmeans2(colours, _far_apart(colours, count), minit="matrix", missing="warn")[1]
-    return np.unique(labels, return_inverse=True)[1].astype(np.int32)  # a group may have remained empty
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="One of the clusters is empty")
+        labels = kmeans2(colours, _far_apart(colours, count), minit="matrix")[1]
+    return np.unique(labels, return_inverse=True)[1].astype(np.int32)
 
 
 def _far_apart(colours: FloatArray, count: int) -> FloatArray:
