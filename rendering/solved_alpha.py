@@ -18,6 +18,8 @@ Mask = NDArray[np.bool_]
 
 _HALF = 0.5
 _TRUST_IN_MASK = 0.03
+# Further than this from the colour that it would need, what is behind does not explain a pixel of the mask.
+_INEXPLICABLE = 0.4
 _DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (5, 5))
 
 
@@ -50,7 +52,7 @@ def solved_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support
     guess = body.astype(np.float32)
     guess[unknown & ~body] = np.where(certain, share, 0)
     solved = _solved(image, alpha, unknown, guess)
-    return _corrected(image, plate, solved, support, ~hard)
+    return _corrected(image, plate, _explained(image, plate, solved, body & unknown), support, ~hard)
 
 
 def _solved(image: FloatImage, alpha: FloatImage, unknown: Mask, guess: FloatImage) -> FloatImage:
@@ -62,6 +64,26 @@ def _solved(image: FloatImage, alpha: FloatImage, unknown: Mask, guess: FloatIma
     crops = image[window], alpha[window], unknown[window], guess[window]
     solved[window] = solve_alpha(*crops, trust=_TRUST_IN_MASK)
     return solved
+
+
+def _explained(image: FloatImage, plate: FloatImage, alpha: FloatImage, where: Mask) -> FloatImage:
+    """Alpha raised within the mask where what is behind would have to be of quite another colour.
+
+    Where a line behind the part meets its outline, both of the same ink, colours alone say that the outline goes on
+    in the line.
+    """
+    row, column = np.nonzero(where)
+    colour, behind = image[row, column], plate[row, column]
+    given = alpha[row, column]
+    room = np.where(colour < behind, behind, 1 - behind)
+    least = (np.abs(colour - behind) / np.maximum(room, np.float32(1e-3))).max(axis=1)
+    # With the given share, what is behind would have to be of this colour.
+    rest = np.maximum(1 - given, np.float32(1e-3))[:, None]
+    needed = np.clip(behind, (colour - 1 + rest) / rest, colour / rest)
+    change = np.abs(needed - behind).max(axis=1)
+    raised = alpha.copy()
+    raised[row, column] = np.where(change > _INEXPLICABLE, np.maximum(np.minimum(least, 1), given), given)
+    return raised
 
 
 def _corrected(image: FloatImage, plate: FloatImage, alpha: FloatImage, support: Mask, where: Mask) -> FloatImage:

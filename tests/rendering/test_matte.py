@@ -117,6 +117,22 @@ def test_a_light_rim_within_the_mask_is_the_parts() -> None:
     assert alpha[disc(25) == 1].min() > 0.9
 
 
+def test_an_outline_keeps_its_ink_where_a_line_of_the_same_ink_runs_behind() -> None:
+    """Colours alone say that the outline goes on in the line; a bit of it would stay behind when the part moves."""
+    white, ink = np.ones((SIZE, SIZE, 3), np.float32), np.zeros(3, np.float32)
+    line = np.clip(1.5 - abs(X - 30), 0, 1).astype(np.float32)
+    background = over(white, ink, line)
+    picture = over(over(background, ink, disc(28)), np.ones(3, np.float32), disc(25))
+    mask = (disc(28) > 0.5).astype(np.float32)
+    # The clean plate does not know that the line goes on.
+    plate = np.where((disc(29) > 0)[..., None], white, background)
+    alpha = soft_alpha(picture, plate, mask, with_outline(picture, mask))
+    crossing = (abs(X - 30) < 6) & (disc(28) == 1)
+    assert alpha[crossing].min() > 0.99
+    changed = np.abs(fitting_plate(picture, plate, alpha) - plate).max(axis=2)
+    assert (changed[crossing] > 0.1).sum() == 0
+
+
 def test_the_fitting_plate_is_the_nearest_that_real_colours_allow() -> None:
     random = np.random.default_rng(1)
     image, plate = random.uniform(0, 1, (2, 40, 40, 3)).astype(np.float32)
