@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .line_end import HALF_WIDTH, LineEnd
-from .line_ends import line_ends
+from .line_ends import DISTANCE, line_ends
 
 __all__ = ["continue_lines"]
 
@@ -38,6 +38,8 @@ _ELSEWHERE = 5.0
 # The borders of a band are parallel (cosine of their angle) and no further apart than this [px].
 _PARALLEL = 0.97
 _BAND = 24.0
+# This share of a line's way lies in the hole.
+_MOSTLY = 0.8
 # Lines may cross each other where both fit as well as this.
 _CROSSING = 0.7
 # Ends closer than this are one line's [px].
@@ -90,12 +92,18 @@ def _bridges(ends: list[LineEnd], hole: Mask) -> list[_Bridge]:
     crossed = np.full(hole.shape, np.inf)
     for bridge in sorted(found, key=lambda each: each.cost):
         pixels = _pixels(bridge.curve, hole.shape)
-        if used & set(bridge.numbers) or not hole[pixels].mean() > 0.8 or _crosses(crossed, pixels, bridge.cost):
+        if used & set(bridge.numbers) or not _within(bridge.curve, hole) or _crosses(crossed, pixels, bridge.cost):
             continue
         taken.append(bridge)
         used.update(bridge.numbers)
         crossed[pixels] = bridge.cost
     return taken
+
+
+def _within(curve: FloatArray, hole: Mask) -> bool:
+    """Whether most of a curve lies in the hole, but for its ends, which are looked for beside it."""
+    ends = int(DISTANCE / _SAMPLING)
+    return bool(hole[_pixels(curve[ends:-ends], hole.shape)].mean() > _MOSTLY) if len(curve) > 2 * ends else False
 
 
 def _whole_bands(bridges: list[_Bridge], ends: list[LineEnd]) -> list[_Bridge]:

@@ -10,16 +10,17 @@ from numpy.typing import NDArray
 
 from .line_end import HALF_WIDTH, LEAST_REACH, LineEnd
 
-__all__ = ["line_ends"]
+__all__ = ["DISTANCE", "line_ends"]
 
 FloatImage = NDArray[np.float32]
 FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+DISTANCE = 5
+"""Lines are looked for this far outside the hole [px], where the tensor's window sees enough of them."""
+
 _REACH = HALF_WIDTH + 5
 
-# Lines are looked for this far outside the hole [px], where the tensor's window sees enough of them.
-_DISTANCE = 5
 _SIGMA = 2.5
 # Mean gradient over the window (colours in 0 to 1, per pixel) of the faintest line, and how much more it changes
 # across than along.
@@ -57,7 +58,7 @@ def line_ends(picture: FloatImage, hole: Mask) -> list[LineEnd]:
     outside = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     known = (outside > 1.5).astype(np.float32)
     field = _structure(picture, known)
-    near = (outside <= _DISTANCE).astype(np.uint8)
+    near = (outside <= DISTANCE).astype(np.uint8)
     # Positive inside the hole, so that its gradient is the way in.
     depth = cv2.GaussianBlur(
         cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5) - outside, (0, 0), 3.0

@@ -32,29 +32,36 @@ _BETTER = 0.4
 _BEYOND = 0.25
 # Colours that differ less than this are equally good.
 _CLOSE = 0.004
+# A line of ink is this much darker than what is beside it, and narrower than the disc [px].
+_INK = 0.35
+_LINE_DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (9, 9))
+_NO_COLOUR = np.float32(9)
 _COARSEST = 8
 # Up to so many pixels the harmonic fill is solved for directly.
 _SOLVED = 16_000
 _MEAN_OF_FOUR = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]], dtype=np.float32) / 4
 
 
-def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
+def smooth_fill(picture: FloatImage, hole: Mask, *, continued: Mask | None = None) -> FloatImage:
     """Fill a hole smoothly: near its edge with the colours there, deep inside harmonically.
 
     What changes evenly all around, such as a sky, is continued as a plane or a bowl, and the rest by distance, with a
     sharp border between two sides that differ.
+    A line of ink that ends at the hole, or runs along it, gives no colour: it would become a stain.
     A harmonic fill alone lets colours from the far side of a narrow hole, often another part of the same figure,
     shine through to where the background will show; colours by distance alone meet in visible ridges.
 
     Args:
         picture: RGB, shape [h, w, 3].
         hole: where colours are to be found, shape [h, w].
+        continued: outside the hole, lines that have been drawn on through it, shape [h, w]; they do give colours.
 
     Returns:
         RGB, shape [h, w, 3]; unchanged outside the hole.
     """
     trend, curved = _trend(picture, hole)
-    near = np.where(hole[..., None], spread_sides(picture - trend, ~hole, hole, power=_FILL_POWER) + trend, picture)
+    sources = ~hole & ~_ink(picture, ~hole if continued is None else ~hole & ~continued)
+    near = np.where(hole[..., None], spread_sides(picture - trend, sources, hole, power=_FILL_POWER) + trend, picture)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.minimum(depth / np.float32(_DEPTH), 1)[..., None]
     # A plane is harmonic by itself, and where the hole meets the picture's border better left out.
@@ -69,6 +76,15 @@ def smooth_fill(picture: FloatImage, hole: Mask) -> FloatImage:
     beyond = np.float32(_BEYOND) * (highest - lowest)
     filled = np.clip(near + share * (deep - near), np.maximum(lowest - beyond, 0), np.minimum(highest + beyond, 1))
     return np.where(hole[..., None], filled, picture)
+
+
+def _ink(picture: FloatImage, known: Mask) -> Mask:
+    """Thin known lines, much darker than what is known on both their sides, and the pixels at their rims."""
+    lightness = picture.mean(axis=2)
+    widened = cv2.dilate(np.where(known, lightness, -_NO_COLOUR), _LINE_DISC)
+    closed = cv2.erode(np.where(widened > -_NO_COLOUR, widened, _NO_COLOUR), _LINE_DISC)
+    dark = known & (closed - lightness > _INK)
+    return cv2.dilate(dark.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
 
 
 def _trend(picture: FloatImage, hole: Mask) -> tuple[FloatImage, bool]:

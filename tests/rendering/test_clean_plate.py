@@ -140,3 +140,19 @@ def test_both_borders_of_an_edge_keep_their_colours() -> None:
     plate = clean_plate(with_disc(truth), MASK)
     away = np.abs(Y - 55 - 0.15 * X) > 3
     assert np.abs(plate.astype(int) - truth)[MASK & away].max() < 30
+
+
+def test_a_line_of_ink_that_ends_at_the_mask_leaves_no_stain() -> None:
+    picture = np.full((HEIGHT, WIDTH, 3), 255, np.uint8)
+    picture[:60, 78:82] = 0
+    plate = clean_plate(with_disc(picture), MASK)
+    assert plate[MASK].min() > 200
+    assert plate[MASK].mean() > 250
+
+
+def test_a_line_that_runs_through_keeps_its_ink_all_the_way() -> None:
+    picture = np.full((HEIGHT, WIDTH, 3), 255, np.uint8)
+    picture[:, 79:82] = 0
+    plate = clean_plate(with_disc(picture), MASK)
+    assert plate[MASK[:, 80], 80].max() < 60
+    assert plate[MASK & (abs(X - 80.5) > 6)].min() > 235
