@@ -27,9 +27,6 @@ _FAINT = 0.02
 # the hole, patches are less and less likely to be the right ones: their share fades with this depth [px].
 _TEXTURE = 0.6
 _TEXTURE_DEPTH = 40.0
-# Over this width [px], what patches show may differ from the smooth fill by less than about this distance of colours.
-_OVERALL = 3.0
-_AGREEMENT = 1.0
 _CONTEXT = 120
 _MATCHED_PIXELS = 30_000
 
@@ -83,16 +80,7 @@ def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
     textured = continue_texture(around, inside, smooth, matched=scales)
     depth = cv2.distanceTransform(inside.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.float32(_TEXTURE) * np.exp(-depth / np.float32(_TEXTURE_DEPTH))
-    share *= _agreement(smooth, textured, inside)
     share[lines] = 0  # patches from elsewhere would break them up
     filled = picture.copy()
     filled[window] = smooth + share[..., None] * (textured - smooth)
     return filled
-
-
-def _agreement(smooth: FloatImage, textured: FloatImage, hole: Mask) -> FloatImage:
-    """How far to believe in patches, 0 to 1: a bit of a line, proposed again and again, can fill a whole region."""
-    weight = cv2.GaussianBlur(hole.astype(np.float32), (0, 0), _OVERALL)
-    difference = cv2.GaussianBlur(np.where(hole[..., None], textured - smooth, np.float32(0)), (0, 0), _OVERALL)
-    apart = np.linalg.norm(difference, axis=2) / np.maximum(weight, np.float32(1e-3))
-    return np.asarray(np.exp(-((apart / np.float32(_AGREEMENT)) ** 4)), dtype=np.float32)

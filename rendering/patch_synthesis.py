@@ -21,6 +21,7 @@ FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
 _ROUNDS = 6
+_LEAST_WEIGHT = 1e-12
 
 
 def continue_texture(
@@ -71,8 +72,9 @@ def _voted(level: Level, current: FloatImage, finds: Finds) -> FloatImage:
     height, width = level.hole.shape
     pixels = np.flatnonzero(level.hole)
     row, column = np.divmod(pixels, width)
-    total = np.zeros((len(pixels), 3), dtype=np.float32)
-    weights = np.full(len(pixels), 1e-12, dtype=np.float32)
+    # Where no patch is to be trusted at all, a pixel stays as it is.
+    weights = np.full(len(pixels), _LEAST_WEIGHT, dtype=np.float32)
+    total = current[level.hole] * weights[:, None]
     colours = level.picture.reshape(-1, 3)
     for down in range(-RADIUS, RADIUS + 1):
         for right in range(-RADIUS, RADIUS + 1):
