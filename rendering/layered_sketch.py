@@ -20,6 +20,7 @@ from ..physics.motion import Motion
 from ..physics.pixel_box import PixelBox, bounding_box
 from ..physics.raster import interpolate, triangle_ids
 from .apron import ApronedMesh, canvas_of
+from .beyond_border import on_canvas
 from .warp import WarpedSketch
 
 __all__ = ["LayeredSketch"]
@@ -122,7 +123,7 @@ class _LineLayer:
         whole = PixelBox(0, 0, mesh.width, mesh.height)
         opaque = owned | (triangle_ids(mesh.vertices, mesh.triangles, whole) >= 0)
         canvas = canvas_of(mesh, reach=_REACH)
-        texture = _on_canvas(np.dstack([np.where(owned, lines, 0), opaque]).astype(np.float32), canvas)
+        texture = on_canvas(np.dstack([np.where(owned, lines, 0), opaque]).astype(np.float32), canvas)
         return cls(body, ApronedMesh.around(mesh, texture[..., 1], canvas, reach=_REACH), canvas, texture)
 
     def drawn(self, motion: Motion, t: int) -> tuple[PixelBox, FloatImage, FloatImage]:
@@ -155,10 +156,3 @@ def _owner(flow: FlowSequence, lines: FloatImage, order: list[int], border: int)
     for _ in range(border):
         owner = np.where((owner == 0) & drawn, cv2.dilate(owner, nearby), owner)
     return np.array([-1, *order, -1], dtype=np.int32)[owner]
-
-
-def _on_canvas(image: FloatImage, canvas: PixelBox) -> FloatImage:
-    """The part of an image over a canvas; beyond the picture's border its border pixels go on."""
-    rows = np.clip(np.arange(canvas.top, canvas.bottom), 0, image.shape[0] - 1)
-    columns = np.clip(np.arange(canvas.left, canvas.right), 0, image.shape[1] - 1)
-    return np.ascontiguousarray(image[rows[:, None], columns])

@@ -19,6 +19,7 @@ from ..physics.mesh import TriangleMesh
 from ..physics.pixel_box import PixelBox, bounding_box
 from ..physics.raster import interpolate, triangle_ids
 from .apron import ApronedMesh, canvas_of
+from .beyond_border import on_canvas
 from .clean_plate import fill_hole
 from .colour_spreading import spread_colours
 from .matte import fitting_plate, in_levels, mixed_rim, soft_alpha, with_outline
@@ -99,7 +100,7 @@ def take_apart(
         alpha = np.where(covered, alpha, np.float32(0))
         below = fitting_plate(picture, beneath, alpha, rounded=rounded)
         colour = picture - (1 - alpha[..., None]) * below
-        layers.insert(0, Layer(mesh, canvas, _on_canvas(np.dstack([colour, alpha]), canvas)))
+        layers.insert(0, Layer(mesh, canvas, on_canvas(np.dstack([colour, alpha]), canvas)))
         picture = below
     return picture, layers
 
@@ -132,16 +133,9 @@ def _covered(mesh: TriangleMesh, alpha: FloatImage) -> tuple[ApronedMesh, PixelB
     length = float(np.median(np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1)))
     reach = max(_LEAST_REACH, int(np.ceil(_REACH * length)))
     canvas = canvas_of(mesh, reach=reach)
-    aproned = ApronedMesh.around(mesh, _on_canvas(alpha, canvas), canvas, reach=reach)
+    aproned = ApronedMesh.around(mesh, on_canvas(alpha, canvas), canvas, reach=reach)
     whole = PixelBox(0, 0, mesh.width, mesh.height)
     return aproned, canvas, triangle_ids(aproned.rest, aproned.triangles, whole) >= 0
-
-
-def _on_canvas(image: FloatImage, canvas: PixelBox) -> FloatImage:
-    """The part of an image over a canvas; beyond the picture's border its border pixels go on."""
-    rows = np.clip(np.arange(canvas.top, canvas.bottom), 0, image.shape[0] - 1)
-    columns = np.clip(np.arange(canvas.left, canvas.right), 0, image.shape[1] - 1)
-    return np.ascontiguousarray(image[rows[:, None], columns])
 
 
 def _grown(mask: Mask, reach: int) -> Mask:
