@@ -35,6 +35,9 @@ _CLOSE = 0.004
 # A line of ink is this much darker than what is beside it, and narrower than the disc [px].
 _INK = 0.35
 _LINE_DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (9, 9))
+# Where more than this share of the surroundings within about this distance [px] is like it, it is texture.
+_MOST_INK = 0.1
+_AROUND = 20.0
 _NO_COLOUR = np.float32(9)
 _COARSEST = 8
 # Up to so many pixels the harmonic fill is solved for directly.
@@ -79,11 +82,13 @@ def smooth_fill(picture: FloatImage, hole: Mask, *, continued: Mask | None = Non
 
 
 def _ink(picture: FloatImage, known: Mask) -> Mask:
-    """Thin known lines, much darker than what is known on both their sides, and the pixels at their rims."""
+    """Thin known lines, here and there, much darker than what is known on both their sides; with their rims."""
     lightness = picture.mean(axis=2)
     widened = cv2.dilate(np.where(known, lightness, -_NO_COLOUR), _LINE_DISC)
     closed = cv2.erode(np.where(widened > -_NO_COLOUR, widened, _NO_COLOUR), _LINE_DISC)
     dark = known & (closed - lightness > _INK)
+    crowd, some = (cv2.GaussianBlur(each.astype(np.float32), (0, 0), _AROUND) for each in (dark, known))
+    dark &= crowd < _MOST_INK * np.maximum(some, np.float32(1e-3))
     return cv2.dilate(dark.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
 
 
