@@ -72,18 +72,18 @@ class TrueFrames:
         height, width = self.rest_alpha.shape
         vertices = self.motion.positions[t].astype(np.float64)
         box = bounding_box(vertices, margin=_RIM + 3).clipped(width, height)
-        part = np.zeros((height, width, 5), dtype=np.float32)
+        part = np.zeros((height, width, 6), dtype=np.float32)
         fine = PixelBox(*(SCALE * side for side in (box.left, box.top, box.right, box.bottom)))
         drawn = self._drawn(vertices * SCALE, fine)
         part[box.slices] = cv2.resize(drawn, (box.width, box.height), interpolation=cv2.INTER_AREA)
         np.clip(part, 0, 1, out=part)
         alpha = part[..., 3]
-        judged = ~((self.unknown | (part[..., 4] > 0.01)) & (alpha < 0.99))
+        judged = ~((self.unknown | (part[..., 4] > 0.01)) & (alpha < 0.99)) & (part[..., 5] < 0.01)
         picture = np.clip(part[..., :3] + (1 - alpha[..., None]) * self.behind, 0, 1)
         return TrueFrame(picture, alpha, judged, (self.rest_alpha > 0.5) & (alpha < 0.5) & judged)
 
     def _drawn(self, vertices: np.ndarray, box: PixelBox) -> np.ndarray:
-        """The part at high resolution: premultiplied RGB, alpha and seam, shape [box height, box width, 5]."""
+        """The part at high resolution: premultiplied RGB, alpha, seam, and cut, shape [box height, box width, 6]."""
         mesh = self.motion.bodies[0].mesh
         shift, inside, near = inverse_displacement(vertices, mesh.vertices * SCALE, mesh.triangles, box, _RIM * SCALE)
         x = shift[0] + np.arange(box.left, box.right, dtype=np.float32)
@@ -93,10 +93,9 @@ class TrueFrames:
         # The rim beyond the mesh: only what lies beyond it in the drawing too, so that no strand is drawn twice.
         deep = cv2.remap(self._in_mesh, x, y, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE) > 0
         beyond = (x < 0) | (y < 0) | (x > self._texture.shape[1] - 1) | (y > self._texture.shape[0] - 1)
-        cut_off = beyond & ~inside & (drawn[..., 3] > 0)
+        cut = beyond & (drawn[..., 3] > 0)
         drawn[~(inside | (near & ~deep))] = 0
-        drawn[cut_off, 4] = 1
-        return drawn
+        return np.dstack([drawn, cut.astype(np.float32)])
 
 
 def inverse_displacement(
