@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -137,6 +138,15 @@ def test_numbers_elsewhere_keep_their_last_digits() -> None:
     assert run(lambda: float(np.float64(1e-308) / 4)) == 0
 
 
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """Ctrl+C raises here even if the tests run in a shell's background, where it is ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_an_interrupted_wait_leaves_everything_usable() -> None:
     """Ctrl+C during one's own job lets it end; a job that is still queued when its caller gives up never runs."""
     ran: list[str] = []
