@@ -30,7 +30,7 @@ def on_canvas(image: FloatImage, canvas: PixelBox) -> FloatImage:
     """The part of an image over a canvas that may exceed it.
 
     Args:
-        image: shape [h, w] or [h, w, c].
+        image: shape [h, w] or [h, w, c], at most four channels.
         canvas: the pixels that are wanted; may lie beyond the image altogether.
 
     Returns:
@@ -39,15 +39,13 @@ def on_canvas(image: FloatImage, canvas: PixelBox) -> FloatImage:
     height, width = image.shape[:2]
     inside = _within(canvas, width, height)
     part = np.atleast_3d(image)[inside.slices]
-    down, across = (1, 0, 2), (slice(None, None, -1), slice(None))
+    turned, flipped = (1, 0, 2), (slice(None, None, -1), slice(None))
     part = _continued(part, canvas.bottom - inside.bottom)
-    part = _continued(part[across], inside.top - canvas.top)[across]
-    part = part.transpose(down)
+    part = _continued(part[flipped], inside.top - canvas.top)[flipped].transpose(turned)
     part = _continued(part, canvas.right - inside.right)
-    part = _continued(part[across], inside.left - canvas.left)[across]
+    part = _continued(part[flipped], inside.left - canvas.left)[flipped].transpose(turned)
     top, left = max(0, canvas.top - inside.top), max(0, canvas.left - inside.left)
-    part = part.transpose(down)[top : top + canvas.height, left : left + canvas.width]
-    part = np.ascontiguousarray(part)
+    part = np.ascontiguousarray(part[top : top + canvas.height, left : left + canvas.width])
     return part if image.ndim == 3 else part[..., 0]
 
 
