@@ -72,7 +72,7 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
     ):
         """Project positions and velocities along a contact's normal, weighted by the inverse masses.
 
-        ``rate`` is one over the time in which the two may come together [1/s].
+        ``rate`` is one over the time in which the two may come together [1/s]. Returns 1 if anything had to be done.
         """
         u, v = ti.static(state.displacement, state.velocity)
         pair, data = surface.contacts[c], surface.contact_data[c]
@@ -87,8 +87,9 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
         # What is still apart may come as near as it wants to be, but no nearer.
         missing = 0.0 - approach - ti.max(gap - wanted, 0.0) * rate
         wi, wa, wb = solid.vertices[i][2], (1.0 - t) * solid.vertices[a][2], t * solid.vertices[b][2]
-        weight = wi + (1.0 - t) * wa + t * wb
+        weight, done = wi + (1.0 - t) * wa + t * wb, 0
         if weight > 0.0 and (push > _LEAST_PUSH or missing > _LEAST_SPEED):
+            done = 1
             share = 1.0 / weight
             shift = share * push * normal
             u[i] = u[i] + wi * shift
@@ -101,6 +102,7 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
                 v[i] = v[i] + wi * impulse
                 v[a] = v[a] - wa * impulse
                 v[b] = v[b] - wb * impulse
+        return done
 
     @ti.func
     def put_apart(
@@ -114,18 +116,22 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
     ):
         """Put apart the pairs of parts of which the stiffer one has just taken a step.
 
-        The other may move only at the end of its longer step, for which nothing may come too near.
+        The other may move only at the end of its longer step, for which nothing may come too near. After a pass in
+        which nothing had to be done, none would find anything.
         """
         steps = ti.static(surface.steps)
-        for _sweep in range(passes):
-            for c in range(ti.cast(surface.memory[CONTACTS], ti.i32)):
+        count, left = ti.cast(surface.memory[CONTACTS], ti.i32), passes
+        while left > 0:
+            done = 0
+            for c in range(count):
                 pair = surface.contacts[c]
                 one, other = steps[surface.point_parts[pair[0]]], steps[surface.edge_parts[pair[1]]]
                 more, fewer = ti.max(one, other), ti.min(one, other)
                 if fewer == 0:  # a collider
                     fewer = more
-                if steps_in(interval, intervals, more) > 0:
-                    put_contact_apart(surface, solid, state, options, c, fewer / TICK)
+                if more >= intervals or steps_in(interval, intervals, more) > 0:
+                    done = done | put_contact_apart(surface, solid, state, options, c, fewer / TICK)
+            left = ti.select(done > 0, left - 1, 0)
 
     return SimpleNamespace(
         rest_place=rest_place,
