@@ -6,7 +6,7 @@
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
-from .contact_surface import CONTACTS
+from .contact_surface import CONTACTS, STEPS
 from .stepping import TICK
 
 __all__ = ["ContactOptions", "build_contact_functions"]
@@ -119,13 +119,14 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
         The other may move only at the end of its longer step, for which nothing may come too near. After a pass in
         which nothing had to be done, none would find anything.
         """
-        steps = ti.static(surface.steps)
+        activity = ti.static(surface.activity)
         count, left = ti.cast(surface.memory[CONTACTS], ti.i32), passes
         while left > 0:
             done = 0
             for c in range(count):
                 pair = surface.contacts[c]
-                one, other = steps[surface.point_parts[pair[0]]], steps[surface.edge_parts[pair[1]]]
+                own, part = surface.point_parts[pair[0]], surface.edge_parts[pair[1]]
+                one, other = activity[own][STEPS], activity[part][STEPS]
                 more, fewer = ti.max(one, other), ti.min(one, other)
                 if fewer == 0:  # a collider
                     fewer = more

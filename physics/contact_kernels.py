@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from .contact_functions import ContactOptions, build_contact_functions
 from .contact_phases import build_contact_phases
 from .contact_search import build_contact_search
-from .contact_surface import CONTACTS, GOOD_FOR, LEFT, ContactSurface
+from .contact_surface import CONTACTS, GOOD_FOR, LEFT, STEPS, TOUCHING, ContactSurface
 from .contact_team import FREE, Team
 from .kernel_functions import build_functions
 from .kernels import array_types
@@ -61,8 +61,8 @@ def build_contact_kernel(ti: Any) -> Any:
         intervals = 1
         for part in range(solid.substeps.shape[0]):
             count = substeps_at(ti.atomic_max(team.highest[tick, part], 0.0), solid.substeps[part])
-            surface.steps[part] = count
-            if is_large(part, solid) or surface.touching[part] > 0:
+            surface.activity[part][STEPS] = count
+            if is_large(part, solid) or surface.activity[part][TOUCHING] > 0:
                 intervals = ti.max(intervals, count)
                 team.steps[tick, part] = count
             else:
@@ -84,8 +84,8 @@ def build_contact_kernel(ti: Any) -> Any:
         if last or surface.memory[LEFT] < 0.5 * dt:
             wait_for(team.claims, FREE, (tick + 1) * team.order.shape[0])
         if last:
-            for part in range(surface.touching.shape[0]):
-                surface.touching[part] = 0
+            for part in range(surface.activity.shape[0]):
+                surface.activity[part][TOUCHING] = 0
             searching.begin_search(surface, solid, state, options, TICK)
         elif surface.memory[LEFT] < 0.5 * dt:
             searching.find_contacts(surface, solid, state, options, TICK - (interval + 1) * dt)
@@ -186,7 +186,8 @@ def build_contact_kernel(ti: Any) -> Any:
         overlap_parts: types.integers,
         overlaps: types.scalars,
         heads: types.integers,
-        order: types.integers,
+        order: types.pairs,
+        middles: types.vectors4,
         candidate_ranges: types.pairs,
         candidates: types.integers,
         places: types.vectors,
@@ -194,8 +195,7 @@ def build_contact_kernel(ti: Any) -> Any:
         found: types.integers,
         contacts: types.pairs,
         contact_data: types.vectors4,
-        touching: types.integers,
-        steps: types.integers,
+        activity: types.pairs,
         memory: types.scalars,
         friction: ti.f32,
         thickness: ti.f32,
@@ -246,6 +246,7 @@ def build_contact_kernel(ti: Any) -> Any:
                             overlaps,
                             heads,
                             order,
+                            middles,
                             candidate_ranges,
                             candidates,
                             places,
@@ -253,8 +254,7 @@ def build_contact_kernel(ti: Any) -> Any:
                             found,
                             contacts,
                             contact_data,
-                            touching,
-                            steps,
+                            activity,
                             memory,
                         ),
                         ContactOptions(friction, thickness, within),

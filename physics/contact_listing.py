@@ -9,14 +9,19 @@ Edges go into a spatial hash by their middles; vertices that are near no box aro
 from types import SimpleNamespace
 from typing import Any
 
-from .contact_surface import CANDIDATES, FORESEEN, LONGEST, SPACING
+from .contact_surface import CANDIDATES, FORESEEN, LONGEST, REACH, SPACING
 
-__all__ = ["build_contact_listing"]
+__all__ = ["INSIDE", "SLACK", "build_contact_listing"]
+
+SLACK = 0.05  # of a mean edge, for speed that is gained between two searches
+INSIDE = 0.5  # of a mean edge, behind an edge, from where on a point counts as inside
+_WIDE = 2.0  # mean edges; within these of an edge a point is looked at that may be inside
 
 
 def build_contact_listing(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
     """The functions of the listing, by name, on those that ``build_contact_functions`` made."""
-    vec2, vec4, any_value = ti.types.vector(2, ti.f32), ti.types.vector(4, ti.f32), ti.template()
+    vec2, vec4, int2 = ti.types.vector(2, ti.f32), ti.types.vector(4, ti.f32), ti.types.vector(2, ti.i32)
+    any_value = ti.template()
     rest_place, offset, edge_ends = contact.rest_place, contact.offset, contact.edge_ends
 
     @ti.func
@@ -25,13 +30,13 @@ def build_contact_listing(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
 
     @ti.func
     def bucket(x: ti.i32, y: ti.i32, count: ti.i32):
-        return ((x * 73856093) ^ (y * 19349663)) & (count - 1)
+        """Where a cell is in the hash; cells of a row lie one behind the other."""
+        return (x + y * 19349663) & (count - 1)
 
     @ti.func
-    def middle_bucket(surface: any_value, e: ti.i32, size: ti.f32):
-        a, b = edge_ends(surface, e)
-        x, y = cell_of(0.5 * (a + b), size)
-        return bucket(x, y, surface.heads.shape[0] - 1)
+    def middle(surface: any_value, e: ti.i32):
+        """Where the middle of an edge was when the candidates were listed."""
+        return vec2(surface.middles[e][0], surface.middles[e][1])
 
     @ti.func
     def fill_hash(surface: any_value, size: ti.f32):
@@ -40,16 +45,18 @@ def build_contact_listing(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
         for k in range(heads.shape[0]):
             heads[k] = 0
         for e in range(surface.edges.shape[0]):
-            k = middle_bucket(surface, e, size)
+            x, y = cell_of(middle(surface, e), size)
+            k = bucket(x, y, heads.shape[0] - 1)
+            order[e][1] = k
             heads[k] = heads[k] + 1
         total = 0
         for k in range(heads.shape[0]):
             total = total + heads[k]
             heads[k] = total
         for e in range(surface.edges.shape[0]):
-            k = middle_bucket(surface, e, size)
+            k = order[e][1]
             heads[k] = heads[k] - 1
-            order[heads[k]] = e
+            order[heads[k]][0] = e
 
     @ti.func
     def may_touch(surface: any_value, solid: any_value, i: ti.i32, own: ti.i32, e: ti.i32, options: any_value):
@@ -70,37 +77,59 @@ def build_contact_listing(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
         return vec2(surface.marks[n][0], surface.marks[n][1])
 
     @ti.func
+    def free(surface: any_value, n: ti.i32):
+        """Whether a point is in no other part at rest, nor near one."""
+        return surface.first_overlaps[n] == surface.first_overlaps[n + 1]
+
+    @ti.func
+    def outside(surface: any_value, n: ti.i32):
+        """Whether a point is known to be in front of all parts, so that it need be looked at near their edges only."""
+        return surface.marks[n][3] > 0.5
+
+    @ti.func
     def widest(surface: any_value):
-        """Within which distance of an edge a point is looked at, of any part."""
+        """The mean edge of the coarsest part."""
         width = 0.0
         for part in range(surface.measures.shape[0]):
-            width = ti.max(width, 2.0 * surface.measures[part][SPACING])
+            width = ti.max(width, surface.measures[part][SPACING])
         return width
 
     @ti.func
-    def cell_size(surface: any_value, options: any_value):
+    def reaches(surface: any_value, options: any_value):
+        """Within which distance of an edge a point is looked at, besides what may come about meanwhile.
+
+        The first one is for points that may be inside, the second one for those known to be outside.
+        """
+        coarsest = widest(surface)
+        inner = ti.max(options.thickness, _WIDE * coarsest)
+        return inner, ti.max(options.thickness + SLACK * coarsest, INSIDE * coarsest)
+
+    @ti.func
+    def cell_size(surface: any_value):
         """Side of a cell of the hash: all edges that a point may come near to are in the nine around it."""
         memory = ti.static(surface.memory)
-        return 0.5 * memory[LONGEST] + ti.max(options.thickness, widest(surface)) + memory[FORESEEN]
+        return 0.5 * memory[LONGEST] + memory[REACH] + memory[FORESEEN]
 
     @ti.func
     def find_boxes(surface: any_value):
-        """Take note of the box around each part: its low corner and its high one."""
+        """Take note of the box around each part, its low corner and its high one; whether all points are outside."""
         boxes = ti.static(surface.boxes)
         for part in range(boxes.shape[0]):
             boxes[part] = vec4(1e6, 1e6, -1e6, -1e6)
+        all_outside = True
         for n in range(surface.points.shape[0]):
             p, part = surface.places[n], surface.point_parts[n]
+            all_outside = all_outside and outside(surface, n)
             box = boxes[part]
             boxes[part] = vec4(ti.min(box[0], p[0]), ti.min(box[1], p[1]), ti.max(box[2], p[0]), ti.max(box[3], p[1]))
+        return all_outside
 
     @ti.func
-    def near_a_box(surface: any_value, options: any_value, n: ti.i32):
-        """Whether a point is near the box around a part whose edges it may come near to."""
+    def near_a_box(surface: any_value, options: any_value, n: ti.i32, reach: ti.f32):
+        """Whether a point is within reach of the box around a part whose edges it may come near to."""
         p, own, found = surface.places[n], surface.point_parts[n], options.within == 1
         for part in range(surface.boxes.shape[0]):
             if surface.bodies[part] != surface.bodies[own]:
-                reach = ti.max(options.thickness, 2.0 * surface.measures[part][SPACING]) + surface.memory[FORESEEN]
                 box = surface.boxes[part]
                 if box[0] - reach < p[0] < box[2] + reach and box[1] - reach < p[1] < box[3] + reach:
                     found = True
@@ -109,41 +138,68 @@ def build_contact_listing(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
     @ti.func
     def begin_listing(surface: any_value, options: any_value):
         """Put the edges into the hash."""
-        find_boxes(surface)
+        all_outside = find_boxes(surface)
         longest = 0.0
         for e in range(surface.edges.shape[0]):
             a, b = edge_ends(surface, e)
-            longest = ti.max(longest, (b - a).norm_sqr())
-        surface.memory[LONGEST] = ti.sqrt(longest)
-        fill_hash(surface, cell_size(surface, options))
+            length, between = (b - a).norm(), 0.5 * (a + b)
+            longest = ti.max(longest, length)
+            body = ti.cast(surface.bodies[surface.edge_parts[e]], ti.f32)
+            surface.middles[e] = vec4(between[0], between[1], 0.5 * length, body)
+        surface.memory[LONGEST] = longest
+        inner, outer = reaches(surface, options)
+        surface.memory[REACH] = ti.select(all_outside, outer, inner)
+        fill_hash(surface, cell_size(surface))
 
     @ti.func
     def list_candidates(surface: any_value, solid: any_value, options: any_value, low: ti.i32, high: ti.i32):
         """For each point of a piece the edges within the reach of a contact and what the list foresees."""
-        heads, memory = ti.static(surface.heads, surface.memory)
-        size, margin, half = cell_size(surface, options), memory[FORESEEN], 0.5 * memory[LONGEST]
+        heads, memory, candidates = ti.static(surface.heads, surface.memory, surface.candidates)
+        size, buckets = cell_size(surface), heads.shape[0] - 1
+        inner, outer = reaches(surface, options)
         count, room = CANDIDATES * low, CANDIDATES * high
         for n in range(low, high):
-            surface.candidate_ranges[n][0] = count
-            i, own = surface.points[n], surface.point_parts[n]
-            p, nearest_square = surface.places[n], 1e6
+            first = count
+            i, own, p = surface.points[n], surface.point_parts[n], surface.places[n]
+            reach = ti.select(outside(surface, n), outer, inner) + memory[FORESEEN]
+            other_than = ti.cast(surface.bodies[own], ti.f32)
+            if options.within == 1:
+                other_than = -2.0
             x, y = cell_of(p, size)
-            for c in range(ti.select(near_a_box(surface, options, n), 9, 0)):
-                k = bucket(x + c % 3 - 1, y + c // 3 - 1, heads.shape[0] - 1)
-                for s in range(heads[k], heads[k + 1]):
-                    e = surface.order[s]
-                    part = surface.edge_parts[e]
-                    if options.within == 1 or surface.bodies[part] != surface.bodies[own]:
-                        reach = ti.max(options.thickness, 2.0 * surface.measures[part][SPACING]) + margin
-                        a, b = edge_ends(surface, e)
-                        far = reach + half
-                        if (p - 0.5 * (a + b)).norm_sqr() < far * far and count < room:
-                            square = offset(p, a, b).norm_sqr()
-                            if square < reach * reach and may_touch(surface, solid, i, own, e, options):
-                                nearest_square = ti.min(nearest_square, square)
-                                surface.candidates[count] = e
-                                count = count + 1
-            surface.candidate_ranges[n][1] = count
-            surface.marks[n] = vec4(p[0], p[1], ti.sqrt(nearest_square), 0.0)
+            for c in range(ti.select(near_a_box(surface, options, n, reach), 6, 0)):
+                # Three rows of three cells; what is beyond the last bucket continues at the first.
+                k = bucket(x - 1, y + c // 2 - 1, buckets)
+                begin, end = k, ti.min(k + 3, buckets)
+                if c % 2 == 1:
+                    begin, end = 0, ti.max(k + 3 - buckets, 0)
+                for s in range(heads[begin], heads[end]):
+                    e = surface.order[s][0]
+                    candidates[ti.min(count, room - 1)] = e
+                    far, body = reach + surface.middles[e][2], surface.middles[e][3]
+                    near = (p - middle(surface, e)).norm_sqr() < far * far and body != other_than and count < room
+                    count = count + ti.cast(near, ti.i32)
+            nearest_square, kept = 1e6, first
+            for c in range(first, count):
+                e = candidates[c]
+                candidates[kept] = e
+                a, b = edge_ends(surface, e)
+                square = offset(p, a, b).norm_sqr()
+                near = square < reach * reach
+                if near and options.within == 1:
+                    near = may_touch(surface, solid, i, own, e, options)
+                if near:
+                    nearest_square = ti.min(nearest_square, square)
+                    kept = kept + 1
+            count = kept
+            surface.candidate_ranges[n] = int2(first, count)
+            surface.marks[n] = vec4(p[0], p[1], ti.sqrt(nearest_square), surface.marks[n][3])
 
-    return SimpleNamespace(mark=mark, widest=widest, begin_listing=begin_listing, list_candidates=list_candidates)
+    return SimpleNamespace(
+        mark=mark,
+        widest=widest,
+        free=free,
+        outside=outside,
+        reaches=reaches,
+        begin_listing=begin_listing,
+        list_candidates=list_candidates,
+    )

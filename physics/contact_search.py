@@ -12,15 +12,15 @@ A search has a beginning and an end that one thread sees to, and pieces of point
 from types import SimpleNamespace
 from typing import Any
 
-from .contact_listing import build_contact_listing
+from .contact_listing import INSIDE, SLACK, build_contact_listing
 from .contact_surface import (
     CONTACTS,
+    ENTERED,
     FASTEST,
     FORESEEN,
     GAP,
     GOOD_FOR,
     LIST_LENGTH,
-    LONGEST,
     MOVED,
     NEAREST,
     POINTS_AT_ONCE,
@@ -28,6 +28,8 @@ from .contact_surface import (
     SPACING,
     SPEED,
     TIME,
+    TOUCHING,
+    WALKED,
 )
 from .kernel_functions import SPEED_FLOOR
 from .stepping import TICK
@@ -35,8 +37,8 @@ from .stepping import TICK
 __all__ = ["build_contact_search"]
 
 _FORESIGHT = 24.0  # ticks that a list of candidates is good for, if so many do not reach over several edges
+_FARTHEST = 3.0  # mean edges that it is foreseen to need at most
 _STALE = 0.25  # of a mean edge, that vertices may move until the nearest edges are looked for again
-_SLACK = 0.05  # of a mean edge, for speed that is gained meanwhile
 
 _NOTHING, _LOOK, _LIST = 0.0, 1.0, 2.0  # what a search has to do
 
@@ -49,7 +51,8 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
     place, along, offset = contact.place, contact.along, contact.offset
     edge_ends, normal_of = contact.edge_ends, contact.normal_of
     listing = build_contact_listing(ti, contact)
-    mark, widest = listing.mark, listing.widest
+    mark, free, outside = listing.mark, listing.free, listing.outside
+    widest, reaches = listing.widest, listing.reaches
     begin_listing, list_candidates = listing.begin_listing, listing.list_candidates
 
     @ti.func
@@ -61,17 +64,16 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
         t, cross = way.dot(along_edge), way[1] * along_edge[0] - way[0] * along_edge[1]
         square = along_edge.norm_sqr()
         reach = options.thickness + (surface.measures[own][SPEED] + surface.measures[part][SPEED]) * ti.max(time, TICK)
-        reach = reach + _SLACK * surface.measures[part][SPACING]
-        free = surface.first_overlaps[n] == surface.first_overlaps[n + 1]
-        return free and t > 0.0 and t < square and cross > 0.0 and cross * cross > reach * reach * square
+        reach = reach + SLACK * surface.measures[part][SPACING]
+        return free(surface, n) and t > 0.0 and t < square and cross > 0.0 and cross * cross > reach * reach * square
 
     @ti.func
     def add_contact(surface: any_value, options: any_value, n: ti.i32, e: ti.i32, time: ti.f32):
-        """List point n and edge e as a contact if they may meet in the time ahead."""
+        """List point n and edge e as a contact if they may meet in the time ahead; the distance, negative behind it."""
         own, part = surface.point_parts[n], surface.edge_parts[e]
         approach, slack = (
             surface.measures[own][SPEED] + surface.measures[part][SPEED],
-            _SLACK * surface.measures[part][SPACING],
+            SLACK * surface.measures[part][SPACING],
         )
         p = surface.places[n]
         a, b = edge_ends(surface, e)
@@ -98,13 +100,14 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
             deep = 0.6 * surface.measures[own][SPACING]
         if signed > 0.0 - deep and wanted > 0.0 - deep:
             if signed - wanted < approach * TICK + slack:
-                surface.touching[own] = ti.max(surface.touching[own], 1)
-                surface.touching[part] = ti.max(surface.touching[part], 1)
+                surface.activity[own][TOUCHING] = 1
+                surface.activity[part][TOUCHING] = 1
             if signed - wanted < approach * time + slack:
                 count = surface.found[n]
                 surface.contacts[LIST_LENGTH * n + count] = int2(n, e)
                 surface.contact_data[LIST_LENGTH * n + count] = vec4(normal[0], normal[1], t, wanted)
                 surface.found[n] = count + 1
+        return signed
 
     @ti.func
     def look_around(surface: any_value, options: any_value, low: ti.i32, high: ti.i32):
@@ -112,39 +115,45 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
         memory = ti.static(surface.memory)
         time, nearest_square = memory[TIME], 1e6
         ahead = 2.0 * memory[FASTEST] * time
-        looked_at, half = ti.max(options.thickness + ahead, widest(surface)), 0.5 * memory[LONGEST] + memory[MOVED]
-        nearest_middle = 1e6
+        inner, outer = reaches(surface, options)
+        inner = ti.max(inner, options.thickness + ahead)
+        # Found is what was in front of an edge when last looked at, wherever it is now, and what may get near meanwhile.
+        outer = outer + ti.max(2.0 * memory[FASTEST] * ti.max(time, TICK), 2.0 * memory[WALKED])
         for n in range(low, high):
             surface.found[n] = 0
-            span, p = surface.candidate_ranges[n], surface.places[n]
+            span, p, in_front = surface.candidate_ranges[n], surface.places[n], outside(surface, n)
+            reach = ti.select(in_front, outer, inner)
             least = surface.marks[n][2] - (p - mark(surface, n)).norm() - memory[MOVED]
-            if span[0] < span[1] and least > looked_at:
+            if span[0] < span[1] and least > reach:
                 nearest_square = ti.min(nearest_square, least * least)
             elif span[0] < span[1]:
                 parts, best, nearest = slots_i(-1), slots_f(0.0), slots_i(-1)
                 for c in range(span[0], span[1]):
                     e = surface.candidates[c]
-                    part = surface.edge_parts[e]
                     a, b = edge_ends(surface, e)
-                    reach = ti.max(options.thickness + ahead, 2.0 * surface.measures[part][SPACING])
-                    distance, far = (p - 0.5 * (a + b)).norm_sqr(), reach + half
-                    if distance < far * far:
-                        distance = offset(p, a, b).norm_sqr()
-                        nearest_square = ti.min(nearest_square, distance)
-                    else:
-                        nearest_middle = ti.min(nearest_middle, distance)
+                    distance = offset(p, a, b).norm_sqr()
+                    nearest_square = ti.min(nearest_square, distance)
                     if distance < reach * reach:
-                        taken = False
+                        part, taken = surface.edge_parts[e], False
                         for j in ti.static(range(LIST_LENGTH)):
                             if (not taken) and (parts[j] == part or parts[j] < 0):
                                 taken = True
                                 if parts[j] < 0 or distance < best[j]:
                                     parts[j], best[j], nearest[j] = part, distance, e
+                near, within = False, False
                 for j in ti.static(range(LIST_LENGTH)):
-                    if parts[j] >= 0 and not plainly_apart(surface, options, n, nearest[j], time):
-                        add_contact(surface, options, n, nearest[j], time)
-        from_middle = ti.max(ti.sqrt(nearest_middle) - half, 0.0)
-        return ti.min(nearest_square, from_middle * from_middle)
+                    if parts[j] >= 0:
+                        near = True
+                        if not plainly_apart(surface, options, n, nearest[j], time):
+                            signed = add_contact(surface, options, n, nearest[j], time)
+                            if signed < 0.0 - INSIDE * surface.measures[parts[j]][SPACING]:
+                                within = True
+                if within and in_front:
+                    surface.marks[n][3] = 0.0
+                    ti.atomic_max(memory[ENTERED], 1.0)
+                if near and not within and not in_front and free(surface, n):
+                    surface.marks[n][3] = 1.0
+        return nearest_square
 
     @ti.func
     def measure_speeds(surface: any_value, state: any_value):
@@ -174,16 +183,20 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
         ahead, soon = 2.0 * fastest * time, 2.0 * fastest * TICK
         memory[FASTEST], memory[TIME], memory[SEARCH] = fastest, time, _NOTHING
         if memory[CONTACTS] < 0.0 or memory[GAP] < 2.0 * ahead:
-            moved = 0.0  # since the candidates were listed
+            moved, walked = 0.0, 0.0  # since the candidates were listed, and since they were last looked at
             for n in range(surface.points.shape[0]):
                 p = place(solid, state, surface.points[n])
+                walked = ti.max(walked, (p - surface.places[n]).norm_sqr())
                 surface.places[n] = p
                 moved = ti.max(moved, (p - mark(surface, n)).norm_sqr())
-            memory[MOVED] = ti.sqrt(moved)
+            memory[MOVED], memory[WALKED] = ti.sqrt(moved), ti.select(memory[CONTACTS] < 0.0, 0.0, ti.sqrt(walked))
+            least = ti.max(ti.max(ahead, soon), 2.0 * memory[WALKED])
             left = memory[FORESEEN] - 2.0 * memory[MOVED]
             memory[SEARCH] = _LOOK
-            if left < ahead or memory[CONTACTS] < 0.0:
-                left = ti.max(ahead, ti.min(_FORESIGHT * soon, widest(surface)))
+            # At the end of a tick threads share what has to be done, so that it is done in time.
+            due = ti.select(time < TICK, least, 2.0 * least)
+            if left < due or memory[CONTACTS] < 0.0:
+                left = ti.max(least, ti.min(_FORESIGHT * soon, _FARTHEST * widest(surface)))
                 memory[SEARCH], memory[FORESEEN], memory[MOVED] = _LIST, left, 0.0
                 begin_listing(surface, options)
             memory[GAP], memory[NEAREST] = left, 1e6
@@ -211,8 +224,11 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
                     surface.contact_data[count] = surface.contact_data[LIST_LENGTH * n + j]
                     count = count + 1
             memory[CONTACTS] = ti.cast(count, ti.f32)
-            gap = ti.sqrt(ti.atomic_min(memory[NEAREST], 1e6)) - ti.max(options.thickness, widest(surface))
+            inner, _ = reaches(surface, options)
+            gap = ti.sqrt(ti.atomic_min(memory[NEAREST], 1e6)) - inner
             memory[GAP] = ti.min(gap, memory[GAP])
+            if ti.atomic_max(memory[ENTERED], 0.0) > 0.0:
+                memory[FORESEEN], memory[ENTERED] = 0.0, 0.0  # which lists candidates anew, farther around it
         memory[GAP] = memory[GAP] - 2.0 * memory[FASTEST] * memory[TIME]
         narrowest = 1e6
         for part in range(surface.measures.shape[0]):

@@ -16,6 +16,7 @@ from .system import System
 __all__ = [
     "CANDIDATES",
     "CONTACTS",
+    "ENTERED",
     "FASTEST",
     "FORESEEN",
     "GAP",
@@ -26,10 +27,14 @@ __all__ = [
     "MOVED",
     "NEAREST",
     "POINTS_AT_ONCE",
+    "REACH",
     "SEARCH",
     "SPACING",
     "SPEED",
+    "STEPS",
     "TIME",
+    "TOUCHING",
+    "WALKED",
     "ContactSurface",
     "contact_surface",
     "signed_distances",
@@ -48,11 +53,29 @@ CANDIDATES = 96
 POINTS_AT_ONCE = 32
 """Boundary vertices that a thread takes from a search."""
 
-FORESEEN, CONTACTS, GAP, GOOD_FOR, LEFT, SEARCH, TIME, FASTEST, LONGEST, NEAREST, MOVED = range(11)
+(
+    FORESEEN,
+    CONTACTS,
+    GAP,
+    GOOD_FOR,
+    LEFT,
+    SEARCH,
+    TIME,
+    FASTEST,
+    LONGEST,
+    NEAREST,
+    MOVED,
+    WALKED,
+    REACH,
+    ENTERED,
+) = range(14)
 """Places of the numbers in ``ContactSurface.memory``."""
 
 SPACING, SPEED = range(2)
 """Places of the numbers in ``ContactSurface.measures``."""
+
+TOUCHING, STEPS = range(2)
+"""Places of the numbers in ``ContactSurface.activity``."""
 
 _LEAST_SPACING = 2.0  # [px] between the points of a collider's outline
 _SMALLEST_COLLIDER = 4.0  # [px^2]
@@ -77,22 +100,27 @@ class ContactSurface(NamedTuple):
         first_overlaps: where each point's entries of the following two begin, int32, shape [n + 1].
         overlap_parts: parts that a point is in or near at rest, int32, shape [o].
         overlaps: distance that it keeps from each, negative inside [side], float32, shape [o].
-        heads, order: room for the kernel's spatial hash.
+        heads, order: room for the kernel's spatial hash, int32; order has for each place in it an edge, and for each
+            edge its bucket, shape [e, 2].
+        middles: the middle of each edge when candidates were listed, half its length [side], and its body, float32,
+            shape [e, 4].
         candidate_ranges, candidates: for each point the edges that it may come near to for a while, and where they
             begin and end among them.
         places: where each point was when contacts were last looked for [side], float32, shape [n, 2].
-        marks: where it was when the candidates were listed, and how far from the nearest of them [side], float32,
-            shape [n, 4].
+        marks: where it was when the candidates were listed, how far from the nearest of them [side], and 1 if it is
+            known to be in front of all other parts, float32, shape [n, 4].
         found: contacts of each point in the present search, int32, shape [n].
         contacts: a point and the edge that it may touch, int32, shape [c, 2].
         contact_data: the normal, where on the edge, and the distance to keep, float32, shape [c, 4].
-        touching: 1 for parts that may touch another in a tick, int32, shape [p].
-        steps: substeps of each part in this tick, 0 for colliders, int32, shape [p].
-        memory: numbers that the kernel keeps, float32, shape [11]: how far the candidates foresee [side], the number of
+        activity: 1 for parts that may touch another in a tick, and how many substeps each takes in it, 0 for colliders,
+            int32, shape [p, 2].
+        memory: numbers that the kernel keeps, float32, shape [14]: how far the candidates foresee [side], the number of
             contacts (-1: not yet found), how far everything is from any [side], how long the list of contacts is good
             when it is made [s], and for how long it still has to do [s]; then of the present search what has to be
             done, the time ahead [s], the speed of the fastest [side/s], the longest edge, the square of the distance
-            to the nearest candidate, and how far a point has moved since the candidates were listed [side].
+            to the nearest candidate, how far a point has moved since the candidates were listed and since contacts were
+            last looked for, the distance within which candidates were listed besides what they foresee [side], and
+            whether a point has got behind an edge since.
     """
 
     points: Int32Array
@@ -108,6 +136,7 @@ class ContactSurface(NamedTuple):
     overlaps: Float32Array
     heads: Int32Array
     order: Int32Array
+    middles: Float32Array
     candidate_ranges: Int32Array
     candidates: Int32Array
     places: Float32Array
@@ -115,8 +144,7 @@ class ContactSurface(NamedTuple):
     found: Int32Array
     contacts: Int32Array
     contact_data: Float32Array
-    touching: Int32Array
-    steps: Int32Array
+    activity: Int32Array
     memory: Float32Array
 
 
@@ -161,17 +189,17 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         overlap_parts=overlaps[1],
         overlaps=overlaps[2],
         heads=np.zeros(buckets + 1, np.int32),
-        order=np.zeros(len(every), np.int32),
+        order=np.zeros((len(every), 2), np.int32),
+        middles=np.zeros((len(every), 4), np.float32),
         candidate_ranges=np.zeros((len(points), 2), np.int32),
         candidates=np.zeros(CANDIDATES * len(points), np.int32),
         places=np.zeros((len(points), 2), np.float32),
-        marks=np.zeros((len(points), 4), np.float32),
+        marks=np.column_stack([np.zeros((len(points), 3)), np.diff(overlaps[0]) == 0]).astype(np.float32),
         found=np.zeros(len(points), np.int32),
         contacts=np.zeros((room, 2), np.int32),
         contact_data=np.zeros((room, 4), np.float32),
-        touching=np.ones(len(bodies), np.int32),
-        steps=np.zeros(len(bodies), np.int32),
-        memory=np.array([0.0, -1.0, *[0.0] * 9], np.float32),
+        activity=np.tile(np.array([1, 0], np.int32), (len(bodies), 1)),
+        memory=np.array([0.0, -1.0, *[0.0] * 12], np.float32),
     )
     return surface, still
 
