@@ -81,13 +81,15 @@ def build_contact_kernel(ti: Any) -> Any:
         if intervals > 1:
             put_apart(surface, solid, state, options, interval, intervals, 1)
         surface.memory[LEFT] = surface.memory[LEFT] - dt
-        if last or surface.memory[LEFT] < 0.5 * dt:
+        # The search at the end of the tick is soon enough for a list that is good until the last interval.
+        due = interval + 2 < intervals and surface.memory[LEFT] < 0.5 * dt
+        if last or due:
             wait_for(team.claims, FREE, (tick + 1) * team.order.shape[0])
         if last:
             for part in range(surface.activity.shape[0]):
                 surface.activity[part][TOUCHING] = 0
             searching.begin_search(surface, solid, state, options, TICK)
-        elif surface.memory[LEFT] < 0.5 * dt:
+        elif due:
             searching.find_contacts(surface, solid, state, options, TICK - (interval + 1) * dt)
             surface.memory[LEFT] = ti.max(surface.memory[GOOD_FOR], _LEAST_INTERVALS * dt)
 
