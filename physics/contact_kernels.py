@@ -56,9 +56,9 @@ def build_contact_kernel(ti: Any) -> Any:
 
     @ti.func
     def settle_tick(tick: ti.i32, scene: ti.template()):
-        """Choose the steps of every part in a tick."""
+        """Choose the steps of every part in a tick, and into how many intervals it is cut: none if nothing touches."""
         solid, surface, team = ti.static(scene.solid, scene.surface, scene.team)
-        intervals = 1
+        intervals = 0
         for part in range(solid.substeps.shape[0]):
             count = substeps_at(ti.atomic_max(team.highest[tick, part], 0.0), solid.substeps[part])
             surface.activity[part][STEPS] = count
@@ -67,17 +67,26 @@ def build_contact_kernel(ti: Any) -> Any:
                 team.steps[tick, part] = count
             else:
                 team.steps[tick, part] = 0 - count
+        busy = 0
+        for piece in range(team.blocks.shape[0]):
+            busy = busy + ti.cast(team.steps[tick, team.blocks[piece][0]] > 0, ti.i32)
         team.steps[tick, solid.substeps.shape[0]] = intervals
-        if surface.memory[CONTACTS] < 0.0:
-            searching.find_contacts(surface, solid, scene.state, scene.options, TICK)
-        surface.memory[LEFT] = ti.max(surface.memory[GOOD_FOR], _LEAST_INTERVALS * TICK / intervals)
+        team.steps[tick, solid.substeps.shape[0] + 1] = busy
+        surface.memory[LEFT] = ti.max(surface.memory[GOOD_FOR], _LEAST_INTERVALS * TICK / ti.max(intervals, 1))
+
+    @ti.func
+    def begin_launch(scene: ti.template()):
+        """Find the first contacts of all, and settle the first tick."""
+        if scene.surface.memory[CONTACTS] < 0.0:
+            searching.find_contacts(scene.surface, scene.solid, scene.state, scene.options, TICK)
+        settle_tick(0, scene)
 
     @ti.func
     def see_to_contacts(tick: ti.i32, interval: ti.i32, intervals: ti.i32, scene: ti.template()):
         """Put apart what an interval's steps brought too near, and look for contacts where it is due."""
         solid, state, surface, options = ti.static(scene.solid, scene.state, scene.surface, scene.options)
         team = ti.static(scene.team)
-        dt, last = TICK / intervals, interval + 1 == intervals
+        dt, last = TICK / ti.max(intervals, 1), interval + 1 >= intervals
         if intervals > 1:
             put_apart(surface, solid, state, options, interval, intervals, 1)
         surface.memory[LEFT] = surface.memory[LEFT] - dt
@@ -94,26 +103,37 @@ def build_contact_kernel(ti: Any) -> Any:
             surface.memory[LEFT] = ti.max(surface.memory[GOOD_FOR], _LEAST_INTERVALS * dt)
 
     @ti.func
+    def end_tick(tick: ti.i32, scene: ti.template()):
+        """Put apart what is too near at the end of a tick, and settle the next one, if there is one."""
+        searching.end_search(scene.surface, scene.options)
+        # A frame may follow, in which nothing shall be inside anything.
+        put_apart(scene.surface, scene.solid, scene.state, scene.options, 0, 1, _LAST_PASSES)
+        if tick + 1 < scene.team.highest.shape[0]:
+            settle_tick(tick + 1, scene)
+
+    @ti.func
     def work_together(scene: ti.template()):
         """What every thread does: whoever is awake works, and all meet where one phase builds on another.
 
         What is one thread's business is that of the one that did the last piece before it.
         """
         team = ti.static(scene.team)
-        blocks, vertices, large = team.blocks.shape[0], team.vertices.shape[0], team.large.shape[0]
-        phase, due = 1, 0
+        blocks, large = team.blocks.shape[0], team.large.shape[0]
+        phase, due = 1, blocks
+        if plan_together(phase, due, scene):
+            begin_launch(scene)
+            give(team)
+        due += 1
+        wait_for(team.claims, 0, due)
+        phase += 1
         for tick in range(team.highest.shape[0]):
-            due += ti.max(blocks, vertices)
-            if plan_together(phase, due, tick, scene):
-                settle_tick(tick, scene)
+            intervals, busy = team.steps[tick, team.order.shape[0]], team.steps[tick, team.order.shape[0] + 1]
+            if advance_free(phase, tick, scene) and intervals == 0:
+                see_to_contacts(tick, 0, 0, scene)
                 give(team)
-            due += 1
-            wait_for(team.claims, 0, due)
-            advance_free(phase + 1, tick, scene)
-            phase += 2
-            intervals = team.steps[tick, team.order.shape[0]]
+            phase += 1
             for interval in range(intervals):
-                due += blocks
+                due += busy
                 last = step_together(phase, due, tick, interval, intervals, scene)
                 if large > 0:
                     wait_for(team.claims, 0, due)
@@ -125,11 +145,12 @@ def build_contact_kernel(ti: Any) -> Any:
                 due += 1
                 wait_for(team.claims, 0, due)
                 phase += 2
-            due += searching.pieces(scene.surface)
-            if search_together(phase, due, scene):
-                searching.end_search(scene.surface, scene.options)
-                # A frame may follow, in which nothing shall be inside anything.
-                put_apart(scene.surface, scene.solid, scene.state, scene.options, 0, 1, _LAST_PASSES)
+            if intervals == 0:
+                due += 1
+                wait_for(team.claims, 0, due)
+            due += ti.max(blocks, searching.pieces(scene.surface))
+            if search_together(phase, due, tick, scene):
+                end_tick(tick, scene)
                 give(team)
             due += 1
             wait_for(team.claims, 0, due)

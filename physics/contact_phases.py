@@ -69,40 +69,36 @@ def build_contact_phases(
 
     @ti.func
     def move_piece(low: ti.i32, part: ti.i32, tick: ti.i32, interval: ti.i32, intervals: ti.i32, scene: ti.template()):
-        """What an interval brings to a piece of a part's vertices: a step at most, and before the first their tick."""
+        """What an interval brings to a piece of a part's vertices: a step at most, and before the first their tick.
+
+        Before that, where they are is written down, if the tick before was the last one of a frame.
+        """
         solid, state, drive = ti.static(scene.solid, scene.state, scene.drive)
         count, high = scene.team.steps[tick, part], end_of_piece(0, part, low, solid)
         if interval == 0 and count > 0:
+            if tick > 0:
+                record(low, high, tick - 1, state, drive)
             begin_tick(low, high, tick, TICK / count, solid, state, drive)
         if steps_in(interval, intervals, count) > 0:
             step = interval * count // intervals
             move_vertices(low, high, tick, step, count, solid, state, drive, scene.pairs)
 
     @ti.func
-    def record_piece(piece: ti.i32, tick: ti.i32, scene: ti.template()):
-        """Write down where a piece's vertices are after a tick, if it is one of those."""
-        part, low = scene.team.vertices[piece][0], scene.team.vertices[piece][1]
-        record(low, end_of_piece(0, part, low, scene.solid), tick, scene.state, scene.drive)
+    def plan_piece(piece: ti.i32, tick: ti.i32, scene: ti.template()):
+        """Find the highest frequency of a piece of triangles for a tick's steps."""
+        part, low = scene.team.blocks[piece][0], scene.team.blocks[piece][1]
+        high = end_of_piece(1, part, low, scene.solid) & SMALL
+        ti.atomic_max(scene.team.highest[tick, part], highest_frequency(scene.solid, scene.state, low, high))
 
     @ti.func
-    def plan_together(phase: ti.i32, due: ti.i32, tick: ti.i32, scene: ti.template()):
-        """Take pieces of a tick's plan, and of the record of the one before, until none is left.
-
-        Returns whether this thread did the last one.
-        """
-        solid, team = ti.static(scene.solid, scene.team)
-        last, blocks = False, team.blocks.shape[0]
-        pieces = ti.max(blocks, team.vertices.shape[0])
+    def plan_together(phase: ti.i32, due: ti.i32, scene: ti.template()):
+        """Take pieces of the first tick's plan until none is left; whether this thread did the last one."""
+        last, pieces = False, scene.team.blocks.shape[0]
         for n in range(pieces):
             piece = in_turn(n, pieces, scene)
             if take(piece, phase, scene):
-                if piece < team.vertices.shape[0] and tick > 0:
-                    record_piece(piece, tick - 1, scene)
-                if piece < blocks:
-                    part, low = team.blocks[piece][0], team.blocks[piece][1]
-                    high = end_of_piece(1, part, low, solid) & SMALL
-                    ti.atomic_max(team.highest[tick, part], highest_frequency(solid, scene.state, low, high))
-                last = give(team) == due
+                plan_piece(piece, 0, scene)
+                last = give(scene.team) == due
         return last
 
     @ti.func
@@ -114,8 +110,8 @@ def build_contact_phases(
         last = False
         for turn in range(team.blocks.shape[0]):
             piece = in_turn(turn, team.blocks.shape[0], scene)
-            if take(piece, phase, scene):
-                part, low = team.blocks[piece][0], team.blocks[piece][1]
+            part, low = team.blocks[piece][0], team.blocks[piece][1]
+            if team.steps[tick, part] > 0 and take(piece, phase, scene):
                 high = end_of_piece(1, part, low, solid) & SMALL
                 if steps_in(interval, intervals, team.steps[tick, part]) > 0:
                     for n in range(low, high):
@@ -138,34 +134,48 @@ def build_contact_phases(
         return last
 
     @ti.func
-    def search_together(phase: ti.i32, due: ti.i32, scene: ti.template()):
-        """Take pieces of the search at the end of a tick until none is left; whether this thread did the last one."""
-        team = ti.static(scene.team)
-        last, pieces = False, searching.pieces(scene.surface)
+    def search_together(phase: ti.i32, due: ti.i32, tick: ti.i32, scene: ti.template()):
+        """Take pieces of the search at the end of a tick, and of the plan of the next one, until none is left.
+
+        Returns whether this thread did the last one.
+        """
+        last, searched, blocks = False, searching.pieces(scene.surface), scene.team.blocks.shape[0]
+        planned = ti.select(tick + 1 < scene.team.highest.shape[0], blocks, 0)
+        pieces = ti.max(searched, blocks)
         for n in range(pieces):
             piece = in_turn(n, pieces, scene)
             if take(piece, phase, scene):
-                searching.search(scene.surface, scene.solid, scene.options, piece)
-                last = give(team) == due
+                if piece < searched:
+                    searching.search(scene.surface, scene.solid, scene.options, piece)
+                if piece < planned:
+                    plan_piece(piece, tick + 1, scene)
+                last = give(scene.team) == due
         return last
 
     @ti.func
     def advance_free(phase: ti.i32, tick: ti.i32, scene: ti.template()):
-        """Take parts that touch nothing through all of their tick, which others need not wait for."""
+        """Take parts that touch nothing through all of their tick, which others need not wait for.
+
+        Returns whether this thread did the last one.
+        """
         solid, state, drive, team = ti.static(scene.solid, scene.state, scene.drive, scene.team)
-        for turn in range(team.order.shape[0]):
-            piece = in_turn(turn, team.order.shape[0], scene)
+        last, parts = False, team.order.shape[0]
+        for turn in range(parts):
+            piece = in_turn(turn, parts, scene)
             if take(piece, phase, scene):
                 part = team.order[piece]
                 count = 0 - team.steps[tick, part]
                 if count > 0:
                     first, end = solid.starts[part], solid.starts[part + 1]
+                    if tick > 0:
+                        record(first[0], end[0], tick - 1, state, drive)
                     begin_tick(first[0], end[0], tick, TICK / count, solid, state, drive)
                     for step in range(count):
                         for n in range(first[1] & SMALL, end[1] & SMALL):
                             add_forces(solid, state, n)
                         move_vertices(first[0], end[0], tick, step, count, solid, state, drive, scene.pairs)
-                ti.atomic_add(team.claims[FREE], 1)
+                last = ti.atomic_add(team.claims[FREE], 1) + 1 == (tick + 1) * parts
+        return last
 
     @ti.func
     def record_together(phase: ti.i32, tick: ti.i32, scene: ti.template()):
@@ -174,7 +184,8 @@ def build_contact_phases(
         for n in range(pieces):
             piece = in_turn(n, pieces, scene)
             if take(piece, phase, scene):
-                record_piece(piece, tick, scene)
+                part, low = scene.team.vertices[piece][0], scene.team.vertices[piece][1]
+                record(low, end_of_piece(0, part, low, scene.solid), tick, scene.state, scene.drive)
 
     return SimpleNamespace(
         give=give,

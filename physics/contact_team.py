@@ -48,8 +48,8 @@ class Team(NamedTuple):
         claims: how many pieces are done by all threads, at ``FREE`` how many parts that touch nothing have ended their
             ticks, and from ``FLAGS`` on for each piece the latest phase in which it was taken, int32.
         highest: omega^2 of the parts in each tick [1/s^2], float32, shape [n, p].
-        steps: substeps of the parts in each tick, negative for those that touch nothing, and last the intervals of the
-            tick, int32, shape [n, p + 1].
+        steps: substeps of the parts in each tick, negative for those that touch nothing, then the intervals of the tick
+            and how many pieces of blocks have steps in them, int32, shape [n, p + 2].
     """
 
     blocks: Int32Array
@@ -95,5 +95,5 @@ def team_for(pieces: Pieces, solid: Solid, points: int, ticks: int) -> Team:
         *pieces,
         claims=np.zeros(FLAGS + most, np.int32),
         highest=np.zeros((ticks, parts), np.float32),
-        steps=np.zeros((ticks, parts + 1), np.int32),
+        steps=np.zeros((ticks, parts + 2), np.int32),
     )
