@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from physanimator.physics import contact_stepping
 from physanimator.physics.collision import Collider, Contact
 from physanimator.physics.contact_stepping import TouchingBodies
-from physanimator.physics.contact_surface import contact_surface, signed_distances
+from physanimator.physics.contact_surface import CONTACTS, contact_surface, signed_distances
 from physanimator.physics.contact_team import LARGE
 from physanimator.physics.elasticity import energy
 from physanimator.physics.errors import InvalidInputError
@@ -158,6 +158,36 @@ def test_free_blobs_keep_their_momentum_and_gain_no_energy(speed: float) -> None
     assert energies[-1] < 0.97 * energies[0]  # they met
     assert max(energies) <= 1.001 * energies[0]
     assert np.diff(energies).max() < 0.02 * energies[0]
+
+
+def test_what_jumps_inside_is_found_and_pushed_out_again() -> None:
+    """A point may get behind an edge at once, farther than its speed tells; from then on it is looked at there."""
+    left, right = disc(140, 256), disc(284, 256)
+    softest = Material(youngs_modulus=5.0)  # one step in a tick, so that contacts are looked for before they push
+    scene = Scene((Body(left, softest), Body(right, softest)), contact=Contact())
+    system = assemble(scene)
+    touching = TouchingBodies(scene, system, _solid(scene, system), Contact())
+    surface, spacing, side, first = touching._surface, 13.0, left.longest_side, len(left.vertices)
+
+    def depths() -> Array:
+        """Of the right disc's boundary in the left one [px], by the numbers of the surface's points."""
+        positions = side * (system.rest.positions + touching.state.displacement)
+        _, starts, ends = shapes(Motion(scene.bodies, positions[None], scene.frame_rate), 0)[0]
+        points = surface.points
+        return np.where(points >= first, -signed_distances(positions[points], starts, ends), 0.0)
+
+    touching.advance(0, 2)
+    jumped = touching.state.displacement.copy()
+    jumped[first:, 0] -= (4.0 + 1.3 * spacing) / side  # more than an edge beyond the gap
+    for tick in range(2, 6):
+        touching.state.displacement[:], touching.state.velocity[:] = jumped, 0.0
+        inside = np.flatnonzero(depths() > 0.1 * spacing)
+        assert depths().max() > spacing
+        touching.advance(tick, tick + 1)
+        listed = surface.contacts[: int(surface.memory[CONTACTS]), 0]
+        assert set(inside) <= set(listed)
+    touching.advance(6, 66)
+    assert depths().max() <= 0
 
 
 def test_a_curl_does_not_fold_into_itself() -> None:
