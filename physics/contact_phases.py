@@ -6,7 +6,7 @@
 from types import SimpleNamespace
 from typing import Any
 
-from .contact_team import FLAGS, FREE, LARGE
+from .contact_team import FLAGS, FREE, LARGE, LINE
 from .kernels import BLOCKS_AT_ONCE, SMALL, VERTICES_AT_ONCE
 from .stepping import TICK
 
@@ -41,7 +41,10 @@ def build_contact_phases(
     @ti.func
     def take(piece: ti.i32, phase: ti.i32, scene: ti.template()):
         """Whether nobody else has taken a piece in a phase; phases are counted from 1 and never fall."""
-        return ti.atomic_max(scene.team.claims[FLAGS + piece], phase) < phase
+        flag, free = FLAGS + LINE * piece, False
+        if scene.team.claims[flag] < phase:  # reading leaves the flag's cache line with those who look on
+            free = ti.atomic_max(scene.team.claims[flag], phase) < phase
+        return free
 
     @ti.func
     def give(team: ti.template()):

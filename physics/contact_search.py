@@ -117,7 +117,7 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
         ahead = 2.0 * memory[FASTEST] * time
         inner, outer = reaches(surface, options)
         inner = ti.max(inner, options.thickness + ahead)
-        # Found is what was in front of an edge when last looked at, wherever it is now, and what may get near meanwhile.
+        # Found is what was in front of an edge when last looked at, wherever it is now, and what may get near soon.
         outer = outer + ti.max(2.0 * memory[FASTEST] * ti.max(time, TICK), 2.0 * memory[WALKED])
         for n in range(low, high):
             surface.found[n] = 0

@@ -59,8 +59,8 @@ class TouchingBodies:
         added = np.zeros((len(still), 4), np.float32)
         added[:, :2] = still
         self._solid = solid._replace(vertices=np.concatenate([solid.vertices, added]))
-        self._threads = most_threads()
-        self._pieces = pieces_of(solid, self._threads)
+        self._pieces = pieces_of(solid, most_threads())
+        self._threads = min(most_threads(), len(self._pieces.blocks))  # of one piece, no two can work at once
         self.count = len(solid.vertices)
         self.state = State.at_rest(self._solid)
         if start is not None:

@@ -12,7 +12,7 @@ from .kernels import BLOCKS_AT_ONCE, VERTICES_AT_ONCE
 from .schedule import TRIANGLES_PER_THREAD
 from .solver_arrays import LANES, Solid
 
-__all__ = ["FLAGS", "FREE", "LARGE", "Pieces", "Team", "pieces_of", "team_for"]
+__all__ = ["FLAGS", "FREE", "LARGE", "LINE", "Pieces", "Team", "pieces_of", "team_for"]
 
 Float32Array = NDArray[np.float32]
 Int32Array = NDArray[np.int32]
@@ -20,8 +20,11 @@ Int32Array = NDArray[np.int32]
 LARGE = 2 * TRIANGLES_PER_THREAD // LANES
 """Blocks of triangles of a part that threads share even while it touches nothing."""
 
-FREE, FLAGS = 32, 64
-"""Where in ``Team.claims`` the second counter stands, and where the pieces begin: in cache lines of their own."""
+LINE = 16
+"""Numbers of ``Team.claims`` in a cache line, of which each piece has one to itself."""
+
+FREE, FLAGS = 2 * LINE, 4 * LINE
+"""Where in ``Team.claims`` the second counter stands, and where the pieces begin."""
 
 
 class Pieces(NamedTuple):
@@ -46,7 +49,7 @@ class Team(NamedTuple):
     Attributes:
         blocks, vertices, large, order: the pieces.
         claims: how many pieces are done by all threads, at ``FREE`` how many parts that touch nothing have ended their
-            ticks, and from ``FLAGS`` on for each piece the latest phase in which it was taken, int32.
+            ticks, and from ``FLAGS`` on, in a cache line for each piece, the latest phase in which it was taken, int32.
         highest: omega^2 of the parts in each tick [1/s^2], float32, shape [n, p].
         steps: substeps of the parts in each tick, negative for those that touch nothing, then the intervals of the tick
             and how many pieces of blocks have steps in them, int32, shape [n, p + 2].
@@ -93,7 +96,7 @@ def team_for(pieces: Pieces, solid: Solid, points: int, ticks: int) -> Team:
     most = max(len(pieces.blocks), len(pieces.vertices), parts, -(-points // POINTS_AT_ONCE))
     return Team(
         *pieces,
-        claims=np.zeros(FLAGS + most, np.int32),
+        claims=np.zeros(FLAGS + LINE * most, np.int32),
         highest=np.zeros((ticks, parts), np.float32),
         steps=np.zeros((ticks, parts + 2), np.int32),
     )
