@@ -50,7 +50,7 @@ def build_contact_kernel(ti: Any) -> Any:
     phases_of_tick = build_contact_phases(ti, functions, contact, searching)
     put_apart, substeps_at = contact.put_apart, functions.substeps_at
     give, wait_for, is_large = phases_of_tick.give, phases_of_tick.wait_for, phases_of_tick.is_large
-    plan_together, advance_free = phases_of_tick.plan_together, phases_of_tick.advance_free
+    advance_free = phases_of_tick.advance_free
     step_together, move_large = phases_of_tick.step_together, phases_of_tick.move_large
     search_together, record_together = phases_of_tick.search_together, phases_of_tick.record_together
 
@@ -75,39 +75,45 @@ def build_contact_kernel(ti: Any) -> Any:
         surface.memory[LEFT] = ti.max(surface.memory[GOOD_FOR], _LEAST_INTERVALS * TICK / ti.max(intervals, 1))
 
     @ti.func
-    def begin_launch(scene: ti.template()):
-        """Find the first contacts of all, and settle the first tick."""
-        if scene.surface.memory[CONTACTS] < 0.0:
-            searching.find_contacts(scene.surface, scene.solid, scene.state, scene.options, TICK)
-        settle_tick(0, scene)
+    def wait_for_free(tick: ti.i32, scene: ti.template()):
+        """Wait for the parts that touch nothing."""
+        wait_for(scene.team.claims, FREE, (tick + 1) * scene.team.order.shape[0])
 
     @ti.func
     def see_to_contacts(tick: ti.i32, interval: ti.i32, intervals: ti.i32, scene: ti.template()):
         """Put apart what an interval's steps brought too near, and look for contacts where it is due."""
         solid, state, surface, options = ti.static(scene.solid, scene.state, scene.surface, scene.options)
-        team = ti.static(scene.team)
-        dt, last = TICK / ti.max(intervals, 1), interval + 1 >= intervals
+        dt = TICK / intervals
         if intervals > 1:
             put_apart(surface, solid, state, options, interval, intervals, 1)
         surface.memory[LEFT] = surface.memory[LEFT] - dt
         # The search at the end of the tick is soon enough for a list that is good until the last interval.
-        due = interval + 2 < intervals and surface.memory[LEFT] < 0.5 * dt
-        if last or due:
-            wait_for(team.claims, FREE, (tick + 1) * team.order.shape[0])
-        if last:
-            for part in range(surface.activity.shape[0]):
-                surface.activity[part][TOUCHING] = 0
-            searching.begin_search(surface, solid, state, options, TICK)
-        elif due:
+        if interval + 2 < intervals and surface.memory[LEFT] < 0.5 * dt:
+            wait_for_free(tick, scene)
             searching.find_contacts(surface, solid, state, options, TICK - (interval + 1) * dt)
             surface.memory[LEFT] = ti.max(surface.memory[GOOD_FOR], _LEAST_INTERVALS * dt)
 
     @ti.func
+    def begin_end(tick: ti.i32, scene: ti.template()):
+        """Begin the search at the end of a tick."""
+        wait_for_free(tick, scene)
+        for part in range(scene.surface.activity.shape[0]):
+            scene.surface.activity[part][TOUCHING] = 0
+        searching.begin_search(scene.surface, scene.solid, scene.state, scene.options, TICK)
+
+    @ti.func
     def end_tick(tick: ti.i32, scene: ti.template()):
-        """Put apart what is too near at the end of a tick, and settle the next one, if there is one."""
-        searching.end_search(scene.surface, scene.options)
-        # A frame may follow, in which nothing shall be inside anything.
-        put_apart(scene.surface, scene.solid, scene.state, scene.options, 0, 1, _LAST_PASSES)
+        """Put apart what is too near at the end of a tick, and settle the next one, if there is one.
+
+        At the end of tick -1, before the first one of all, contacts are found.
+        """
+        surface, solid, state, options = ti.static(scene.surface, scene.solid, scene.state, scene.options)
+        if tick >= 0:
+            searching.end_search(surface, options)
+            # A frame may follow, in which nothing shall be inside anything.
+            put_apart(surface, solid, state, options, 0, 1, _LAST_PASSES)
+        elif surface.memory[CONTACTS] < 0.0:
+            searching.find_contacts(surface, solid, state, options, TICK)
         if tick + 1 < scene.team.highest.shape[0]:
             settle_tick(tick + 1, scene)
 
@@ -119,35 +125,32 @@ def build_contact_kernel(ti: Any) -> Any:
         """
         team = ti.static(scene.team)
         blocks, large = team.blocks.shape[0], team.large.shape[0]
-        phase, due = 1, blocks
-        if plan_together(phase, due, scene):
-            begin_launch(scene)
-            give(team)
-        due += 1
-        wait_for(team.claims, 0, due)
-        phase += 1
-        for tick in range(team.highest.shape[0]):
-            intervals, busy = team.steps[tick, team.order.shape[0]], team.steps[tick, team.order.shape[0] + 1]
-            if advance_free(phase, tick, scene) and intervals == 0:
-                see_to_contacts(tick, 0, 0, scene)
-                give(team)
-            phase += 1
-            for interval in range(intervals):
-                due += busy
-                last = step_together(phase, due, tick, interval, intervals, scene)
-                if large > 0:
-                    wait_for(team.claims, 0, due)
-                    due += large
-                    last = move_large(phase + 1, due, tick, interval, intervals, scene)
-                if last:
-                    see_to_contacts(tick, interval, intervals, scene)
+        phase, due, parts = 1, 0, team.order.shape[0]
+        for tick in range(-1, team.highest.shape[0]):  # at first only the plan of tick 0
+            if tick >= 0:
+                intervals, busy = team.steps[tick, parts], team.steps[tick, parts + 1]
+                if advance_free(phase, tick, scene) and intervals == 0:
+                    begin_end(tick, scene)
                     give(team)
-                due += 1
-                wait_for(team.claims, 0, due)
-                phase += 2
-            if intervals == 0:
-                due += 1
-                wait_for(team.claims, 0, due)
+                phase += 1
+                for interval in range(intervals):
+                    due += busy
+                    last = step_together(phase, due, tick, interval, intervals, scene)
+                    if large > 0:
+                        wait_for(team.claims, 0, due)
+                        due += large
+                        last = move_large(phase + 1, due, tick, interval, intervals, scene)
+                    if last:
+                        see_to_contacts(tick, interval, intervals, scene)
+                        if interval + 1 == intervals:
+                            begin_end(tick, scene)
+                        give(team)
+                    due += 1
+                    wait_for(team.claims, 0, due)
+                    phase += 2
+                if intervals == 0:
+                    due += 1
+                    wait_for(team.claims, 0, due)
             due += ti.max(blocks, searching.pieces(scene.surface))
             if search_together(phase, due, tick, scene):
                 end_tick(tick, scene)

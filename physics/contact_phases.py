@@ -94,17 +94,6 @@ def build_contact_phases(
         ti.atomic_max(scene.team.highest[tick, part], highest_frequency(scene.solid, scene.state, low, high))
 
     @ti.func
-    def plan_together(phase: ti.i32, due: ti.i32, scene: ti.template()):
-        """Take pieces of the first tick's plan until none is left; whether this thread did the last one."""
-        last, pieces = False, scene.team.blocks.shape[0]
-        for n in range(pieces):
-            piece = in_turn(n, pieces, scene)
-            if take(piece, phase, scene):
-                plan_piece(piece, 0, scene)
-                last = give(scene.team) == due
-        return last
-
-    @ti.func
     def step_together(
         phase: ti.i32, due: ti.i32, tick: ti.i32, interval: ti.i32, intervals: ti.i32, scene: ti.template()
     ):
@@ -142,9 +131,12 @@ def build_contact_phases(
 
         Returns whether this thread did the last one.
         """
-        last, searched, blocks = False, searching.pieces(scene.surface), scene.team.blocks.shape[0]
-        planned = ti.select(tick + 1 < scene.team.highest.shape[0], blocks, 0)
-        pieces = ti.max(searched, blocks)
+        last, blocks, pieces = False, scene.team.blocks.shape[0], searching.pieces(scene.surface)
+        searched, planned = (
+            ti.select(tick >= 0, pieces, 0),
+            ti.select(tick + 1 < scene.team.highest.shape[0], blocks, 0),
+        )
+        pieces = ti.max(pieces, blocks)
         for n in range(pieces):
             piece = in_turn(n, pieces, scene)
             if take(piece, phase, scene):
@@ -194,7 +186,6 @@ def build_contact_phases(
         give=give,
         wait_for=wait_for,
         is_large=is_large,
-        plan_together=plan_together,
         step_together=step_together,
         move_large=move_large,
         search_together=search_together,
