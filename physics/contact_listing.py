@@ -174,10 +174,11 @@ def build_contact_listing(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
                     begin, end = 0, ti.max(k + 3 - buckets, 0)
                 for s in range(heads[begin], heads[end]):
                     e = surface.order[s][0]
-                    candidates[ti.min(count, room - 1)] = e
-                    far, body = reach + surface.middles[e][2], surface.middles[e][3]
-                    near = (p - middle(surface, e)).norm_sqr() < far * far and body != other_than and count < room
-                    count = count + ti.cast(near, ti.i32)
+                    if count < room:  # what is listed already stays where there is no room
+                        candidates[count] = e
+                        far, body = reach + surface.middles[e][2], surface.middles[e][3]
+                        near = (p - middle(surface, e)).norm_sqr() < far * far and body != other_than
+                        count = count + ti.cast(near, ti.i32)
             nearest_square, kept = 1e6, first
             for c in range(first, count):
                 e = candidates[c]
