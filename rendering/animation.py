@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError, require
 from ..physics.motion import Motion
 from ..physics.scene import Scene
+from .drawing_checks import check_drawing, height_at
 from .text_files import check_text_output, write_text
 from .video import check_output, write_animation
 
@@ -76,9 +76,7 @@ class Animation:
         Raises:
             InvalidInputError: in-betweens and transparency are asked for together.
         """
-        require("every", every, every >= 1, "at least 1 frame")
-        if transparent and every > 1:
-            raise InvalidInputError("transparent frames must be drawn one by one. Got: in-betweens as well")
+        check_drawing(transparent=transparent, every=every)
         pictures: Iterable[Image]
         if every > 1:
             pictures = self._with_in_betweens(every)
@@ -152,6 +150,7 @@ class Animation:
             width: width of the written frames [px]; that of the illustration when None.
         """
         if width is not None:
+            height_at(self.image, width)
             pictures = (_resized(picture, width) for picture in pictures)
         drawing = sum(self.seconds.values())
         start = time.perf_counter()
@@ -167,7 +166,7 @@ class Animation:
 
     def height_at(self, width: int) -> int:
         """Height of written frames of a width [px]."""
-        return _height_at(self.image, width)
+        return height_at(self.image, width)
 
     def save_motion(self, path: StrPath) -> None:
         """Write every vertex of every frame as JSON; see :func:`~physanimator.physics.export.motion_to_dict`.
@@ -230,14 +229,10 @@ class Animation:
             yield picture
 
 
-def _height_at(picture: Image, width: int) -> int:
-    return max(1, round(picture.shape[0] * width / picture.shape[1]))
-
-
 def _resized(picture: Image, width: int) -> Image:
     import cv2
 
-    height = _height_at(picture, width)
+    height = height_at(picture, width)
     finer = width > picture.shape[1]
     return cv2.resize(picture, (width, height), interpolation=cv2.INTER_CUBIC if finer else cv2.INTER_AREA)
 
@@ -251,5 +246,7 @@ def timed(seconds: dict[str, float], stage: str) -> Iterator[None]:
         stage: its name.
     """
     start = time.perf_counter()
-    yield
-    seconds[stage] = seconds.get(stage, 0.0) + time.perf_counter() - start
+    try:
+        yield
+    finally:
+        seconds[stage] = seconds.get(stage, 0.0) + time.perf_counter() - start

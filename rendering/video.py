@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import itertools
-import os
-import re
-import shutil
-import tempfile
+import math
+import numbers
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -18,14 +16,25 @@ from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError, require
 from .atomic import replacing
-from .images import save_image, to_uint8
+from .frame_folder import check_frame_folder, write_frame_folder
+from .images import to_uint8
+from .places import StrPath, check_file_place, is_folder_name, place_of, printable, suffix_of
 
 if TYPE_CHECKING:
     import av
 
-__all__ = ["FORMATS", "VideoFormat", "check_output", "exact_frame_rate", "write_animation"]
+__all__ = [
+    "FORMATS",
+    "FRAME_RATES",
+    "VideoFormat",
+    "check_frame_rate",
+    "check_output",
+    "exact_frame_rate",
+    "write_animation",
+]
 
-StrPath = str | os.PathLike[str]
+FRAME_RATES = (0.01, 240.0)
+"""The slowest and the fastest clip that can be written [frames/s]; every format holds these."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +44,7 @@ class VideoFormat:
     Attributes:
         container: FFmpeg's name of the file format.
         codec: FFmpeg's name of the encoder.
+        longest_side: largest width and height [px].
         pixels: pixel format of opaque frames.
         alpha_pixels: pixel format of frames with alpha; None where the format has no alpha.
         options: of the encoder.
@@ -44,6 +54,7 @@ class VideoFormat:
 
     container: str
     codec: str
+    longest_side: int
     pixels: str
     alpha_pixels: str | None = None
     options: dict[str, str] = field(default_factory=dict)
@@ -55,6 +66,7 @@ FORMATS = {
     ".mp4": VideoFormat(
         "mp4",
         "libx264",
+        16_384,
         "yuv420p",
         options={"crf": "17", "preset": "medium", "tune": "animation"},
         # The index stands in front, so that a browser starts to play before it has everything.
@@ -63,57 +75,80 @@ FORMATS = {
     ".webm": VideoFormat(
         "webm",
         "libvpx-vp9",
+        65_535,
         "yuv420p",
         "yuva420p",
         options={"crf": "22", "b": "0", "cpu-used": "3", "row-mt": "1"},
         # Alternate reference frames and alpha exclude each other in libvpx.
         alpha_options={"auto-alt-ref": "0"},
     ),
-    ".gif": VideoFormat("gif", "gif", "pal8", "pal8", container_options={"loop": "0"}),
+    ".gif": VideoFormat("gif", "gif", 65_535, "pal8", "pal8", container_options={"loop": "0"}),
     ".webp": VideoFormat(
-        "webp", "libwebp_anim", "bgra", "bgra", options={"quality": "90"}, container_options={"loop": "0"}
+        "webp", "libwebp_anim", 16_383, "bgra", "bgra", options={"quality": "90"}, container_options={"loop": "0"}
     ),
-    ".apng": VideoFormat("apng", "apng", "rgb24", "rgba", container_options={"plays": "0"}),
+    ".apng": VideoFormat("apng", "apng", 65_535, "rgb24", "rgba", container_options={"plays": "0"}),
 }
 
-_FRAME_NAME = "frame_{:04d}.png"
-_FRAME_PATTERN = re.compile(r"frame_\d{4,}\.png")
 _BT709 = 1
 _LIMITED_RANGE = 1
 
 
-def check_output(path: StrPath, *, alpha: bool = False) -> None:
+def check_output(path: StrPath, *, alpha: bool = False, size: tuple[int, int] | None = None) -> Path:
     """Refuse a place that :func:`write_animation` could not write to, before any long work.
 
     Args:
         path: a file ending in one of ``FORMATS``, or a folder ending in ``/``.
         alpha: whether the frames will have an alpha channel.
+        size: width and height of the frames [px], where they are known.
+
+    Returns:
+        Where the file or folder really comes to lie.
 
     Raises:
-        InvalidInputError: the ending is unknown, the format has no alpha, or the folder is missing or read-only.
+        InvalidInputError: the ending is unknown, the format has no alpha or holds no frames of that size, nothing can
+            be written there, or the folder holds frames that :func:`write_animation` did not write.
     """
-    target = Path(path)
-    if not _is_folder(path):
-        kinds = ", ".join(FORMATS)
-        if target.is_dir():
-            raise InvalidInputError(f"output must end in '/' to fill the folder with numbered pictures. Got: {path}")
-        if target.suffix.lower() not in FORMATS:
-            raise InvalidInputError(f"output must end in {kinds}, or in '/' for a folder of pictures. Got: {path}")
-        chosen = FORMATS[target.suffix.lower()]
-        if alpha and chosen.alpha_pixels is None:
-            able = ", ".join(suffix for suffix, each in FORMATS.items() if each.alpha_pixels)
-            raise InvalidInputError(f"output with transparency must end in {able}, or in '/'. Got: {path}")
-        _check_encoder(chosen)
-    elif target.exists() and not target.is_dir():
-        raise InvalidInputError(f"output {path} must be a folder. Got: a file")
-    _check_writable(target if target.is_dir() else target.parent, path)
+    if is_folder_name(path):
+        return check_frame_folder(path)
+    suffix, kinds = suffix_of(path), ", ".join(FORMATS)
+    if place_of(path).is_dir():
+        raise InvalidInputError(
+            f"output must end in '/' to fill the folder with numbered pictures. Got: {printable(path)}"
+        )
+    if suffix not in FORMATS:
+        raise InvalidInputError(
+            f"output must end in {kinds}, or in '/' for a folder of pictures. Got: {printable(path)}"
+        )
+    chosen = FORMATS[suffix]
+    if alpha and chosen.alpha_pixels is None:
+        able = ", ".join(suffix for suffix, each in FORMATS.items() if each.alpha_pixels)
+        raise InvalidInputError(f"output with transparency must end in {able}, or in '/'. Got: {printable(path)}")
+    if size is not None and max(size) > chosen.longest_side:
+        raise InvalidInputError(
+            f"frames in {suffix} must be at most {chosen.longest_side} px on a side. Got: {size[0]} x {size[1]} px"
+        )
+    _check_encoder(chosen)
+    return check_file_place(path)
+
+
+def check_frame_rate(frame_rate: float | Fraction) -> None:
+    """Refuse a frame rate that the formats cannot hold, before any long work.
+
+    Raises:
+        InvalidInputError: it is no number from ``FRAME_RATES``.
+    """
+    slowest, fastest = FRAME_RATES
+    number = isinstance(frame_rate, numbers.Real) and not isinstance(frame_rate, bool | np.bool_)
+    held = number and math.isfinite(frame_rate) and slowest <= frame_rate <= fastest
+    require("frame_rate", frame_rate, held, f"a number from {slowest:g} to {fastest:g} frames a second")
 
 
 def write_animation(frames: Iterable[NDArray[Any]], path: StrPath, frame_rate: float | Fraction) -> None:
     """Write frames as they come; the file or folder appears only when it is complete.
 
-    A file of the same name is replaced at the end; in a folder the numbered frames of an earlier clip are. A video
-    of odd width or height gets its last column or row twice, because H.264 needs even sizes.
+    A file of the same name is replaced at the end; in a folder the numbered frames of an earlier clip are, if this
+    function wrote them and nobody has changed them since. A video of odd width or height gets its last column or row
+    twice, because H.264 needs even sizes.
 
     Args:
         frames: RGB, RGBA or grey pictures of one size, uint8 or 0..1 float, shape [h, w, 3], [h, w, 4] or [h, w].
@@ -124,19 +159,18 @@ def write_animation(frames: Iterable[NDArray[Any]], path: StrPath, frame_rate: f
     Raises:
         InvalidInputError: see :func:`check_output`; or there is no frame, or they differ in size.
     """
-    require("frame_rate", frame_rate, 0 < frame_rate <= 240, "above 0 and at most 240 frames a second")
+    check_frame_rate(frame_rate)
     iterator = _uniform(frames)
     first = next(iterator, None)
     if first is None:
         raise InvalidInputError("an animation must have at least one frame. Got: none")
-    check_output(path, alpha=first.shape[2] == 4)
+    check_output(path, alpha=first.shape[2] == 4, size=(first.shape[1], first.shape[0]))
     every = itertools.chain([first], iterator)
-    if _is_folder(path):
-        _write_folder(every, Path(path))
+    if is_folder_name(path):
+        write_frame_folder(every, path)
         return
-    target = Path(path)
-    with replacing(target) as temporary:
-        _encode(every, temporary, FORMATS[target.suffix.lower()], first.shape, exact_frame_rate(frame_rate))
+    with replacing(Path(path)) as temporary:
+        _encode(every, temporary, FORMATS[suffix_of(path)], first.shape, exact_frame_rate(frame_rate))
 
 
 def exact_frame_rate(frame_rate: float | Fraction) -> Fraction:
@@ -146,15 +180,11 @@ def exact_frame_rate(frame_rate: float | Fraction) -> Fraction:
         frame_rate: frames a second.
     """
     if isinstance(frame_rate, Fraction):
-        return frame_rate
+        return frame_rate.limit_denominator(100_000)
     for nominal in (24, 30, 48, 60, 120):
         if abs(frame_rate - nominal / 1.001) < 0.005:
             return Fraction(nominal * 1000, 1001)
-    return Fraction(frame_rate).limit_denominator(1000)
-
-
-def _is_folder(path: StrPath) -> bool:
-    return os.fspath(path).endswith(("/", os.sep))
+    return Fraction(float(frame_rate)).limit_denominator(1000)
 
 
 def _check_encoder(chosen: VideoFormat) -> None:
@@ -167,17 +197,6 @@ def _check_encoder(chosen: VideoFormat) -> None:
             f"output needs FFmpeg's encoder {chosen.codec}, which the installed PyAV lacks;"
             " install PyAV's own wheel: pip install --force-reinstall av"
         ) from None
-
-
-def _check_writable(folder: Path, path: StrPath) -> None:
-    if not folder.is_dir():
-        raise InvalidInputError(f"the folder for {path} must exist. Got: no folder {folder}")
-    try:
-        # Asking the system for permissions is not reliable on Windows and network drives; trying is.
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        raise InvalidInputError(f"the folder for {path} must be writable. Got: {error.strerror}") from None
 
 
 def _uniform(frames: Iterable[NDArray[Any]]) -> Iterator[NDArray[np.uint8]]:
@@ -195,26 +214,20 @@ def _uniform(frames: Iterable[NDArray[Any]]) -> Iterator[NDArray[np.uint8]]:
         yield np.ascontiguousarray(pixels)
 
 
-def _write_folder(frames: Iterable[NDArray[np.uint8]], folder: Path) -> None:
-    created = not folder.exists()
-    staging = folder.with_name(f".{folder.name}.partial") if created else folder / ".partial"
-    shutil.rmtree(staging, ignore_errors=True)
-    staging.mkdir()
-    try:
-        for index, frame in enumerate(frames):
-            save_image(staging / _FRAME_NAME.format(index), frame)
-        if created:
-            staging.rename(folder)
-            return
-        for earlier in [entry for entry in folder.iterdir() if _FRAME_PATTERN.fullmatch(entry.name)]:
-            earlier.unlink()
-        for picture in sorted(staging.iterdir()):
-            picture.rename(folder / picture.name)
-    finally:
-        shutil.rmtree(staging, ignore_errors=True)
-
-
 def _encode(
+    frames: Iterable[NDArray[np.uint8]], path: Path, chosen: VideoFormat, shape: tuple[int, ...], rate: Fraction
+) -> None:
+    import av
+
+    try:
+        _mux(frames, path, chosen, shape, rate)
+    except av.FFmpegError as error:
+        if isinstance(error, OSError):
+            raise
+        raise InvalidInputError(f"frames must be such that FFmpeg's {chosen.codec} takes them. Got: {error}") from error
+
+
+def _mux(
     frames: Iterable[NDArray[np.uint8]], path: Path, chosen: VideoFormat, shape: tuple[int, ...], rate: Fraction
 ) -> None:
     import av
