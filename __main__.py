@@ -114,8 +114,8 @@ def _demo(options: argparse.Namespace) -> None:
 
 
 def _bundled() -> list[Path]:
-    """Everything that belongs to the bundled example."""
-    return sorted(EXAMPLE.iterdir())
+    """What is read of the bundled example."""
+    return sorted(path for path in EXAMPLE.iterdir() if path.suffix in (".json", ".png"))
 
 
 def _example() -> tuple[Any, list[Any], Any]:
@@ -141,8 +141,11 @@ def _figure(options: argparse.Namespace) -> None:
     check_apart(options, bundled=_bundled())
     check_image_output(options.output)
     with ExitStack() as bars:
-        stages = None if options.quiet else _progress_bars(bars)
-        progress = None if stages is None else lambda done, total: stages("simulate", done, total)
+        stages = _progress(options, bars)
+
+        def progress(done: int, total: int) -> None:
+            stages("simulate", done, total)
+
         if options.name == "stiffness":
             figure = stiffness_figure(progress=progress)
         elif options.name == "collision":
@@ -162,19 +165,20 @@ def _figure(options: argparse.Namespace) -> None:
 
 
 def _animate(options: argparse.Namespace) -> None:
-    from .rendering.command_inputs import check_inputs, read_inputs
+    from .rendering.command_inputs import check_inputs, check_taken, read_inputs
     from .rendering.command_outputs import check_outputs, check_sizes
 
     check_inputs(options)
     check_outputs(options)
     image, inputs = read_inputs(options)
+    check_taken(options, image)
     check_sizes(options, image)
     _run(options, image, **inputs)
 
 
 def _measure(options: argparse.Namespace) -> None:
     from .pipeline import animate
-    from .rendering.command_inputs import check_inputs, read_inputs
+    from .rendering.command_inputs import check_inputs, check_taken, read_inputs
     from .rendering.command_measures import check_measures, measured, table
     from .rendering.command_messages import show
     from .rendering.images import load_image
@@ -182,10 +186,11 @@ def _measure(options: argparse.Namespace) -> None:
     check_inputs(options)
     check_measures(options)
     image, inputs = read_inputs(options)
+    check_taken(options, image)
     plate = load_image(options.plate) if options.plate else None
     timing = {"frames": options.frames, "loop": options.loop, "skip": options.skip, "frame_rate": options.fps}
     with ExitStack() as bars:
-        progress = None if options.quiet else _progress_bars(bars)
+        progress = _progress(options, bars)
         animation = animate(image, plate=plate, progress=progress, **timing, **inputs)
         found = measured(options, animation, progress)
     show(table(found, as_json=options.json))
@@ -201,7 +206,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
 
     plate = load_image(options.plate) if options.plate else None
     with ExitStack() as bars:
-        progress = None if options.quiet else _progress_bars(bars)
+        progress = _progress(options, bars)
         animation = animate(
             image,
             frames=options.frames,
@@ -219,6 +224,20 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
         report(animation)
     if not options.quiet:
         say(f"{options.output}: {len(animation)} frames at {animation.motion.frame_rate:g} frames a second")
+
+
+def _progress(options: argparse.Namespace, stack: ExitStack) -> StageProgress:
+    """What is called with every step: it draws bars, unless the user wants none, and hears signals."""
+    from .rendering.ending import hear_signals
+
+    bars = None if options.quiet else _progress_bars(stack)
+
+    def advance(stage: str, done: int, total: int) -> None:
+        hear_signals()
+        if bars is not None:
+            bars(stage, done, total)
+
+    return advance
 
 
 def _progress_bars(stack: ExitStack) -> StageProgress | None:

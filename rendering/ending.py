@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-__all__ = ["Ended", "ending_signals", "ignore_signals", "uninterrupted"]
+__all__ = ["Ended", "ending_signals", "hear_signals", "ignore_signals", "uninterrupted"]
 
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")  # the last one is Ctrl+Break of Windows
 _REPEATED = 1.0  # seconds: some programs send a signal to the process and once more to its group
@@ -39,6 +39,7 @@ class _State:
         held: how many blocks that must not be interrupted it is in.
         waiting: the signal that came meanwhile.
         raised: when the last one was raised [s].
+        asked: the signal that was raised.
         ignoring: whether the process is ending anyway.
     """
 
@@ -46,6 +47,7 @@ class _State:
         self.held = 0
         self.waiting: int | None = None
         self.raised = -_REPEATED
+        self.asked: int | None = None
         self.ignoring = False
 
 
@@ -63,7 +65,7 @@ def ending_signals() -> Iterator[None]:
         yield
         return
     earlier = {}
-    _state.ignoring = False
+    _state.ignoring, _state.asked, _state.raised = False, None, -_REPEATED
     try:
         for number in (getattr(signal, name) for name in _NAMES if hasattr(signal, name)):
             if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
@@ -73,12 +75,18 @@ def ending_signals() -> Iterator[None]:
         ignore_signals()
         for number, handler in earlier.items():
             signal.signal(number, handler)
-        _state.waiting, _state.ignoring = None, False
+        _state.waiting, _state.asked, _state.ignoring = None, None, False
 
 
 def ignore_signals() -> None:
     """The process is ending: nothing that arrives until the end of :func:`ending_signals` shall stop it from that."""
     _state.ignoring = True
+
+
+def hear_signals() -> None:
+    """Raise again what was raised and swallowed, as exceptions in finalizers and callbacks are."""
+    if _state.asked is not None and threading.current_thread() is threading.main_thread():
+        raise Ended(_state.asked)
 
 
 @contextmanager
@@ -103,5 +111,5 @@ def _arrived(number: int, _: FrameType | None) -> None:
     if _state.held:
         _state.waiting = number
         return
-    _state.raised = time.monotonic()
+    _state.raised, _state.asked = time.monotonic(), number
     raise Ended(number)
