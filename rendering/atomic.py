@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ..physics.errors import InvalidInputError
 from .ending import uninterrupted
-from .places import check_replaceable, printable
+from .places import StrPath, check_replaceable, printable
 from .unfinished import made_beside
 
 __all__ = ["naming_place", "replacing"]
@@ -20,7 +20,7 @@ _OF_THE_DISK = {getattr(errno, name, None) for name in ("ENOSPC", "EDQUOT", "EFB
 
 
 @contextmanager
-def replacing(path: Path) -> Iterator[Path]:
+def replacing(path: StrPath) -> Iterator[Path]:
     """An empty temporary file in the same folder that becomes ``path`` when the block ends without an error.
 
     An interrupted or failed block leaves an earlier file at ``path`` as it was, and nothing half done beside it. Where
@@ -53,7 +53,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 @contextmanager
-def naming_place(path: Path) -> Iterator[None]:
+def naming_place(path: StrPath) -> Iterator[None]:
     """Let errors of the disk name the result, not the file under work."""
     try:
         yield

@@ -72,7 +72,7 @@ def check_apart(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) ->
 def _replaced(path: str) -> Iterator[Path]:
     """What is there and would go."""
     place = place_of(path)
-    if not (is_folder_name(path) and place.is_dir()):
+    if not (is_folder_name(path) and os.path.isdir(place)):
         yield place
         return
     yield from frames_in(place)

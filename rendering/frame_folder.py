@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -37,7 +37,7 @@ def check_frame_folder(path: StrPath) -> Path:
         InvalidInputError: see above.
     """
     place = check_folder_place(path)
-    if place.is_dir():
+    if os.path.isdir(place):
         _record_of(place, path)
     return place
 
@@ -59,9 +59,9 @@ def write_frame_folder(frames: Iterable[NDArray[np.uint8]], path: StrPath) -> No
         OSError: the disk is full or the like; it names ``path``.
     """
     place = place_of(path)
-    inside = place.is_dir()
+    inside = os.path.isdir(place)
     name, parent = (".frames", place) if inside else (place.name, place.parent)
-    with naming_place(Path(path)), made_beside(name, parent, is_folder=True) as staging:
+    with naming_place(path), made_beside(name, parent, is_folder=True) as staging:
         record = _written(frames, staging)
         with uninterrupted():
             try:
@@ -138,10 +138,14 @@ def _exchange(folder: Path, staging: Path, record: Record, path: StrPath) -> Non
             move(staging / each.name, folder / each.name)
         write_record(folder, record)
     except BaseException:
-        for source, target in reversed(moved):
-            target.rename(source)
-        if earlier:
-            write_record(folder, earlier)
-        else:
-            (folder / RECORD).unlink()
+        _put_back(folder, moved, earlier)
         raise
+
+
+def _put_back(folder: Path, moved: Sequence[tuple[Path, Path]], earlier: Record) -> None:
+    for source, target in reversed(moved):
+        target.rename(source)
+    if earlier:
+        write_record(folder, earlier)
+    else:
+        (folder / RECORD).unlink()

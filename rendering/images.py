@@ -103,7 +103,7 @@ def save_image(path: StrPath, image: NDArray[Any]) -> None:
         raise InvalidInputError(f"a picture must have shape [h, w], [h, w, 3] or [h, w, 4]. Got: {pixels.shape}")
     picture = Image.fromarray(pixels)
     kind = check_picture_format(path, mode=picture.mode, size=picture.size)
-    with replacing(Path(path)) as temporary:
+    with replacing(path) as temporary:
         picture.save(temporary, format=kind, compress_level=_COMPRESSION)
 
 

@@ -55,7 +55,7 @@ def place_of(path: StrPath) -> Path:
     """
     given = _spelled(path)
     place = Path(os.path.realpath(given))
-    if place.is_symlink():
+    if os.path.islink(place):
         raise InvalidInputError(f"output {printable(given)} must lead to a file. Got: a link that leads in a circle")
     return place
 
@@ -193,8 +193,10 @@ def _check_replaceable(place: Path, status: os.stat_result, given: StrPath) -> N
 
 
 def _check_folder(folder: Path, given: StrPath) -> None:
-    if not folder.is_dir():
-        there = f"{printable(folder)}, which is no folder" if folder.exists() else f"no folder {printable(folder)}"
+    if not os.path.isdir(folder):
+        there = (
+            f"{printable(folder)}, which is no folder" if os.path.exists(folder) else f"no folder {printable(folder)}"
+        )
         raise InvalidInputError(f"the folder for {printable(given)} must exist. Got: {there}")
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from ..physics.errors import InvalidInputError
 from .atomic import replacing
 from .places import StrPath, check_file_place, printable, suffix_of
@@ -38,5 +36,5 @@ def write_text(path: StrPath, text: str) -> None:
         InvalidInputError: the file cannot be replaced.
         OSError: the disk is full.
     """
-    with replacing(Path(path)) as temporary:
+    with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")

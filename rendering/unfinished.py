@@ -53,7 +53,7 @@ def remove_unfinished() -> None:
 
 def _remove(made: Path) -> None:
     _unfinished.discard(made)
-    if made.is_dir() and not made.is_symlink():
+    if os.path.isdir(made) and not os.path.islink(made):
         shutil.rmtree(made, ignore_errors=True)
     else:
         with suppress(OSError):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import numbers
+import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -111,7 +112,7 @@ def check_output(path: StrPath, *, alpha: bool = False, size: tuple[int, int] | 
     if is_folder_name(path):
         return check_frame_folder(path)
     suffix, kinds = suffix_of(path), ", ".join(FORMATS)
-    if place_of(path).is_dir():
+    if os.path.isdir(place_of(path)):
         raise InvalidInputError(
             f"output must end in '/' to fill the folder with numbered pictures. Got: {printable(path)}"
         )
@@ -169,7 +170,7 @@ def write_animation(frames: Iterable[NDArray[Any]], path: StrPath, frame_rate: f
     if is_folder_name(path):
         write_frame_folder(every, path)
         return
-    with replacing(Path(path)) as temporary:
+    with replacing(path) as temporary:
         _encode(every, temporary, FORMATS[suffix_of(path)], first.shape, exact_frame_rate(frame_rate))
 
 
