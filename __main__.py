@@ -34,23 +34,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
         The exit status: 0, 1 when the disk is full or the like, 2 for bad input, 128 and the number of the signal that
         ended it, which is 130 for Ctrl+C and 141 where nobody reads what is printed.
     """
-    from .rendering.command_messages import printable_streams
-    from .rendering.ending import ending_signals
+    from .rendering.command_messages import printable_streams, warn
+    from .rendering.ending import ending_signals, ignore_signals
     from .rendering.unfinished import remove_unfinished
 
     with printable_streams(), ending_signals():
-        options = _parser().parse_args(arguments)
         try:
-            return _status(options)
+            return _status(arguments)
+        except KeyboardInterrupt as ended:
+            ignore_signals()
+            status = getattr(ended, "status", INTERRUPTED)
+            warn("physanimator: interrupted" if status == INTERRUPTED else f"physanimator: ended by {ended}")
+            return status
         finally:
             remove_unfinished()
 
 
-def _status(options: argparse.Namespace) -> int:
+def _status(arguments: Sequence[str] | None) -> int:
+    """Run a command, and say what went wrong."""
     from .physics.errors import PhysAnimatorError
     from .rendering.command_messages import warn
-    from .rendering.ending import Ended, ignore_signals
 
+    options = _parser().parse_args(arguments)
     try:
         options.run(options)
     except PhysAnimatorError as error:
@@ -61,14 +66,9 @@ def _status(options: argparse.Namespace) -> int:
     except OSError as error:
         warn(f"physanimator: {error}")
         return FAILED
-    except Ended as ended:
-        ignore_signals()
-        warn("physanimator: interrupted" if ended.status == INTERRUPTED else f"physanimator: ended by {ended}")
-        return ended.status
-    except KeyboardInterrupt:
-        ignore_signals()
-        warn("physanimator: interrupted")
-        return INTERRUPTED
+    except MemoryError:
+        warn("physanimator: the memory does not suffice for a picture of this size")
+        return FAILED
     return 0
 
 

@@ -15,7 +15,7 @@ from ..physics.errors import InvalidInputError
 from .atomic import naming_place
 from .ending import uninterrupted
 from .frame_record import RECORD, Record, WrittenFrame, read_record, recorded, write_record
-from .places import StrPath, check_folder_place, place_of, printable
+from .places import StrPath, check_folder_place, check_replaceable, is_read_only, place_of, printable
 from .unfinished import made_beside
 
 __all__ = ["check_frame_folder", "frames_in", "write_frame_folder"]
@@ -39,6 +39,7 @@ def check_frame_folder(path: StrPath) -> Path:
     place = check_folder_place(path)
     if os.path.isdir(place):
         _record_of(place, path)
+        check_replaceable(place / RECORD)
     return place
 
 
@@ -103,9 +104,11 @@ def _record_of(folder: Path, path: StrPath) -> Record:
     for each in record:
         known.setdefault(each.name, []).append(each)
     for frame in frames_in(folder):
-        if any(each.describes(frame) for each in known.get(frame.name, ())):
+        described = any(each.describes(frame) for each in known.get(frame.name, ()))
+        if described and not is_read_only(frame.stat()):
             continue
-        reason = "was changed after it was written" if frame.name in known else "PhysAnimator did not write"
+        changed = "is read-only" if described else "was changed after it was written"
+        reason = changed if frame.name in known else "PhysAnimator did not write"
         raise InvalidInputError(
             f"folder {printable(path)} must hold no frames but unchanged ones of an earlier clip."
             f" Got: {printable(frame.name)}, which {reason}; choose another folder"

@@ -18,6 +18,7 @@ __all__ = [
     "check_replaceable",
     "check_windows_name",
     "is_folder_name",
+    "is_read_only",
     "place_of",
     "printable",
     "same_name",
@@ -181,7 +182,7 @@ def _status(place: Path, given: StrPath) -> os.stat_result | None:
 def _check_replaceable(place: Path, status: os.stat_result, given: StrPath) -> None:
     if not stat.S_ISREG(status.st_mode):
         raise InvalidInputError(f"output {printable(given)} must be a file. Got: {_kind(status)}")
-    if not status.st_mode & 0o222:  # the administrator could, but whoever set this wants the file kept
+    if is_read_only(status):
         raise InvalidInputError(f"output {printable(given)} must be a file that may be replaced. Got: a read-only file")
     try:
         os.close(os.open(place, os.O_WRONLY))
@@ -213,6 +214,11 @@ def _kind(status: os.stat_result) -> str:
     if stat.S_ISDIR(status.st_mode):
         return "a folder of that name"
     return "a file" if stat.S_ISREG(status.st_mode) else "a device or pipe"
+
+
+def is_read_only(status: os.stat_result) -> bool:
+    """Whether nobody may write to a file: an administrator could, but whoever set this wants it kept."""
+    return not status.st_mode & 0o222
 
 
 def same_name(first: str, second: str) -> bool:

@@ -98,6 +98,10 @@ def linked(folder: Path) -> None:
     (folder / "frame_0001.png").symlink_to("original.png")
 
 
+def protected(folder: Path) -> None:
+    (folder / "frame_0001.png").chmod(0o444)
+
+
 def folder_of_that_name(folder: Path) -> None:
     (folder / "frame_0003.png").mkdir()
 
@@ -136,6 +140,7 @@ FOREIGN: list[Callable[[Path], None]] = [
     added_in_capitals,
     without_record,
     swapped,
+    protected,
     folder_of_that_name,
     *([] if os.name == "nt" else [linked, record_is_a_pipe, record_is_a_link]),
     record_of_bytes(b""),
