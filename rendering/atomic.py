@@ -14,7 +14,7 @@ from .ending import uninterrupted
 from .places import StrPath, check_replaceable, printable
 from .unfinished import made_beside
 
-__all__ = ["naming_place", "replacing"]
+__all__ = ["naming_place", "putting_in_place", "replacing"]
 
 _OF_THE_DISK = {getattr(errno, name, None) for name in ("ENOSPC", "EDQUOT", "EFBIG", "EIO", "EROFS")} - {None}
 
@@ -41,15 +41,27 @@ def replacing(path: StrPath) -> Iterator[Path]:
     place = check_replaceable(path)
     with naming_place(path), made_beside(place.name, place.parent) as temporary:
         yield temporary
-        with uninterrupted():
-            try:
-                with suppress(FileNotFoundError):
-                    os.chmod(temporary, stat.S_IMODE(place.stat().st_mode))
-                os.replace(temporary, place)
-            except OSError as error:
-                raise InvalidInputError(
-                    f"cannot write {printable(path)}: {error.strerror}; is it open in another program?"
-                ) from error
+        with uninterrupted(), putting_in_place(path):
+            with suppress(FileNotFoundError):
+                os.chmod(temporary, stat.S_IMODE(place.stat().st_mode))
+            os.replace(temporary, place)
+
+
+@contextmanager
+def putting_in_place(path: StrPath) -> Iterator[None]:
+    """Say in a sentence why a complete result cannot be moved to its place.
+
+    Raises:
+        InvalidInputError: another program holds what is there, or the like.
+    """
+    try:
+        yield
+    except OSError as error:
+        if error.errno in _OF_THE_DISK:
+            raise
+        raise InvalidInputError(
+            f"cannot write {printable(path)}: {error.strerror}; is it open in another program?"
+        ) from error
 
 
 @contextmanager

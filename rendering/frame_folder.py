@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError
-from .atomic import naming_place
+from .atomic import naming_place, putting_in_place
 from .ending import uninterrupted
 from .frame_record import RECORD, Record, WrittenFrame, read_record, recorded, write_record
 from .places import StrPath, check_folder_place, check_replaceable, is_read_only, place_of, printable
@@ -64,16 +64,11 @@ def write_frame_folder(frames: Iterable[NDArray[np.uint8]], path: StrPath) -> No
     name, parent = (".frames", place) if inside else (place.name, place.parent)
     with naming_place(path), made_beside(name, parent, is_folder=True) as staging:
         record = _written(frames, staging)
-        with uninterrupted():
-            try:
-                if inside:
-                    _exchange(place, staging, record, path)
-                else:
-                    staging.rename(place)
-            except OSError as error:
-                raise InvalidInputError(
-                    f"cannot write {printable(path)}: {error.strerror}; is it open in another program?"
-                ) from error
+        with uninterrupted(), putting_in_place(path):
+            if inside:
+                _exchange(place, staging, record, path)
+            else:
+                staging.rename(place)
 
 
 def _written(frames: Iterable[NDArray[np.uint8]], staging: Path) -> Record:
@@ -122,6 +117,7 @@ def _exchange(folder: Path, staging: Path, record: Record, path: StrPath) -> Non
     While this lasts the record knows both, so that the frames are known again should the machine stop in the middle.
     An error puts everything back.
     """
+    present = frames_in(folder)
     earlier = _record_of(folder, path)
     aside = staging / "earlier"
     aside.mkdir()
@@ -135,7 +131,7 @@ def _exchange(folder: Path, staging: Path, record: Record, path: StrPath) -> Non
         moved.append((source, target))
 
     try:
-        for frame in frames_in(folder):
+        for frame in present:
             move(frame, aside / frame.name)
         for each in record:
             move(staging / each.name, folder / each.name)

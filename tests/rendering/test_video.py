@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -11,6 +12,7 @@ import av
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
+from physanimator.rendering.clip_reading import read_clip
 from physanimator.rendering.gif import shown_indices
 from physanimator.rendering.video import FORMATS, check_output, exact_frame_rate, write_animation
 from PIL import Image
@@ -312,3 +314,10 @@ def test_bad_frames(tmp_path: Path, frames: list[np.ndarray], words: str) -> Non
 def test_bad_frame_rate(tmp_path: Path) -> None:
     with pytest.raises(InvalidInputError, match="frame_rate"):
         write_animation(clip(), tmp_path / "clip.mp4", 0)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows reads it as a stream of the file girl")
+def test_a_name_with_a_colon_is_read_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_animation(clip(3), "girl:v2.mp4", 24)
+    assert len(list(read_clip("girl:v2.mp4"))) == 3
