@@ -136,9 +136,9 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
     drawing = parser.add_argument_group(
         "what is written",
         "A file of the same name is replaced when the new one is complete, unless it is read-only or read by this"
-        " command. A folder is filled if it is new, empty, or holds no other frames (frame_0000.png and so on) than"
-        " unchanged ones that PhysAnimator wrote there, by its record .physanimator.json: these are replaced, other"
-        " files stay. A folder with any other frames is refused before the work.",
+        " command. A folder may hold other files, which stay. Frames in it (frame_0000.png and so on) are replaced only"
+        " if PhysAnimator wrote every one of them, which its record .physanimator.json in the folder tells, and nobody"
+        " changed them since; otherwise the folder is refused before the work.",
     )
     drawing.add_argument(
         "--output",
