@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from .checks import is_whole, within
 from .errors import InvalidInputError, require
 from .limits import MAX_BODIES
 from .painting import painted
@@ -50,13 +51,14 @@ class Paint:
             raise InvalidInputError(f"region must be a polygon or a mask. Got: {type(self.region).__name__}")
         for name in QUANTITIES:
             factor = getattr(self, name)
-            require(name, factor, LEAST_FACTOR <= factor <= MOST_FACTOR, f"{LEAST_FACTOR} to {MOST_FACTOR}")
+            require(name, factor, within(factor, LEAST_FACTOR, MOST_FACTOR), f"{LEAST_FACTOR} to {MOST_FACTOR}")
         require(
             "body",
             self.body,
-            self.body is None or 0 <= self.body <= MAX_BODIES - 1,
+            self.body is None or is_whole(self.body, 0, MAX_BODIES - 1),
             f"a body's number, 0 to {MAX_BODIES - 1}",
         )
+        object.__setattr__(self, "body", None if self.body is None else int(self.body))
 
     def rescaled(self, scale: Scale) -> Paint:
         """The same over the picture at another size."""

@@ -9,7 +9,9 @@ __all__ = [
     "MAX_FRAMES",
     "MAX_NESTING",
     "MAX_OBJECTS",
+    "MAX_PREVIEW_CROSSINGS",
     "MAX_PREVIEW_MASK_PIXELS",
+    "MAX_PREVIEW_OUTLINE_POINTS",
     "MAX_PREVIEW_POINTS",
     "MAX_PREVIEW_REGION_WORK",
     "MAX_PREVIEW_RIG_POINTS",
@@ -48,8 +50,14 @@ MAX_PREVIEW_POINTS = 40_000
 MAX_PREVIEW_MASK_PIXELS = 2**25
 """Pixels of all painted masks together."""
 
-MAX_PREVIEW_REGION_WORK = 2e8
-"""Corners of all polygons times vertices: each vertex is compared with each."""
+MAX_PREVIEW_OUTLINE_POINTS = 20_000
+"""Points of the outlines of all colliders together, where bodies can come."""
+
+MAX_PREVIEW_CROSSINGS = 2**19
+"""Pixel edges that the outlines of all colliders' masks follow."""
+
+MAX_PREVIEW_REGION_WORK = 4e7
+"""Corners of the polygons and steps of the masks of rig points times vertices: each is compared with each."""
 
 MAX_PREVIEW_TRIANGLES = 60_000
 MAX_FRAMES = 1_200
