@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from numbers import Real
+from typing import Any
 
 import numpy as np
 
@@ -33,11 +34,10 @@ def within(value: object, low: float, high: float = math.inf, *, above: bool = F
         above: whether it must lie above ``low``.
         below: whether it must lie below ``high``.
     """
-    if not isinstance(value, Real) or isinstance(value, bool | np.bool_):
+    if not is_number(value) or (above and value == low) or (below and value == high):
         return False
-    if (above and value == low) or (below and value == high):
-        return False
-    return bool(low <= value <= high and abs(value) < math.inf)  # whole numbers of any length compare with floats
+    number: Any = value  # whole numbers of any length compare with floats
+    return bool(low <= number <= high and abs(number) < math.inf)
 
 
 def numbers_of(name: str, values: object, expected: str) -> tuple[float, ...]:

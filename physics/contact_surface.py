@@ -265,7 +265,7 @@ def _overlaps(
             numbers.append(near[found])
             others.append(np.full(len(found), part))
             distances.append(distance)
-    number, other, distance = (np.concatenate(each) for each in (numbers, others, distances))
+    number, other, distance = np.concatenate(numbers), np.concatenate(others), np.concatenate(distances)
     first = np.concatenate([[0], np.cumsum(np.bincount(number, minlength=len(points)))]).astype(np.int32)
     if not len(number):  # the kernel wants an entry
         return first, np.array([-1], np.int32), np.zeros(1, np.float32)

@@ -19,7 +19,7 @@ from .contours import area_of, contours_at_half, resampled
 from .interruption import checkpoint
 from .leading import farthest_led
 from .rig import MaskRegion
-from .scene import Scene
+from .scene import Body, Scene
 
 __all__ = [
     "LEAST_SPACING",
@@ -28,6 +28,7 @@ __all__ = [
     "crossed",
     "outlines",
     "segment_distances",
+    "spacing_of",
     "window_of",
     "within_reach",
 ]
@@ -47,7 +48,7 @@ _POINTS_AT_ONCE = 64  # each may be near every edge
 
 
 class Window(NamedTuple):
-    """The part of the plane in which bodies may touch something [px]: its low and its high corner, each of shape [2]."""
+    """Where bodies may touch something: the low and the high corner of a box [px], each of shape [2]."""
 
     low: FloatArray
     high: FloatArray
@@ -83,6 +84,15 @@ def outlines(collider: Collider, width: int, height: int, spacing: float, window
         loops = _polygon(collider, window)
     checkpoint()
     return [_sampled(loop, spacing) for loop in loops]
+
+
+def spacing_of(bodies: Sequence[Body]) -> float:
+    """Distance of the points of colliders' outlines [px]: that of the bodies' boundary vertices."""
+    lengths = []
+    for body in bodies:
+        ends = body.mesh.vertices[body.mesh.boundary_edges]
+        lengths.append(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+    return max(float(np.median(np.concatenate(lengths))), LEAST_SPACING)
 
 
 def count_outlines(scene: Scene, spacing: float) -> tuple[int, int]:

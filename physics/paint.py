@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from .checks import is_whole, within
 from .errors import InvalidInputError, require
+from .interruption import checkpoint
 from .limits import MAX_BODIES
-from .painting import painted
+from .painting import mask_means, painted_by_means
 from .points import Scale
 from .rig import MaskRegion, Polygon
 
@@ -73,16 +74,16 @@ def with_paint(bodies: Sequence[Body], paint: Sequence[Paint]) -> tuple[Body, ..
     """
     result = list(bodies)
     for entry in paint:
-        factors = {name: getattr(entry, name) for name in QUANTITIES if getattr(entry, name) != 1.0}
-        for number, body in enumerate(result):
-            if factors and entry.body in (None, number):
-                mask = _mask(entry.region, body.mesh)
-                for name, factor in factors.items():
-                    layer = {name: mask}
-                    result[number] = replace(
-                        result[number],
-                        material=painted(result[number].material, body.mesh, low=1.0, high=factor, **layer),
-                    )
+        factors = {name: (1.0, getattr(entry, name)) for name in QUANTITIES if getattr(entry, name) != 1.0}
+        numbers = [number for number in range(len(result)) if entry.body in (None, number)]
+        if not factors or not numbers:
+            continue
+        mask = _mask(entry.region, result[0].mesh)  # all bodies are over one picture
+        for number in numbers:
+            checkpoint()
+            body = result[number]
+            material = painted_by_means(body.material, mask_means(mask, body.mesh), factors)
+            result[number] = replace(body, material=material)
     return tuple(result)
 
 
@@ -96,4 +97,4 @@ def _mask(region: Polygon | MaskRegion, mesh: TriangleMesh) -> NDArray[np.bool_]
     corners = np.rint((np.array(region.points) * factors - 0.5) * 16).clip(-(2**27), 2**27).astype(np.int32)
     filled = np.zeros(size, dtype=np.uint8)
     cv2.fillPoly(filled, [corners], 1, shift=4)
-    return filled.astype(bool)
+    return filled.view(bool)

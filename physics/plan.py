@@ -181,7 +181,8 @@ def check_work(
         longer = f" To wait for it, set max_minutes to {needed} (now {max_minutes:g})."
     raise SimulationError(
         f"The simulation of {planned.frames} frames needs {reason}, about {_duration(planned.estimated_seconds)} of"
-        f" computing; at most {_duration(allowed / UPDATES_PER_SECOND)} are allowed.{longer} {_remedies(scene, planned)}"
+        f" computing; at most {_duration(allowed / UPDATES_PER_SECOND)} are allowed.{longer}"
+        f" {_remedies(scene, planned)}"
     )
 
 

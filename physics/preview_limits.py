@@ -9,9 +9,11 @@ __all__ = [
     "MAX_FRAMES",
     "MAX_NESTING",
     "MAX_OBJECTS",
+    "MAX_PREPARED_BYTES",
     "MAX_PREVIEW_CROSSINGS",
     "MAX_PREVIEW_MASK_PIXELS",
     "MAX_PREVIEW_OUTLINE_POINTS",
+    "MAX_PREVIEW_PAINT_WORK",
     "MAX_PREVIEW_POINTS",
     "MAX_PREVIEW_REGION_WORK",
     "MAX_PREVIEW_RIG_POINTS",
@@ -57,13 +59,19 @@ MAX_PREVIEW_CROSSINGS = 2**19
 """Pixel edges that the outlines of all colliders' masks follow."""
 
 MAX_PREVIEW_REGION_WORK = 4e7
-"""Corners of the polygons and steps of the masks of rig points times vertices: each is compared with each."""
+"""Corners of all polygons times vertices: each vertex is compared with each."""
 
 MAX_PREVIEW_TRIANGLES = 60_000
 MAX_FRAMES = 1_200
 
 MAX_PREVIEW_WORK = 3e9
 """Triangle updates of a preview: half a minute on one core."""
+
+MAX_PREVIEW_PAINT_WORK = 1_500_000
+"""Entries of paint times triangles."""
+
+MAX_PREPARED_BYTES = 256 * 2**20
+"""Memory for what simulations need before their first step; beyond, what was not used for longest is forgotten."""
 
 MAX_ANSWER_BYTES = 64 * 2**20
 """Size of all frames of one cycle."""

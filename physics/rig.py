@@ -225,7 +225,8 @@ class RigPoint:
         require_kind("region", self.region, REGIONS, "a region: Circle, Polygon or MaskRegion")
         require_kind("motion", self.motion, MOTIONS, _EXPECTED_MOTION)
         if self.body is not None:
-            require("body", self.body, is_whole(self.body, 0, MAX_BODIES - 1), f"a body's number, 0 to {MAX_BODIES - 1}")
+            most = MAX_BODIES - 1
+            require("body", self.body, is_whole(self.body, 0, most), f"a body's number, 0 to {most}")
             object.__setattr__(self, "body", int(self.body))
         require("falloff", self.falloff, within(self.falloff, 0, LARGEST), f"0 to {LARGEST} px")
 

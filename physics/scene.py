@@ -48,7 +48,8 @@ class Body:
     def __post_init__(self) -> None:
         require_kind("mesh", self.mesh, TriangleMesh, "a TriangleMesh")
         require_kind("material", self.material, Material, "a Material")
-        require("layer", self.layer, is_whole(self.layer, -LARGEST, LARGEST), f"a whole number, -{LARGEST} to {LARGEST}")
+        whole = is_whole(self.layer, -LARGEST, LARGEST)
+        require("layer", self.layer, whole, f"a whole number, -{LARGEST} to {LARGEST}")
         object.__setattr__(self, "layer", int(self.layer))
         require("name", self.name, isinstance(self.name, str), "a text")
         for name in SCALES:
@@ -124,9 +125,10 @@ class Scene:
         if self.loop is not None:
             long = within(self.loop, 2 / self.frame_rate, MAX_LOOP)
             require("loop", self.loop, long, f"2 frames to {MAX_LOOP} s long")
-        for name, kind in (("wind", Wind), ("contact", Contact)):
-            if getattr(self, name) is not None:
-                require_kind(name, getattr(self, name), kind, f"a {kind.__name__} or None")
+        if self.wind is not None:
+            require_kind("wind", self.wind, Wind, "a Wind or None")
+        if self.contact is not None:
+            require_kind("contact", self.contact, Contact, "a Contact or None")
         require("sag", self.sag, isinstance(self.sag, bool), "True or False")
         count = len(self.bodies)
         for number, rig_point in enumerate(self.rig_points):

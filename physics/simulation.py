@@ -77,8 +77,15 @@ def simulate(
     """
     if scene.loop is not None:
         cyclic = periodic(scene)
-        limits = {"max_minutes": max_minutes, "max_work": max_work}
-        return _looped(cyclic, prepare(cyclic), frames=frames, progress=progress, on_frame=on_frame, **limits)
+        return _looped(
+            cyclic,
+            prepare(cyclic),
+            frames=frames,
+            progress=progress,
+            max_minutes=max_minutes,
+            max_work=max_work,
+            on_frame=on_frame,
+        )
     if frames is None:
         raise InvalidInputError("frames must be a number where the scene has no loop. Got: None")
     prepared = prepare(scene)

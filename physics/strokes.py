@@ -92,7 +92,8 @@ class EnergyStroke:
     speed_keys: tuple[Key, ...] = ()
 
     def __post_init__(self) -> None:
-        require("kind", self.kind, isinstance(self.kind, str) and self.kind in STROKE_KINDS, f"one of {', '.join(STROKE_KINDS)}")
+        known = isinstance(self.kind, str) and self.kind in STROKE_KINDS
+        require("kind", self.kind, known, f"one of {', '.join(STROKE_KINDS)}")
         path = checked_points("path", self.path, least=1)
         object.__setattr__(self, "path", path)
         require("radius", self.radius, within(self.radius, 0, LARGEST, above=True), f"above 0 and at most {LARGEST} px")

@@ -11,11 +11,10 @@ from numpy.typing import NDArray
 
 from .elasticity import RestShape, lame_parameters, lumped_masses, stiffness_matrix
 from .errors import SimulationError
-from .falloff import grips_of
+from .holds import Holds, holds_of
 from .mesh import TriangleMesh
 from .modes import highest_eigenvalue
 from .paint import with_paint
-from .rigging import leaders_of
 from .scene import Body, Scene
 from .stepping import frequency_limits, substeps, vertex_frequencies
 from .sway import SwayPart, resolve_stiffness
@@ -137,8 +136,12 @@ class System:
         return np.array(counts, dtype=np.int32)
 
 
-def assemble(scene: Scene) -> System:
+def assemble(scene: Scene, holds: Holds | None = None) -> System:
     """Put the bodies of a scene together and settle how stiff and heavy each of their parts is.
+
+    Args:
+        scene: what is put together.
+        holds: what its rig points hold, where that is known already.
 
     Raises:
         SimulationError: a body is so stiff, so soft, so light or so finely meshed that floats cannot bear it.
@@ -146,7 +149,8 @@ def assemble(scene: Scene) -> System:
     bodies, side = with_paint(scene.bodies, scene.paint), scene.bodies[0].mesh.longest_side
     for number, body in enumerate(bodies):
         _require_bearable(body, number)
-    leaders = [leaders_of(scene.rig_points, body.mesh, body=number) for number, body in enumerate(bodies)]
+    held_by = holds_of(scene) if holds is None else holds
+    leaders = held_by.leaders
     stiffness = [
         resolve_stiffness(body, held >= 0, number)
         for number, (body, held) in enumerate(zip(bodies, leaders, strict=True))
@@ -161,7 +165,6 @@ def assemble(scene: Scene) -> System:
     rank[order] = np.arange(len(order), dtype=np.int32)
     along = np.argsort(parts[triangles[:, 0]], kind="stable")
     density = np.concatenate([b.material.densities(n) for b, n in zip(bodies, triangle_counts, strict=True)])[along]
-    grips = [grips_of(scene.rig_points, body.mesh, body=number) for number, body in enumerate(bodies)]
     rest = RestShape(np.concatenate([body.mesh.vertices / side for body in bodies])[order], rank[triangles[along]])
     system = System(
         rest=rest,
@@ -175,8 +178,8 @@ def assemble(scene: Scene) -> System:
         damping=np.repeat([body.material.damping for body in bodies], vertex_counts)[order]
         * _damping_scale(bodies, rest, density, along),
         leaders=np.concatenate(leaders)[order],
-        grips=np.concatenate([grip for grip, _ in grips])[order],
-        grippers=np.concatenate([gripper for _, gripper in grips])[order],
+        grips=np.concatenate(held_by.grips)[order],
+        grippers=np.concatenate(held_by.grippers)[order],
         stretch_limits=np.repeat([body.material.stretch_limit or np.inf for body in bodies], vertex_counts)[order],
         wind_response=np.repeat([body.material.wind_response for body in bodies], vertex_counts)[order],
         sway=tuple(part for _, parts in stiffness for part in parts),

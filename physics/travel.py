@@ -37,7 +37,7 @@ def checked_keys(name: str, keys: Sequence[Key], *, positive: bool = False) -> t
         InvalidInputError: a share is not from 0 to 1 or not above the one before, or a factor is out of bounds.
     """
     expected = "pairs of a share of the path and a factor"
-    if not isinstance(keys, Sequence | np.ndarray) or isinstance(keys, str | bytes):
+    if not isinstance(keys, tuple | list | np.ndarray):
         raise InvalidInputError(f"{name} must be {expected}. Got: {keys!r:.60}")
     require(name, f"{len(keys)} keys", len(keys) <= _MOST_KEYS, f"at most {_MOST_KEYS} keys")
     pairs = [numbers_of(name, key, expected) for key in keys]

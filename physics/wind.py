@@ -52,7 +52,8 @@ class Wind:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        require("strength", self.strength, within(self.strength, -LARGEST, LARGEST), f"-{LARGEST} to {LARGEST} side/s^2")
+        bounded = within(self.strength, -LARGEST, LARGEST)
+        require("strength", self.strength, bounded, f"-{LARGEST} to {LARGEST} side/s^2")
         require("angle", self.angle, within(self.angle, -LARGEST, LARGEST), f"-{LARGEST} to {LARGEST} degrees")
         require("gust", self.gust, within(self.gust, 0, 1), "0 to 1")
         require("gust_period", self.gust_period, within(self.gust_period, 0.05, LARGEST), f"0.05 to {LARGEST} s")
