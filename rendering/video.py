@@ -244,7 +244,7 @@ def _mux(
         stream.pix_fmt = (chosen.alpha_pixels if alpha else None) or chosen.pixels
         stream.codec_context.time_base = 1 / rate
         _describe(stream)
-        for frame in _converted(frames, stream.pix_fmt, rate, even=even):
+        for frame in _converted(frames, stream.pix_fmt, rate, even=even, folder=path.parent):
             container.mux(stream.encode(frame))
         container.mux(stream.encode(None))
 
@@ -259,13 +259,13 @@ def _describe(stream: av.VideoStream) -> None:
 
 
 def _converted(
-    frames: Iterable[NDArray[np.uint8]], pixels: str, rate: Fraction, *, even: bool
+    frames: Iterable[NDArray[np.uint8]], pixels: str, rate: Fraction, *, even: bool, folder: Path
 ) -> Iterator[av.VideoFrame]:
     """Numbered frames in a stream's pixel format."""
     if pixels == "pal8":
         from .gif import paletted
 
-        yield from paletted(_numbered(frames, rate, even=even), rate)
+        yield from paletted(_numbered(frames, rate, even=even), rate, folder=folder)
         return
     for frame in _numbered(frames, rate, even=even):
         if pixels.startswith("yuv"):
