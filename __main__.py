@@ -74,9 +74,9 @@ def _status(arguments: Sequence[str] | None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     from .rendering.command_options import add_animate, add_demo, add_figure, add_measure
-    from .rendering.command_parsing import PictureParser
+    from .rendering.command_parsing import CommandParser, PictureParser
 
-    parser = argparse.ArgumentParser(
+    parser = CommandParser(
         prog="physanimator", description="Set parts of a still illustration in motion.", allow_abbrev=False
     )
     parser.add_argument("--version", action="version", version=f"physanimator {__version__}")

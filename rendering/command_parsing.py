@@ -6,7 +6,9 @@ import argparse
 from collections.abc import Iterator, Sequence
 from typing import NoReturn
 
-__all__ = ["SEVERAL", "PictureParser"]
+from .places import printable
+
+__all__ = ["SEVERAL", "CommandParser", "PictureParser"]
 
 SEVERAL = ("--mask", "--preset", "--collider")
 """Options that take several values at once."""
@@ -18,7 +20,15 @@ class _Refused(Exception):
     """What argparse would have said before it ended the process."""
 
 
-class PictureParser(argparse.ArgumentParser):
+class CommandParser(argparse.ArgumentParser):
+    """A parser whose messages stay in their line, whatever they quote."""
+
+    def error(self, message: str) -> NoReturn:
+        """Refuse the command."""
+        super().error(printable(message))
+
+
+class PictureParser(CommandParser):
     """A parser of ``IMAGE --mask A B`` that also understands ``--mask A B IMAGE``.
 
     Where no picture was found elsewhere, the last value of the one option that has more than it needs is the picture.

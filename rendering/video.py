@@ -45,49 +45,54 @@ class VideoFormat:
     Attributes:
         container: FFmpeg's name of the file format.
         codec: FFmpeg's name of the encoder.
-        longest_side: largest width and height [px].
         pixels: pixel format of opaque frames.
         alpha_pixels: pixel format of frames with alpha; None where the format has no alpha.
         options: of the encoder.
         alpha_options: of the encoder, in addition, for frames with alpha.
         container_options: of the file format.
+        longest_side: largest width and height that it holds [px].
     """
 
     container: str
     codec: str
-    longest_side: int
     pixels: str
     alpha_pixels: str | None = None
     options: dict[str, str] = field(default_factory=dict)
     alpha_options: dict[str, str] = field(default_factory=dict)
     container_options: dict[str, str] = field(default_factory=dict)
+    longest_side: int = 65_535
 
 
 FORMATS = {
     ".mp4": VideoFormat(
         "mp4",
         "libx264",
-        16_384,
         "yuv420p",
         options={"crf": "17", "preset": "medium", "tune": "animation"},
         # The index stands in front, so that a browser starts to play before it has everything.
         container_options={"movflags": "+faststart"},
+        longest_side=16_384,
     ),
     ".webm": VideoFormat(
         "webm",
         "libvpx-vp9",
-        65_535,
         "yuv420p",
         "yuva420p",
         options={"crf": "22", "b": "0", "cpu-used": "3", "row-mt": "1"},
         # Alternate reference frames and alpha exclude each other in libvpx.
         alpha_options={"auto-alt-ref": "0"},
     ),
-    ".gif": VideoFormat("gif", "gif", 65_535, "pal8", "pal8", container_options={"loop": "0"}),
+    ".gif": VideoFormat("gif", "gif", "pal8", "pal8", container_options={"loop": "0"}),
     ".webp": VideoFormat(
-        "webp", "libwebp_anim", 16_383, "bgra", "bgra", options={"quality": "90"}, container_options={"loop": "0"}
+        "webp",
+        "libwebp_anim",
+        "bgra",
+        "bgra",
+        options={"quality": "90"},
+        container_options={"loop": "0"},
+        longest_side=16_383,
     ),
-    ".apng": VideoFormat("apng", "apng", 65_535, "rgb24", "rgba", container_options={"plays": "0"}),
+    ".apng": VideoFormat("apng", "apng", "rgb24", "rgba", container_options={"plays": "0"}),
 }
 
 _BT709 = 1
@@ -244,7 +249,7 @@ def _mux(
         stream.pix_fmt = (chosen.alpha_pixels if alpha else None) or chosen.pixels
         stream.codec_context.time_base = 1 / rate
         _describe(stream)
-        for frame in _converted(frames, stream.pix_fmt, rate, even=even):
+        for frame in _converted(frames, stream.pix_fmt, rate, even=even, folder=path.parent):
             container.mux(stream.encode(frame))
         container.mux(stream.encode(None))
 
@@ -259,13 +264,13 @@ def _describe(stream: av.VideoStream) -> None:
 
 
 def _converted(
-    frames: Iterable[NDArray[np.uint8]], pixels: str, rate: Fraction, *, even: bool
+    frames: Iterable[NDArray[np.uint8]], pixels: str, rate: Fraction, *, even: bool, folder: Path
 ) -> Iterator[av.VideoFrame]:
     """Numbered frames in a stream's pixel format."""
     if pixels == "pal8":
         from .gif import paletted
 
-        yield from paletted(_numbered(frames, rate, even=even), rate)
+        yield from paletted(_numbered(frames, rate, even=even), rate, folder=folder)
         return
     for frame in _numbered(frames, rate, even=even):
         if pixels.startswith("yuv"):

@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -108,6 +109,13 @@ class _Narrow(io.TextIOWrapper):
         return self.buffer.getvalue().decode("cp1252")  # type: ignore[attr-defined]
 
 
+def test_a_gif_needs_no_folder_but_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its frames wait beside it, where there is to be room for it anyway."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "none"))
+    write_animation([np.full((16, 16, 3), 30 * t, np.uint8) for t in range(3)], tmp_path / "a.gif", 24)
+    assert [entry.name for entry in tmp_path.iterdir()] == ["a.gif"]
+
+
 def test_names_outside_the_code_page(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out, err = _Narrow(), _Narrow()
     monkeypatch.setattr(sys, "stdout", out)
@@ -130,6 +138,10 @@ def test_a_name_cannot_command_the_terminal(folder: Path, capsys: Output) -> Non
     said = capsys.readouterr().err
     assert "a\\n\\x1b[2J.avi" in said
     assert len(said.splitlines()) == 1
+    for arguments in (["schema", "a\n\x1b[2J"], [*ANIMATE, "--output", "o.mp4", "--a\n\x1b[2J"]):
+        with pytest.raises(SystemExit):
+            main(arguments)
+        assert "\x1b" not in capsys.readouterr().err
 
 
 class _Broken(io.StringIO):
