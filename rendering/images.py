@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError
 from .atomic import replacing
+from .pixels import as_uint8
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -145,9 +146,7 @@ def to_uint8(image: NDArray[Any]) -> NDArray[np.uint8]:
     Args:
         image: uint8 or float, any shape.
     """
-    if image.dtype == np.uint8:
-        return image
-    return np.rint(np.clip(image, 0, 1) * 255).astype(np.uint8)
+    return as_uint8(image)
 
 
 def _open(path: StrPath) -> Image.Image:

@@ -47,7 +47,7 @@ def video_score(frames: Sequence[NDArray[Any]], description: str, folder: Path) 
     require_file(folder, VIDEO_SCORE_FOLDER)
     question = _question(folder).replace("{text_prompt}", description)
     chosen = np.unique(np.linspace(0, len(frames) - 1, _MOST_FRAMES).round().astype(int))
-    pictures = [Image.fromarray(to_uint8(np.asarray(frames[k]))) for k in chosen]
+    pictures = [Image.fromarray(to_uint8(frames[k])) for k in chosen]
     question += " <image>" * max(0, len(pictures) - question.count("<image>"))
     model, processor = _loaded(folder)
     inputs = processor(text=question, images=pictures, return_tensors="pt")

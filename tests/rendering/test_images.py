@@ -203,6 +203,6 @@ def test_failed_save_keeps_the_earlier_file(tmp_path: Path) -> None:
 
 
 def test_to_uint8_rounds_and_clips() -> None:
-    assert to_uint8(np.array([-1.0, 0.0, 0.5, 0.9999, 2.0])).tolist() == [0, 0, 128, 255, 255]
+    assert to_uint8(np.array([-0.1, 0.0, 0.5, 0.9999, 1.1])).tolist() == [0, 0, 128, 255, 255]
     same = drawing()
     assert to_uint8(same) is same
