@@ -11,12 +11,21 @@ from numpy.typing import ArrayLike, NDArray
 from .arrays import OVERSHOOT, as_array, beyond_one
 from .errors import InvalidInputError, MeshingError
 
-__all__ = ["continued", "coverage_of", "distance_to_zero", "fitted", "with_sound_details", "without_specks"]
+__all__ = [
+    "continued",
+    "coverage_of",
+    "distance_to_zero",
+    "fitted",
+    "may_be_inverted",
+    "with_sound_details",
+    "without_specks",
+]
 
 Coverage = NDArray[np.float32]
 """A soft mask in 0 to 1, shape [h, w]; what is above one half belongs to the shape."""
 
 _ASPECT_TOLERANCE = 0.01
+_NEARLY_ALL = 0.9
 # A disc of radius r leaves a square corner uncovered up to 0.41 r away; such corners are not thin parts.
 _CORNER = 0.5
 _PIXELATION = 0.25
@@ -88,6 +97,14 @@ def fitted(coverage: Coverage, width: int, height: int, *, name: str = "mask") -
         )
     method = cv2.INTER_AREA if columns > width else cv2.INTER_LINEAR
     return np.asarray(cv2.resize(coverage, (width, height), interpolation=method), dtype=np.float32)
+
+
+def may_be_inverted(coverage: Coverage) -> bool:
+    """Whether a mask covers most of the picture, up to its border, as one does whose black and white are exchanged."""
+    inside = coverage > 0.5
+    share = float(inside.mean())
+    border = np.concatenate([inside[0], inside[-1], inside[:, 0], inside[:, -1]])
+    return share > _NEARLY_ALL or (share > 0.5 and float(border.mean()) > 0.5)
 
 
 def without_specks(coverage: Coverage, smallest_part: float) -> Coverage:

@@ -26,7 +26,8 @@ def as_picture(image: ArrayLike, *, name: str = "image", alpha: bool = False) ->
         alpha: whether RGBA is taken, too.
 
     Returns:
-        The picture in its shape: uint8 where whole numbers to 255 were given, otherwise float32 in 0 to 1. Shares memory with ``image`` where nothing changes, so only read it.
+        The picture in its shape: uint8 where whole numbers to 255 were given, otherwise float32 in 0 to 1. Shares
+        memory with ``image`` where nothing changes, so only read it.
 
     Raises:
         InvalidInputError: it has another shape, or values out of these ranges.

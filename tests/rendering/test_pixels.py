@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 import torch
-from PIL import Image
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.masks import coverage_of
 from physanimator.pipeline import animate
@@ -20,6 +19,7 @@ from physanimator.rendering.pixels import as_float, as_picture
 from physanimator.rendering.segmentation import segment
 from physanimator.rendering.sketch import extract_sketch
 from physanimator.rendering.video import write_animation
+from PIL import Image
 
 HEIGHT, WIDTH = 40, 60
 
