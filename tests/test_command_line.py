@@ -33,6 +33,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     save_image("girl.png", image)
     save_image("hair.png", strip.astype(np.uint8) * 255)
     save_image("small.png", np.full((6, 8), 255, np.uint8))
+    save_image("narrow.png", np.full((6, 6), 255, np.uint8))
     save_image("empty.png", np.zeros((HEIGHT, WIDTH), np.uint8))
     (tmp_path / "points.txt").write_text("70,50,1\n120,50,0\n")
     pin = {"position": [70, 20], "region": {"type": "circle", "radius": 20}, "motion": {"type": "pinned"}}
@@ -136,7 +137,7 @@ def test_quiet_says_nothing(folder: Path, capsys: Output) -> None:
         ("animate girl.png --output o.mp4", "needs --mask or --points"),
         ("animate none.png --mask hair.png --output o.mp4", "existing file. Got: none.png"),
         ("animate girl.png --mask none.png --output o.mp4", "existing file. Got: none.png"),
-        ("animate girl.png --mask small.png --output o.mp4", "160 x 120 px. Got: 8 x 6 px"),
+        ("animate girl.png --mask narrow.png --output o.mp4", "160 x 120 px). Got: 6 x 6 px"),
         ("animate girl.png --mask empty.png --output o.mp4", "empty mask"),
         ("animate points.txt --mask hair.png --output o.mp4", "PNG, JPEG or WebP"),
         ("animate girl.png --mask hair.png --output o.avi", "output must end in .mp4"),

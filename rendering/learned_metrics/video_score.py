@@ -74,6 +74,9 @@ def _loaded(folder: Path) -> tuple[Any, Any]:
             "VideoScore needs the packages mantis-vl (https://github.com/TIGER-AI-Lab/Mantis) and transformers."
             f" Got: {error}"
         ) from error
-    processor = AutoProcessor.from_pretrained(folder, local_files_only=True)
-    model = Idefics2ForSequenceClassification.from_pretrained(folder, local_files_only=True, torch_dtype="auto")
+    try:
+        processor = AutoProcessor.from_pretrained(folder, local_files_only=True)
+        model = Idefics2ForSequenceClassification.from_pretrained(folder, local_files_only=True, torch_dtype="auto")
+    except Exception as error:  # damaged files and wrong configurations make the library raise nearly anything
+        raise InvalidInputError(f"{folder} cannot be loaded as VideoScore: {error or type(error).__name__}") from error
     return model.eval().requires_grad_(False), processor
