@@ -16,7 +16,7 @@ from ..physics.limits import MAX_PICTURE_PIXELS
 __all__ = ["MAX_CLIP_FRAMES", "read_clip"]
 
 MAX_CLIP_FRAMES = 100_000
-"""Frames of a clip that are read: an hour at 24 a second; frames come one at a time, but a damaged file may never end."""
+"""Frames of a clip that are read, an hour at 24 a second; they come one at a time, but a damaged file may never end."""
 
 _PICTURES = (".png", ".jpg", ".jpeg", ".webp")
 _ANIMATED = (".gif", ".webp", ".apng", ".png")

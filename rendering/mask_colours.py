@@ -74,7 +74,8 @@ def colours_of(rgb: NDArray[np.uint8]) -> tuple[list[Colour], float]:
     even = (cv2.dilate(rgb, square) - cv2.erode(rgb, square)).max(axis=2) <= _EVEN
     colours, other = _clusters(rgb[even]) if even.any() else ([], 1.0)
     painted = np.linalg.norm(rgb.astype(np.float32) - np.float32(colours[0].rgb), axis=2) >= _NEAR if colours else ~even
-    if np.count_nonzero(painted & even) >= _MOSTLY * max(1, np.count_nonzero(painted)):
+    count = int(np.count_nonzero(painted))
+    if np.count_nonzero(painted & even) >= _MOSTLY * max(1, count):
         return colours, other
     return _clusters(rgb.reshape(-1, 3))
 
@@ -86,8 +87,8 @@ def _clusters(pixels: NDArray[np.uint8]) -> tuple[list[Colour], float]:
     counts = np.bincount(keys, minlength=1 << 15)
     bins = np.flatnonzero(counts)
     weights = counts[bins].astype(np.float64) / len(sample)
-    means = np.stack([np.bincount(keys, sample[:, c], minlength=1 << 15)[bins] for c in range(3)], axis=1)
-    means /= counts[bins][:, None]
+    sums = [np.bincount(keys, sample[:, c].astype(np.float64), minlength=1 << 15)[bins] for c in range(3)]
+    means: NDArray[np.float64] = np.stack(sums, axis=1) / counts[bins][:, None]
     found: list[Colour] = []
     left = np.ones(len(bins), bool)
     while left.any() and len(found) < _MOST_COLOURS:

@@ -112,7 +112,7 @@ def _is_grey(rgb: NDArray[np.uint8], where: NDArray[np.bool_] | None = None) -> 
     coloured = np.count_nonzero((brightest - darkest > _COLOURED) & shown)
     white = np.count_nonzero((darkest >= 255 * _BRIGHT) & shown)
     black = np.count_nonzero((brightest <= 255 * _DARK) & shown)
-    return coloured <= _FEW * min(white, black)
+    return bool(coloured <= _FEW * min(white, black))
 
 
 def _by_opacity(rgb: NDArray[np.uint8], opacity: NDArray[np.uint8], called: str) -> MaskFile:
@@ -167,7 +167,7 @@ def _by_grey(plane: FloatPlane, called: str) -> MaskFile:
 def _has_white(plane: FloatPlane, levels: list[tuple[float, float]]) -> bool:
     """Whether white is an area, or at least not just the rim of something grey."""
     white, painted = np.count_nonzero(plane >= _BRIGHT), np.count_nonzero(plane > _DARK)
-    return any(level >= _BRIGHT for level, _ in levels) or white >= _FEW * painted
+    return bool(any(level >= _BRIGHT for level, _ in levels) or white >= _FEW * painted)
 
 
 def _with_one_grey(plane: FloatPlane, grey: tuple[float, float], called: str) -> MaskFile:

@@ -165,7 +165,7 @@ def grey_numbers(picture: Image.Image, *, name: str = "picture") -> NDArray[Any]
     if not (np.isfinite(low) and np.isfinite(high)):
         raise InvalidInputError(f"{name} must hold finite numbers. Got: NaN or infinity")
     fractions = picture.mode == "F"
-    ranges = (1.0, 255.0, 65535.0) if fractions else (255.0, 65535.0, 2.0**31 - 1)
+    ranges: tuple[float, ...] = (1.0, 255.0, 65535.0) if fractions else (255.0, 65535.0, 2.0**31 - 1)
     if picture.mode.startswith("I;16") or picture.format == "PNG":
         ranges = (65535.0,)
     unclear = fractions and 1 + OVERSHOOT < high < 16

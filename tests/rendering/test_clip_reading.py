@@ -44,36 +44,36 @@ def damaged(content: bytes, seed: int) -> bytes:
 def test_damaged_clips_are_read_or_refused_in_a_sentence(tmp_path: Path, kind: str) -> None:
     path = tmp_path / f"a{kind}"
     write_animation(frames(), path, 24)
-    whole, refused = path.read_bytes(), 0
+    whole, said = path.read_bytes(), []
     for seed in range(40):
         path.write_bytes(damaged(whole, seed))
         try:
             assert all(frame.dtype == np.uint8 for frame in read_clip(path))
         except InvalidInputError as error:
-            refused += 1
-            assert str(error).isprintable()
-            assert "clip" in str(error)
-    assert refused > 3
+            said.append(str(error))
+    assert len(said) > 3
+    assert all(each.isprintable() and "clip" in each for each in said)
 
 
 @pytest.mark.parametrize("kind", ["png", "jpg", "webp", "tif", "gif", "bmp", "tga", "ppm", "ico", "jp2", "qoi"])
 def test_damaged_pictures_are_read_or_refused_in_a_sentence(tmp_path: Path, kind: str) -> None:
     path = tmp_path / f"a.{kind}"
     Image.fromarray(frames()[1]).save(path)
-    whole = path.read_bytes()
-    for seed in range(40):
+    whole, said = path.read_bytes(), []
+    for seed in range(25):
         path.write_bytes(damaged(whole, seed))
         for load in (load_image, lambda path: load_mask(path, width=64, height=48)):
             try:
                 load(path)
             except InvalidInputError as error:
-                assert str(error).isprintable()
+                said.append(str(error))
+    assert said
+    assert all(each.isprintable() for each in said)
 
 
 def test_a_small_file_of_a_huge_picture_is_refused_unread(tmp_path: Path) -> None:
-    for name in ("a.gif", "a.png", "a.webp"):
-        side = 16000 if name == "a.webp" else 40000
-        Image.new("1" if name == "a.png" else "L", (side, side if name == "a.png" else 5000)).save(tmp_path / name)
+    for name, size in (("a.gif", (31000, 10)), ("a.png", (10000, 10000))):
+        Image.new("1", size).save(tmp_path / name)
         with pytest.raises(InvalidInputError, match="at most 67 million pixels"):
             list(read_clip(tmp_path / name))
 
