@@ -73,7 +73,11 @@ def colours_of(rgb: NDArray[np.uint8]) -> tuple[list[Colour], float]:
     square = np.ones((3, 3), np.uint8)
     even = (cv2.dilate(rgb, square) - cv2.erode(rgb, square)).max(axis=2) <= _EVEN
     colours, other = _clusters(rgb[even]) if even.any() else ([], 1.0)
-    painted = np.linalg.norm(rgb.astype(np.float32) - np.float32(colours[0].rgb), axis=2) >= _NEAR if colours else ~even
+    painted = (
+        np.linalg.norm(rgb.astype(np.float32) - np.array(colours[0].rgb, np.float32), axis=2) >= _NEAR
+        if colours
+        else ~even
+    )
     count = int(np.count_nonzero(painted))
     if np.count_nonzero(painted & even) >= _MOSTLY * max(1, count):
         return colours, other
