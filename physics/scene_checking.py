@@ -11,7 +11,7 @@ from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-from .errors import SceneError
+from .errors import SceneError, shown
 from .limits import LARGEST, MAX_MASK_PIXELS, MAX_VERTICES
 from .scene_encoding import SCENE_VERSION
 from .scene_schema import scene_schema
@@ -180,5 +180,7 @@ def _shown(value: object) -> str:
         return "an object"
     if isinstance(value, list):
         return f"a list of {len(value)}"
-    text = json.dumps(value, ensure_ascii=False) if value is None or isinstance(value, bool | str) else repr(value)
+    if not (value is None or isinstance(value, bool | str)):
+        return shown(value)
+    text = json.dumps(value, ensure_ascii=False)
     return text if len(text) <= 60 else text[:60] + "..."
