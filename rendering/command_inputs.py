@@ -79,9 +79,16 @@ def _contact(options: argparse.Namespace, scene: Any) -> Contact | None:
 
 def _text(path: str, name: str) -> str:
     from ..physics.errors import InvalidInputError
+    from ..physics.limits import MAX_DOCUMENT_BYTES
 
     try:
-        return Path(path).read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
+        with Path(path).open("rb") as file:
+            content = file.read(MAX_DOCUMENT_BYTES + 1)
+        # Windows writes what is piped into a file as UTF-16, with a mark at its start.
+        text = content.decode("utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+    except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not text"
         raise InvalidInputError(f"{name} must be a readable text file. Got: {path}: {reason}") from None
+    if len(content) > MAX_DOCUMENT_BYTES:
+        raise InvalidInputError(f"{name} {path} must be at most {MAX_DOCUMENT_BYTES >> 20} MB of text. Got: more")
+    return text

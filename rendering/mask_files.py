@@ -83,6 +83,8 @@ def _judged(picture: Image.Image, called: str) -> MaskFile:
         opacity, rgb = np.ascontiguousarray(rgba[..., 3]), np.ascontiguousarray(rgba[..., :3])
     elif picture.mode in GREY_MODES:
         return _by_grey(_raw(picture, called), called)
+    elif picture.mode in ("1", "L"):
+        return _by_grey(np.array(picture.convert("L")).astype(np.float32) / np.float32(255), called)
     else:
         rgb = np.array(in_srgb(picture).convert("RGB"))
     if opacity is not None and _tells(opacity):
