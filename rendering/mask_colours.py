@@ -71,7 +71,9 @@ def colours_of(rgb: NDArray[np.uint8]) -> tuple[list[Colour], float]:
         rgb: the picture, shape [h, w, 3].
     """
     square = np.ones((3, 3), np.uint8)
-    even = (cv2.dilate(rgb, square) - cv2.erode(rgb, square)).max(axis=2) <= _EVEN
+    step = max(1, round(np.sqrt(rgb.shape[0] * rgb.shape[1] / _SAMPLED)))
+    differences = (cv2.dilate(rgb, square) - cv2.erode(rgb, square))[::step, ::step]
+    even, rgb = differences.max(axis=2) <= _EVEN, rgb[::step, ::step]
     colours, other = _clusters(rgb[even]) if even.any() else ([], 1.0)
     painted = (
         np.linalg.norm(rgb.astype(np.float32) - np.array(colours[0].rgb, np.float32), axis=2) >= _NEAR
@@ -85,13 +87,12 @@ def colours_of(rgb: NDArray[np.uint8]) -> tuple[list[Colour], float]:
 
 
 def _clusters(pixels: NDArray[np.uint8]) -> tuple[list[Colour], float]:
-    sample = pixels[:: max(1, len(pixels) // _SAMPLED)]
-    codes = (sample >> 3).astype(np.int32)
+    codes = (pixels >> 3).astype(np.int32)
     keys = (codes[:, 0] << 10) | (codes[:, 1] << 5) | codes[:, 2]
     counts = np.bincount(keys, minlength=1 << 15)
     bins = np.flatnonzero(counts)
-    weights = counts[bins].astype(np.float64) / len(sample)
-    sums = [np.bincount(keys, sample[:, c].astype(np.float64), minlength=1 << 15)[bins] for c in range(3)]
+    weights = counts[bins].astype(np.float64) / len(pixels)
+    sums = [np.bincount(keys, pixels[:, c].astype(np.float64), minlength=1 << 15)[bins] for c in range(3)]
     means: NDArray[np.float64] = np.stack(sums, axis=1) / counts[bins][:, None]
     found: list[Colour] = []
     left = np.ones(len(bins), bool)
@@ -148,9 +149,9 @@ def flat_levels(plane: FloatPlane) -> list[tuple[float, float]]:
     """
     square = np.ones((3, 3), np.uint8)
     levels = np.rint(plane * 255).astype(np.uint8)
-    flat = (cv2.dilate(levels, square).astype(np.int16) - cv2.erode(levels, square)) <= _WINDOWS[1][0]
-    counts = np.bincount(levels[flat], minlength=256).astype(np.float64)
-    least = max(4.0, 0.001 * levels.size, 0.02 * np.count_nonzero(flat & (levels > 8)))
+    flat = ((cv2.dilate(levels, square) - cv2.erode(levels, square)) <= _WINDOWS[1][0]).astype(np.uint8)
+    counts = cv2.calcHist([levels], [0], flat, [256], [0, 256]).ravel().astype(np.float64)
+    least = max(4.0, 0.001 * levels.size, 0.02 * counts[9:].sum())
     found = []
     for level in np.argsort(-counts):
         if counts[level] <= 0:

@@ -109,11 +109,10 @@ def _tells(opacity: NDArray[np.uint8]) -> bool:
 
 def _is_grey(rgb: NDArray[np.uint8], where: NDArray[np.bool_] | None = None) -> bool:
     """Whether a picture has no colours, or has them by accident beside its white and black."""
-    darkest, brightest = rgb.min(axis=2), rgb.max(axis=2)
-    shown = np.ones(darkest.shape, bool) if where is None else where
-    coloured = np.count_nonzero((brightest - darkest > _COLOURED) & shown)
-    white = np.count_nonzero((darkest >= 255 * _BRIGHT) & shown)
-    black = np.count_nonzero((brightest <= 255 * _DARK) & shown)
+    red, green, blue = cv2.split(rgb)
+    darkest, brightest = cv2.min(cv2.min(red, green), blue), cv2.max(cv2.max(red, green), blue)
+    tests = (brightest - darkest > _COLOURED, darkest >= 255 * _BRIGHT, brightest <= 255 * _DARK)
+    coloured, white, black = (np.count_nonzero(each if where is None else each & where) for each in tests)
     return bool(coloured <= _FEW * min(white, black))
 
 
