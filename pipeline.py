@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from .physics.automatic import Attachment, automatic_scene
@@ -19,7 +18,7 @@ from .physics.collision import Collider, Contact
 from .physics.errors import InvalidInputError, require
 from .physics.given_scene import given_scene, materials_of
 from .physics.loop import loop_frames
-from .physics.masks import coverage_of
+from .physics.masks import coverage_of, fitted
 from .physics.material import Material
 from .physics.mesh import TriangleMesh
 from .physics.meshing import mesh_from_mask
@@ -28,7 +27,7 @@ from .physics.scene import Body, Scene
 from .physics.simulation import simulate
 from .rendering.animation import Animation, StageProgress, timed
 from .rendering.drawing_checks import check_count
-from .rendering.pixels import check_picture
+from .rendering.pixels import as_picture
 from .rendering.video import check_frame_rate
 
 __all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "Animation", "StageProgress", "animate"]
@@ -65,8 +64,10 @@ def animate(
     """Set parts of an illustration in motion.
 
     Args:
-        image: the illustration, RGB, uint8 or 0..1 float, shape [h, w, 3].
-        masks: where each moving part is, bool, 0..1 or 0..255, each of shape [h, w]; later ones lie in front.
+        image: the illustration, RGB, shape [h, w, 3]: uint8, uint16, other whole numbers 0..255, or floating-point
+            numbers 0..1 of any precision, as :func:`~physanimator.rendering.pixels.as_picture` says.
+        masks: where each moving part is, bool, 0..1, 0..255 or 0..65535, each of shape [h, w] or, to be scaled, of the
+            picture's proportions; later ones lie in front.
         points: for each further part its query points, in any form that
             :func:`~physanimator.rendering.points.parse_points` reads.
         scene: what acts on the parts, as a ``Scene`` with one body for each part or as a decoded scene document;
@@ -86,17 +87,20 @@ def animate(
             passing gusts, when there is no scene.
         contact: how the parts keep out of each other, instead of what the scene says.
         colliders: masks of what the parts keep out of besides the scene's colliders; they need contact.
-        plate: the illustration without the moving parts, if it exists; painted in when None.
+        plate: the illustration without the moving parts, if it exists, in any form that ``image`` may have and of its
+            size; painted in when None.
         progress: called as the stages "simulate" and those of the frames advance.
 
     Raises:
         InvalidInputError: an input is unusable; the message names it.
     """
     seconds: dict[str, float] = {}
-    image = np.asarray(image)
-    require("image", f"shape {image.shape}", image.ndim == 3 and image.shape[2] == 3, "an RGB picture [h, w, 3]")
-    check_picture(image)
+    image = as_picture(image)
     plate = _checked_plate(plate, image)
+    masks, colliders = (
+        _coverages("masks", () if masks is None else masks, image),
+        _coverages("colliders", colliders, image),
+    )
     _check_frames(frames, skip)
     if frame_rate is not None:
         check_frame_rate(frame_rate)
@@ -105,8 +109,8 @@ def animate(
 
         check_document(scene)
     with timed(seconds, "segment"):
-        parts = (*(masks or ()), *_segmented(image, points or ()))
-    _check_parts(image, parts)
+        parts = (*masks, *_segmented(image, points or ()))
+    _check_parts(parts)
     with timed(seconds, "mesh"):
         meshes = [mesh_from_mask(each, spacing=spacing) for each in parts]
     with timed(seconds, "scene"):
@@ -140,11 +144,9 @@ def _checked_plate(plate: Image | None, image: Image) -> Image | None:
     """The plate as an array, which suits the picture: the renderer, which needs it, comes after the simulation."""
     if plate is None:
         return None
-    plate = np.asarray(plate)
+    plate = as_picture(plate, name="plate")
     if plate.shape != image.shape:
         raise InvalidInputError(f"plate must have the picture's shape, {image.shape}. Got: {plate.shape}")
-    check_picture(plate)
-    require("plate", plate.dtype, plate.dtype == image.dtype, f"of the picture's type, {image.dtype}")
     return plate
 
 
@@ -153,6 +155,13 @@ def _check_frames(frames: int | None, skip: int) -> None:
     if frames is not None:
         check_count("frames", frames)
         require("skip", skip, 0 <= skip < frames, f"at least 0 and below the number of frames ({frames})")
+
+
+def _coverages(name: str, masks: Sequence[Mask], image: Image) -> list[Mask]:
+    """Masks as numbers from 0 to 1 of the picture's size."""
+    height, width = image.shape[:2]
+    named = [(f"{name}[{number}]", mask) for number, mask in enumerate(masks)]
+    return [fitted(coverage_of(mask, name=each), width, height, name=each) for each, mask in named]
 
 
 def _segmented(image: Image, points: Sequence[Any]) -> Iterator[Mask]:
@@ -167,15 +176,9 @@ def _segmented(image: Image, points: Sequence[Any]) -> Iterator[Mask]:
         yield segment(image, [(p.x, p.y) for p in clicked], [int(p.positive) for p in clicked])
 
 
-def _check_parts(image: Image, parts: Sequence[Mask]) -> None:
-    height, width = image.shape[:2]
+def _check_parts(parts: Sequence[Mask]) -> None:
     if not parts:
         raise InvalidInputError("an animation needs at least one mask, or points on a part. Got: neither")
-    for number, mask in enumerate(parts):
-        if np.shape(mask) != (height, width):
-            raise InvalidInputError(
-                f"masks[{number}] must have the picture's shape, [{height}, {width}]. Got: {list(np.shape(mask))}"
-            )
 
 
 def _layered(meshes: Sequence[TriangleMesh], materials: Sequence[Material]) -> list[Body]:
@@ -188,7 +191,7 @@ def _touching(scene: Scene, contact: Contact | None, colliders: Sequence[Mask]) 
     if not colliders:
         return scene
     require("contact", scene.contact, scene.contact is not None, "given where there are colliders")
-    added = tuple(Collider.from_mask(coverage_of(each) > 0.5) for each in colliders)
+    added = tuple(Collider.from_mask(each > 0.5) for each in colliders)
     return replace(scene, colliders=(*scene.colliders, *added))
 
 

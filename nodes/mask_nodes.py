@@ -102,7 +102,7 @@ class SegmentByPoints(io.ComfyNode):
         # The host hands over the inputs that a choice brings only to a function that takes every input.
         checks = [lambda: boxes_of(box or "", name="box")]
         if points is not None and (points.strip() or not box):
-            checks.append(lambda: parse_points(points, width=1 << 20, height=1 << 20))
+            checks.append(lambda: parse_points(points, width=1 << 19, height=1 << 19))
         return missing_sam_files(backend or {}) or refusal(*checks)
 
     @classmethod

@@ -136,7 +136,7 @@ def motion_of(motion: dict[str, Any] | None) -> RigMotion:
     if kind == "wave":
         radians = np.deg2rad(values.pop("angle"))
         return Wave(direction=(float(np.cos(radians)), -float(np.sin(radians))), **values)
-    points = tuple(parse_polyline(values["points"], name="motion points"))
+    points = tuple(parse_polyline(values["points"], name="motion points", offsets=True))
     times = times_of(values["times"], name="motion times") or _seconds(len(points))
     return KeyedPath(times, points, values.get("easing", KeyedPath.easing))
 

@@ -2,17 +2,54 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from .masks import may_be_inverted
+from .mesh import TriangleMesh
+from .pixel_box import PixelBox
+from .raster import triangle_ids
 from .rigging import leaders_of, unused_rig_points
 from .scene import Scene
 
-__all__ = ["advice", "loose_parts"]
+__all__ = ["advice", "inverted_masks", "loose_parts"]
 
 _NAMED = 3
+_LOOKED_AT = 128  # longest side at which it is seen what a mesh covers [px]
 
 
-def advice(scene: Scene) -> list[str]:
-    """A sentence for everything in a scene that an animator would want to know before simulating it."""
-    return [*unused_rig_points(scene), *loose_parts(scene)]
+def advice(scene: Scene, *, masks: bool = True) -> list[str]:
+    """A sentence for everything in a scene that an animator would want to know before simulating it.
+
+    Args:
+        scene: the scene.
+        masks: whether to speak of its masks, too; false where that was done when they were read.
+    """
+    return [*(inverted_masks(scene) if masks else ()), *unused_rig_points(scene), *loose_parts(scene)]
+
+
+def inverted_masks(scene: Scene) -> list[str]:
+    """A sentence for each body that covers most of the picture up to its border, as an inverted mask does."""
+    sentences = []
+    for number, body in enumerate(scene.bodies):
+        share = _share_if_inverted(body.mesh)
+        if share:
+            named = f" ({body.name})" if body.name else ""
+            sentences.append(
+                f"bodies[{number}]{named} covers {100 * share:.0f} % of the picture: if white is what shall stay still"
+                " in its mask, invert it"
+            )
+    return sentences
+
+
+def _share_if_inverted(mesh: TriangleMesh) -> float:
+    """The share of the picture that a mesh covers, 0 if it looks like what is meant."""
+    if mesh.areas.sum() < 0.5 * mesh.width * mesh.height:
+        return 0.0
+    scale = min(1.0, _LOOKED_AT / max(mesh.width, mesh.height))
+    box = PixelBox(0, 0, max(1, round(mesh.width * scale)), max(1, round(mesh.height * scale)))
+    sides = np.array([box.width / mesh.width, box.height / mesh.height])
+    covered = (triangle_ids(mesh.vertices * sides, mesh.triangles, box) >= 0).astype(np.float32)
+    return float(covered.mean()) if may_be_inverted(covered) else 0.0
 
 
 def loose_parts(scene: Scene) -> list[str]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 __all__ = [
     "Cancelled",
     "InvalidInputError",
@@ -10,11 +12,24 @@ __all__ = [
     "SceneError",
     "SimulationError",
     "require",
+    "shown",
 ]
+
+_LONGEST_MESSAGE = 1200
+_LONGEST_VALUE = 120
+_MANY_DIGITS = re.compile(r"\d{25,}")
+_JOINERS = "\u200c\u200d"
+"""Invisible, but part of words and emoji in names of files."""
 
 
 class PhysAnimatorError(Exception):
-    """Base of every error that this package raises on purpose."""
+    """Base of every error that this package raises on purpose.
+
+    Its message is one line of printable text of bounded length, whatever a file or a user put into it.
+    """
+
+    def __init__(self, message: str = "") -> None:
+        super().__init__(_one_line(message, _LONGEST_MESSAGE))
 
 
 class InvalidInputError(PhysAnimatorError, ValueError):
@@ -34,7 +49,7 @@ class SceneError(InvalidInputError):
 
     def __init__(self, path: str, message: str) -> None:
         super().__init__(f"{path}: {message}" if path else message)
-        self.path = path
+        self.path = _one_line(path, _LONGEST_MESSAGE)
 
 
 class SimulationError(InvalidInputError):
@@ -58,4 +73,29 @@ def require(name: str, got: object, holds: bool, expected: str) -> None:
         InvalidInputError: ``holds`` is false.
     """
     if not holds:
-        raise InvalidInputError(f"{name} must be {expected}. Got: {got}")
+        raise InvalidInputError(f"{name} must be {expected}. Got: {shown(got)}")
+
+
+def shown(value: object) -> str:
+    """A value that somebody gave, for a message: one printable line, short whatever the value holds."""
+    if isinstance(value, list | tuple | set | dict | bytes) and len(value) > _LONGEST_VALUE // 3:
+        return f"{type(value).__name__} of {len(value)}"
+    try:
+        return _one_line(str(value), _LONGEST_VALUE)
+    except ValueError:  # Python does not write whole numbers of thousands of digits
+        return "a number of thousands of digits"
+    except RecursionError:
+        return f"a deeply nested {type(value).__name__}"
+
+
+def _one_line(text: str, longest: int) -> str:
+    text = _MANY_DIGITS.sub(lambda digits: f"{digits[0][:6]}... ({len(digits[0])} digits)", str(text))
+    if len(text) > longest:
+        text = f"{text[: longest * 2 // 3]} ... {text[-longest // 4 :]}"
+    if text.isprintable():
+        return text
+    return "".join(each if each.isprintable() or each in _JOINERS else _escaped(each) for each in text)
+
+
+def _escaped(character: str) -> str:
+    return character.encode("unicode_escape").decode("ascii")

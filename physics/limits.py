@@ -14,6 +14,8 @@ __all__ = [
     "MAX_PARTICLES",
     "MAX_PARTICLES_OF_STROKE",
     "MAX_PARTS",
+    "MAX_PICTURE_PIXELS",
+    "MAX_PICTURE_SIDE",
     "MAX_POINTS",
     "MAX_QUERY_POINTS",
     "MAX_RIG_POINTS",
@@ -50,6 +52,13 @@ MAX_POINTS = 10_000
 
 MAX_DOCUMENT_BYTES = 64 * 2**20
 """Size of a scene document as text."""
+
+MAX_PICTURE_PIXELS = 2**26
+"""Area of a picture that is read [px]: 8192 x 8192, or a page of 1600 x 30000."""
+
+MAX_PICTURE_SIDE = 30_000
+"""Longest side of a picture that is read [px]: OpenCV moves pictures of up to 32766, and parts at the border get room
+beyond it."""
 
 MAX_SIDE = 65_536
 """Width and height of the illustration in a scene document [px]."""

@@ -2,70 +2,109 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import MeshingError
+from .arrays import OVERSHOOT, as_array, beyond_one
+from .errors import InvalidInputError, MeshingError
 
-__all__ = ["continued", "coverage_of", "distance_to_zero", "fitted", "with_sound_details", "without_specks"]
+__all__ = [
+    "continued",
+    "coverage_of",
+    "distance_to_zero",
+    "fitted",
+    "may_be_inverted",
+    "with_sound_details",
+    "without_specks",
+]
 
 Coverage = NDArray[np.float32]
 """A soft mask in 0 to 1, shape [h, w]; what is above one half belongs to the shape."""
 
-_TOLERANCE = 1e-3
 _ASPECT_TOLERANCE = 0.01
+_NEARLY_ALL = 0.9
 # A disc of radius r leaves a square corner uncovered up to 0.41 r away; such corners are not thin parts.
 _CORNER = 0.5
 _PIXELATION = 0.25
 
 
-def coverage_of(mask: ArrayLike) -> Coverage:
+def coverage_of(mask: ArrayLike, *, name: str = "mask") -> Coverage:
     """A mask as numbers from 0 to 1.
 
     Args:
-        mask: bool, integers 0 to 255 (or all 0 and 1), or floats 0 to 1, shape [h, w].
+        mask: bool; whole numbers 0 to 255, or 0 to 65535, or 0 and 1 only; or floating-point numbers 0 to 1, which may
+            overshoot a little as resampling leaves them. An array, a tensor or a Pillow picture of shape [h, w],
+            [h, w, 1] or [1, h, w].
+        name: what the caller calls the mask, for messages.
+
+    Returns:
+        Coverage, float32, shape [h, w].
 
     Raises:
-        MeshingError: it is none of these.
+        MeshingError: it is none of these, or whole numbers that count labels instead of saying how much is covered.
     """
-    values = np.asarray(mask)
+    try:
+        values = as_array(mask, name)
+    except InvalidInputError as error:
+        raise MeshingError(str(error)) from error
+    if values.ndim == 3 and 1 in (values.shape[0], values.shape[2]):
+        values = values.reshape(values.shape[:2] if values.shape[2] == 1 else values.shape[1:])
     if values.ndim != 2 or values.size == 0:
-        raise MeshingError(f"mask must be one plane of shape [height, width]. Got: shape {values.shape}")
+        raise MeshingError(f"{name} must be one plane of shape [height, width]. Got: shape {values.shape}")
     if values.dtype == np.bool_:
         return values.astype(np.float32)
     if np.issubdtype(values.dtype, np.integer):
-        low, high = int(values.min()), int(values.max())
-        if low < 0 or high > 255:
-            raise MeshingError(f"mask must hold integers from 0 to 255. Got: {low} to {high}")
-        return values.astype(np.float32) / np.float32(255 if high > 1 else 1)
-    if not np.issubdtype(values.dtype, np.floating):
-        raise MeshingError(f"mask must hold booleans, integers or floating-point numbers. Got: {values.dtype}")
-    if not np.isfinite(values).all():
-        raise MeshingError("mask must hold finite numbers. Got: NaN or infinity")
-    if values.min() < -_TOLERANCE or values.max() > 1 + _TOLERANCE:
+        return _from_whole_numbers(values, name)
+    low, high = float(values.min()), float(values.max())  # NaN if any value is
+    if not (np.isfinite(low) and np.isfinite(high)):
+        raise MeshingError(f"{name} must hold finite numbers. Got: NaN or infinity")
+    if low < -OVERSHOOT or high > 1 + OVERSHOOT:
+        raise MeshingError(f"{name} must hold {beyond_one(low, high)}")
+    coverage = values.astype(np.float32)
+    return coverage if low >= 0 and high <= 1 else np.clip(coverage, 0, 1)
+
+
+def _from_whole_numbers(values: NDArray[Any], name: str) -> Coverage:
+    low, high = int(values.min()), int(values.max())
+    full = 1 if high <= 1 else 255 if high <= 255 else 65535
+    # Labels are small numbers: at these values nothing would be even half covered.
+    if low < 0 or high > 65535 or 1 < high < full / 2:
         raise MeshingError(
-            f"mask must hold floating-point numbers from 0 to 1. Got: {values.min():g} to {values.max():g}"
+            f"{name} must hold whole numbers from 0 to 255 (or to 65535), the highest where the part is; of labels"
+            f" choose one, as in mask == 1. Got: {low} to {high}"
         )
-    return values.astype(np.float32)
+    return values.astype(np.float32) / np.float32(full)
 
 
-def fitted(coverage: Coverage, width: int, height: int) -> Coverage:
-    """The mask at the picture's size [px].
+def fitted(coverage: Coverage, width: int, height: int, *, name: str = "mask") -> Coverage:
+    """The mask at the picture's size [px]: one of the same proportions is scaled, softly.
 
     Raises:
-        MeshingError: its proportions differ from the picture's by more than a hundredth.
+        MeshingError: its proportions differ from the picture's by more than a hundredth, or by more than a pixel.
     """
     rows, columns = coverage.shape
     if (rows, columns) == (height, width):
         return coverage
-    if abs(columns * height / (rows * width) - 1) > _ASPECT_TOLERANCE:
+    smaller = min(columns / width, rows / height)
+    off = max(abs(columns - width * smaller), abs(rows - height * smaller))  # [px of the mask]
+    if off > 1 and abs(columns * height / (rows * width) - 1) > _ASPECT_TOLERANCE:
         raise MeshingError(
-            f"mask must have the picture's size or at least its proportions ({width} x {height} px)."
+            f"{name} must have the picture's size or at least its proportions ({width} x {height} px)."
             f" Got: {columns} x {rows} px"
         )
     method = cv2.INTER_AREA if columns > width else cv2.INTER_LINEAR
     return np.asarray(cv2.resize(coverage, (width, height), interpolation=method), dtype=np.float32)
+
+
+def may_be_inverted(coverage: Coverage) -> bool:
+    """Whether a mask covers most of the picture, up to its border, as one does whose black and white are exchanged."""
+    inside = coverage > 0.5
+    share = float(inside.mean())
+    border = np.concatenate([inside[0], inside[-1], inside[:, 0], inside[:, -1]])
+    return share > _NEARLY_ALL or (share > 0.5 and float(border.mean()) > 0.5)
 
 
 def without_specks(coverage: Coverage, smallest_part: float) -> Coverage:

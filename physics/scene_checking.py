@@ -11,7 +11,7 @@ from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-from .errors import SceneError
+from .errors import SceneError, shown
 from .limits import LARGEST, MAX_MASK_PIXELS, MAX_VERTICES
 from .scene_encoding import SCENE_VERSION
 from .scene_schema import scene_schema
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 __all__ = ["check_document", "join_path"]
 
 _LONGEST = 60  # characters of a value or a key that are shown
-_MOST_DIGITS = 20
 _ENOUGH = 100  # wrong values among which to choose the first
 
 _TYPES = {
@@ -182,18 +181,13 @@ def _shown(value: object) -> str:
         return "an object"
     if isinstance(value, list):
         return f"a list of {len(value)}"
-    if isinstance(value, int) and abs(value) >= 10**_MOST_DIGITS:
-        return f"a whole number of more than {_MOST_DIGITS} digits"
-    if isinstance(value, str):
-        value = value[: _LONGEST + 1]
-    text = json.dumps(value, ensure_ascii=False) if value is None or isinstance(value, bool | str) else repr(value)
-    return _printable(text if len(text) <= _LONGEST else text[:_LONGEST] + "...")
+    if not (value is None or isinstance(value, bool | str)):
+        return shown(value)
+    # A long text is cut before it is quoted: some have millions of characters.
+    text = json.dumps(value[: _LONGEST + 1] if isinstance(value, str) else value, ensure_ascii=False)
+    return shown(text if len(text) <= _LONGEST else text[:_LONGEST] + "...")
 
 
 def _key_shown(key: str) -> str:
     """An unknown key as part of a path: itself, or in quotes and short where it would tear the sentence apart."""
     return key if key.isprintable() and 0 < len(key) <= _LONGEST else _shown(key)
-
-
-def _printable(text: str) -> str:
-    return "".join(each if each.isprintable() else each.encode("unicode_escape").decode("ascii") for each in text)

@@ -14,7 +14,7 @@ from .line_continuation import continue_lines
 from .matte import with_outline
 from .patch_synthesis import continue_texture
 from .pixel_windows import window_around
-from .pixels import as_dtype, as_float, check_picture
+from .pixels import as_dtype, as_float, as_picture
 from .smooth_fill import smooth_fill
 
 __all__ = ["clean_plate", "fill_hole"]
@@ -35,17 +35,17 @@ def clean_plate(image: NDArray[Any], mask: ArrayLike) -> NDArray[Any]:
     """Remove what a mask shows and continue its surroundings in its place.
 
     Args:
-        image: RGB, uint8 or float32 in 0 to 1, shape [h, w, 3].
+        image: RGB in any form that :func:`~physanimator.rendering.pixels.as_picture` takes, shape [h, w, 3].
         mask: what to remove: bool, integers 0 to 255 or floats 0 to 1, shape [h, w]; everything above 0.02 goes.
             Should include the outlines that belong to it.
 
     Returns:
-        The picture in the dtype of ``image``; outside the mask unchanged.
+        The picture, uint8 or float32 as ``image`` is taken; outside the mask unchanged.
 
     Raises:
         InvalidInputError: the picture or mask has another form, or the mask leaves too little of the picture.
     """
-    check_picture(image)
+    image = as_picture(image)
     coverage = fitted(coverage_of(mask), image.shape[1], image.shape[0])
     hole = coverage > _FAINT
     if not hole.any():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -73,22 +74,32 @@ def read_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
         InvalidInputError: a file cannot be read.
     """
     from ..physics.json_text import read_json
-    from .images import load_image, load_mask
+    from .images import load_image
 
     scene = read_json(_text(options.scene, "scene")) if options.scene else None
     image = load_image(options.image)
     height, width = image.shape[:2]
     return image, {
-        "masks": [load_mask(path, width=width, height=height) for path in options.mask],
+        "masks": [_mask(path, "mask", width, height) for path in options.mask],
         "points": [_text(path, "points") for path in options.points],
         "scene": scene,
         "preset": options.preset,
         "sway": options.sway,
         "spacing": options.spacing,
         "contact": _contact(options, scene),
-        "colliders": [load_mask(path, width=width, height=height) for path in options.collider],
+        "colliders": [_mask(path, "collider", width, height) for path in options.collider],
         **_wind(options),
     }
+
+
+def _mask(path: str, name: str, width: int, height: int) -> Any:
+    """A mask, after saying on standard error what may not be meant so in it."""
+    from .mask_files import read_mask
+
+    found = read_mask(path, width=width, height=height, name=name)
+    for note in found.notes:
+        print(f"physanimator: warning: {note}", file=sys.stderr)
+    return found.coverage
 
 
 def _contact(options: argparse.Namespace, scene: Any) -> Contact | None:
@@ -101,9 +112,16 @@ def _contact(options: argparse.Namespace, scene: Any) -> Contact | None:
 
 def _text(path: str, name: str) -> str:
     from ..physics.errors import InvalidInputError
+    from ..physics.limits import MAX_DOCUMENT_BYTES
 
     try:
-        return Path(path).read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
+        with Path(path).open("rb") as file:
+            content = file.read(MAX_DOCUMENT_BYTES + 1)
+        # Windows writes what is piped into a file as UTF-16, with a mark at its start.
+        text = content.decode("utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+    except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not text"
         raise InvalidInputError(f"{name} must be a readable text file. Got: {path}: {reason}") from None
+    if len(content) > MAX_DOCUMENT_BYTES:
+        raise InvalidInputError(f"{name} {path} must be at most {MAX_DOCUMENT_BYTES >> 20} MB of text. Got: more")
+    return text

@@ -6,6 +6,11 @@ import argparse
 
 __all__ = ["add_animate", "add_demo", "add_figure", "add_measure"]
 
+_MASK = (
+    "white where a part is; without white, one colour on black, white or nothing is the part, or the opacity of a"
+    " cut-out picture"
+)
+
 
 def add_animate(parser: argparse.ArgumentParser) -> None:
     """All that ``physanimator animate`` takes."""
@@ -85,7 +90,7 @@ def _add_parts(parser: argparse.ArgumentParser) -> None:
         action="extend",
         nargs="+",
         default=[],
-        help="picture of the same size, white where a part is; may be repeated, later parts lie in front",
+        help=f"picture of the same proportions: {_MASK}; may be repeated, later parts lie in front",
     )
     parts.add_argument(
         "--points",
@@ -127,7 +132,7 @@ def _add_direction(parser: argparse.ArgumentParser) -> None:
         action="extend",
         nargs="+",
         default=[],
-        help="picture of the same size, white where something stands still that parts keep out of; implies --contact",
+        help="mask of what stands still and parts keep out of, read as --mask is; implies --contact",
     )
     how.add_argument("--spacing", metavar="PX", type=float, help="distance of mesh vertices (default: from the mask)")
 

@@ -16,7 +16,7 @@ from ..physics.motion import Motion
 from ..physics.pixel_box import PixelBox
 from ..physics.progress import Progress
 from .layers import take_apart
-from .pixels import as_dtype, as_float, check_picture
+from .pixels import as_dtype, as_float, as_picture
 
 __all__ = ["LayeredRenderer", "render_frames"]
 
@@ -31,7 +31,7 @@ class LayeredRenderer:
 
     Attributes:
         motion: what is drawn.
-        plate: the illustration without its bodies, in its dtype, shape [h, w, 3].
+        plate: the illustration without its bodies, uint8 or float32, shape [h, w, 3].
     """
 
     def __init__(
@@ -45,24 +45,23 @@ class LayeredRenderer:
         """Take the illustration apart.
 
         Args:
-            image: RGB, uint8 or float32 in 0 to 1, shape [h, w, 3].
+            image: RGB in any form that :func:`~physanimator.rendering.pixels.as_picture` takes, shape [h, w, 3].
             masks: one for each body of the motion, in its order: bool, integers 0 to 255 or floats 0 to 1,
                 shape [h, w].
             motion: of the bodies.
-            plate: what is behind all bodies, of the image's shape and dtype; None makes a clean plate.
+            plate: what is behind all bodies, of the image's shape; None makes a clean plate.
 
         Raises:
-            InvalidInputError: sizes, dtypes or the number of masks do not fit together.
+            InvalidInputError: sizes, ranges or the number of masks do not fit together.
         """
-        check_picture(image)
+        image = as_picture(image)
         size, expected = image.shape[1::-1], (motion.width, motion.height)
         require("image", f"{size[0]} x {size[1]} px", size == expected, f"as large as the motion's, {expected} px")
         require("masks", len(masks), len(masks) == len(motion.bodies), f"one for each of {len(motion.bodies)} bodies")
-        if plate is not None and (plate.shape != image.shape or plate.dtype != image.dtype):
-            raise InvalidInputError(
-                f"plate must have the image's shape {image.shape} and dtype {image.dtype}."
-                f" Got: {plate.shape}, {plate.dtype}"
-            )
+        if plate is not None:
+            plate = as_picture(plate, name="plate")
+            if plate.shape != image.shape:
+                raise InvalidInputError(f"plate must have the image's shape {image.shape}. Got: {plate.shape}")
         self.motion = motion
         self._order = layer_order(motion)
         background, self._layers = take_apart(
@@ -79,7 +78,7 @@ class LayeredRenderer:
         return len(self.motion)
 
     def frame(self, t: int) -> NDArray[Any]:
-        """Frame ``t`` in the dtype of the illustration, RGB, shape [h, w, 3].
+        """Frame ``t``, uint8 or float32 as the illustration is taken, RGB, shape [h, w, 3].
 
         Raises:
             InvalidInputError: there is no such frame.

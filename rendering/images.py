@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-import io
 import os
-import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError
+from ..physics.limits import MAX_PICTURE_SIDE
 from .atomic import replacing
-
-if TYPE_CHECKING:
-    from PIL import Image
+from .picture_files import has_transparency, in_8_bits, in_srgb, reading, with_opacity
+from .pixels import as_uint8
 
 __all__ = ["LONGEST_SIDE", "check_image_output", "data_address", "load_image", "load_mask", "save_image", "to_uint8"]
 
-LONGEST_SIDE = 8192
-"""The longest side of a picture that is accepted [px]."""
+LONGEST_SIDE = MAX_PICTURE_SIDE
+"""The longest side of a picture that is accepted [px]; ``MAX_PICTURE_PIXELS`` bounds its area."""
 
 StrPath = str | os.PathLike[str]
 
@@ -31,32 +29,34 @@ def load_image(path: StrPath) -> NDArray[np.uint8]:
     """Read an illustration.
 
     The orientation noted by a camera or scanner is applied, an embedded colour profile is converted to sRGB,
-    16-bit and grey pictures become 8-bit RGB, and transparent areas are laid over white. Of an animated file the
-    first frame is read.
+    pictures of 16 and 32 bits a channel and grey ones become 8-bit RGB, and transparent areas are laid over white. Of
+    an animated file the first frame is read.
 
     Args:
-        path: a PNG, JPEG, WebP or any other file that Pillow reads.
+        path: a PNG, JPEG, WebP, TIFF, PSD or other picture that Pillow reads without help of another program.
 
     Returns:
         RGB, uint8, shape [h, w, 3].
 
     Raises:
-        InvalidInputError: there is no such file, it is no picture, or it is too large.
+        InvalidInputError: there is no such file, it is no picture, it is damaged or it is too large.
     """
-    from PIL import Image
+    from PIL import Image, ImageOps
 
-    picture = _in_srgb(_open(path))
-    if _has_transparency(picture):
-        picture = _with_opacity(picture)
-        picture = Image.alpha_composite(Image.new("RGBA", picture.size, "white"), picture)
-    return np.array(_in_8_bits(picture).convert("RGB"))
+    with reading(path, "picture") as opened:
+        picture = in_srgb(ImageOps.exif_transpose(opened))
+        if has_transparency(picture):
+            picture = with_opacity(picture, name=f"picture {path}")
+            picture = Image.alpha_composite(Image.new("RGBA", picture.size, "white"), picture)
+        return np.array(in_8_bits(picture, name=f"picture {path}").convert("RGB"))
 
 
 def load_mask(path: StrPath, *, width: int, height: int) -> NDArray[np.float32]:
     """Read a mask: where a moving part is.
 
-    A picture with transparent areas counts by its opacity, so that a cut-out part serves as its own mask; any
-    other picture counts by its brightness, white being inside.
+    White counts where there is white on black; where the colours do not decide, the opacity does, so that a cut-out
+    part serves as its own mask. One colour on black or white counts where that colour is. See
+    :func:`~physanimator.rendering.mask_files.read_mask` for the whole rule, and for what it remarks on a mask.
 
     Args:
         path: a picture file of any mode.
@@ -64,24 +64,15 @@ def load_mask(path: StrPath, *, width: int, height: int) -> NDArray[np.float32]:
         height: height of the illustration [px].
 
     Returns:
-        Coverage from 0 to 1, float32, shape [h, w].
+        Coverage from 0 to 1, float32, shape [h, w]; a mask of the illustration's proportions is scaled to its size.
 
     Raises:
-        InvalidInputError: the file cannot be read, has another size than the illustration, or is empty.
+        InvalidInputError: the file cannot be read, has other proportions than the illustration, is empty, or shows
+            several parts.
     """
-    picture = _open(path)
-    if picture.size != (width, height):
-        raise InvalidInputError(
-            f"mask {path} must have the size of the picture, {width} x {height} px."
-            f" Got: {picture.size[0]} x {picture.size[1]} px"
-        )
-    grey = np.array(_in_8_bits(picture).convert("L"))
-    if _has_transparency(picture):
-        opacity = np.array(_with_opacity(picture))[..., 3]
-        grey = opacity if opacity.min() < 255 else grey
-    if grey.max() < 128:
-        raise InvalidInputError(f"mask {path} must be white (or opaque) where the part is. Got: an empty mask")
-    return grey.astype(np.float32) / np.float32(255)
+    from .mask_files import read_mask
+
+    return read_mask(path, width=width, height=height).coverage
 
 
 def save_image(path: StrPath, image: NDArray[Any]) -> None:
@@ -151,82 +142,4 @@ def to_uint8(image: NDArray[Any]) -> NDArray[np.uint8]:
     Args:
         image: uint8 or float, any shape.
     """
-    if image.dtype == np.uint8:
-        return image
-    return np.rint(np.clip(image, 0, 1) * 255).astype(np.uint8)
-
-
-def _open(path: StrPath) -> Image.Image:
-    """The first frame of a picture file, upright."""
-    from PIL import Image, ImageOps, UnidentifiedImageError
-
-    try:
-        with warnings.catch_warnings():
-            # Pillow warns below our own limit and refuses above it; _check_size says it in our words.
-            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
-            opened = Image.open(path)
-        with opened as picture:
-            _check_size(path, picture.size)
-            return ImageOps.exif_transpose(picture)
-    except FileNotFoundError:
-        raise InvalidInputError(f"picture must be an existing file. Got: {path}") from None
-    except Image.DecompressionBombError:
-        raise InvalidInputError(f"picture {path} must be at most {LONGEST_SIDE} px on a side. Got: more") from None
-    except UnidentifiedImageError:
-        raise InvalidInputError(f"picture must be a PNG, JPEG or WebP file. Got: {path}") from None
-    except InvalidInputError:
-        raise
-    except (OSError, SyntaxError, ValueError) as error:
-        raise InvalidInputError(f"picture {path} cannot be read: {error}") from error
-
-
-def _check_size(path: StrPath, size: tuple[int, int]) -> None:
-    if max(size) > LONGEST_SIDE:
-        raise InvalidInputError(
-            f"picture {path} must be at most {LONGEST_SIDE} px on a side. Got: {size[0]} x {size[1]} px"
-        )
-
-
-def _has_transparency(picture: Image.Image) -> bool:
-    return picture.mode in ("LA", "La", "PA", "RGBA", "RGBa") or "transparency" in picture.info
-
-
-def _with_opacity(picture: Image.Image) -> Image.Image:
-    """RGB and opacity of a picture that has transparency, 8 bits each."""
-    from PIL import Image
-
-    reduced = _in_8_bits(picture)
-    if reduced is picture:
-        return picture.convert("RGBA")
-    # One of the 65536 greys means transparent; after the reduction others would be equal to it.
-    opacity = np.where(np.array(picture) == picture.info["transparency"], 0, 255).astype(np.uint8)
-    return Image.merge("RGBA", [*[reduced.convert("L")] * 3, Image.fromarray(opacity)])
-
-
-def _in_8_bits(picture: Image.Image) -> Image.Image:
-    """The picture with 16-bit or float grey values brought to 0..255 (Pillow would clip them)."""
-    from PIL import Image
-
-    if picture.mode not in ("I", "F", "I;16", "I;16L", "I;16B", "I;16N"):
-        return picture
-    values = np.array(picture).astype(np.float64)
-    brightest = 65535.0 if picture.mode != "F" else max(float(values.max()), 1.0)
-    return Image.fromarray(to_uint8(values / brightest))
-
-
-def _in_srgb(picture: Image.Image) -> Image.Image:
-    """The picture's colours as sRGB values; drawing tablets embed wider profiles such as Display P3."""
-    from PIL import ImageCms
-
-    profile = picture.info.get("icc_profile")
-    if not profile or picture.mode not in ("RGB", "RGBA", "CMYK"):
-        return picture
-    try:
-        source = ImageCms.ImageCmsProfile(io.BytesIO(profile))
-        if "srgb" in ImageCms.getProfileDescription(source).lower():
-            return picture
-        mode = "RGBA" if picture.mode == "RGBA" else "RGB"
-        converted = ImageCms.profileToProfile(picture, source, ImageCms.createProfile("sRGB"), outputMode=mode)
-    except (ImageCms.PyCMSError, OSError):
-        return picture
-    return picture if converted is None else converted
+    return as_uint8(image)

@@ -15,11 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError, require
+from ..physics.masks import coverage_of
 from ..physics.motion import Motion
 from ..physics.progress import Progress
 from .flow_inbetweens import FlowInterpolator
 from .inbetweening import Clip, Interpolator, ModelFile, as_float, like
 from .motion_inbetweens import MotionInterpolator
+from .pixels import as_picture
 
 __all__ = [
     "BACKENDS",
@@ -87,7 +89,8 @@ def interpolate(
     """All frames from the first keyframe to the last; keyframes come out unchanged.
 
     Args:
-        keyframes: RGB, uint8 or float in 0..1, of one size and type, shape [h, w, 3] each.
+        keyframes: RGB in any form that :func:`~physanimator.rendering.pixels.as_picture` takes, of one size and type,
+            shape [h, w, 3] each.
         indices: frame number of each keyframe, increasing.
         backend: name of an entry of ``BACKENDS``, or a backend that was made elsewhere, such as
             ``tooncrafter.interpolator.ToonCrafterInterpolator``; "motion" without a known motion becomes "flow".
@@ -106,6 +109,8 @@ def interpolate(
         InvalidInputError: keyframes and indices do not belong together, the backend is unknown, or its files are
             missing.
     """
+    require("keyframes", f"{len(keyframes)}", len(keyframes) >= 1, "at least one")
+    keyframes = [as_picture(keyframe, name=f"keyframes[{k}]") for k, keyframe in enumerate(keyframes)]
     _check(keyframes, indices)
     chosen = _chosen("flow" if backend == "motion" and motion is None else backend)
     if motion is not None:
@@ -115,7 +120,7 @@ def interpolate(
         require("masks", f"{len(masks)}", counted, f"none or one per body ({len(motion.bodies)})")
     if len(sketches):
         _check_sketches(sketches, indices[-1], keyframes[0].shape[:2])
-    clip = Clip(keyframes, tuple(indices), motion, tuple(masks), _files(chosen, find_file), sketches)
+    clip = Clip(keyframes, tuple(indices), motion, tuple(map(coverage_of, masks)), _files(chosen, find_file), sketches)
     return _frames(chosen, clip, progress)
 
 
@@ -136,15 +141,12 @@ def _chain(first: NDArray[Any], rest: Any) -> Iterator[NDArray[Any]]:
 
 
 def _check(keyframes: Sequence[NDArray[Any]], indices: Sequence[int]) -> None:
-    require("keyframes", f"{len(keyframes)}", len(keyframes) >= 1, "at least one")
     same = len(indices) == len(keyframes)
     require("indices", f"{len(indices)}", same, f"one per keyframe ({len(keyframes)})")
     rising = all(a < b for a, b in itertools.pairwise(indices))
     require("indices", list(indices), rising, "increasing frame numbers")
     kinds = {(keyframe.shape, keyframe.dtype) for keyframe in keyframes}
     require("keyframes", sorted(map(str, kinds)), len(kinds) == 1, "of one size and type")
-    shape = keyframes[0].shape
-    require("keyframes", f"shape {shape}", len(shape) == 3 and shape[2] == 3, "RGB pictures of shape [h, w, 3]")
 
 
 def _check_sketches(sketches: Sequence[NDArray[Any]], last: int, size: tuple[int, ...]) -> None:

@@ -21,6 +21,7 @@ from ..physics.pixel_box import PixelBox, bounding_box
 from ..physics.raster import interpolate, triangle_ids
 from .apron import ApronedMesh, canvas_of
 from .beyond_border import on_canvas
+from .pixels import as_float
 from .warp import WarpedSketch
 
 __all__ = ["LayeredSketch"]
@@ -56,7 +57,7 @@ class LayeredSketch:
         Raises:
             InvalidInputError: sizes differ or a parameter is unusable.
         """
-        sketch = np.asarray(sketch, dtype=np.float32)
+        sketch = as_float(sketch)
         size = (flow.motion.height, flow.motion.width)
         require("sketch", f"shape {sketch.shape}", sketch.ndim == 2, "of shape [h, w]")
         fits = sketch.shape == size

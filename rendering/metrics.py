@@ -17,7 +17,7 @@ from ..physics.errors import InvalidInputError, require
 from ..physics.motion import Motion
 from ..physics.progress import Progress
 from .flow_warp_error import FlowWarpError, RestMaps
-from .pixels import as_float, check_picture
+from .pixels import as_float, as_picture
 from .sketch import extract_sketch
 from .sketch_distance import chamfer_distance
 
@@ -184,7 +184,7 @@ def still_region(maps: RestMaps) -> Mask:
 
 
 def _checked(frame: NDArray[Any], motion: Motion) -> FloatImage:
-    check_picture(frame)
+    frame = as_picture(frame, name="frames")
     if frame.shape[:2] != (motion.height, motion.width):
         raise InvalidInputError(
             f"frames must have the motion's size, {motion.width} x {motion.height} px."

@@ -24,6 +24,7 @@ from ..physics.rigging import displacement
 from ..physics.scene import Scene
 from ..physics.strokes import EnergyStroke
 from .flow_colour import flow_to_color
+from .pixels import as_picture, as_uint8
 
 __all__ = ["RIG_COLOURS", "STROKE_COLOURS", "draw_rig", "draw_strokes", "draw_wireframe", "flow_to_color", "preview"]
 
@@ -149,15 +150,12 @@ def preview(
 
 def _canvas(image: NDArray[Any]) -> Canvas:
     """A uint8 copy to draw on."""
-    shape = image.shape
-    require("image", f"shape {shape}", len(shape) == 3 and shape[2] == 3, "an RGB picture of shape [h, w, 3]")
-    if image.dtype == np.uint8:
-        return np.array(image, order="C")
-    return np.rint(np.clip(image, 0, 1) * 255).astype(np.uint8)
+    return np.array(as_uint8(as_picture(image)), order="C")
 
 
 def _returned(canvas: Canvas, image: NDArray[Any]) -> NDArray[Any]:
-    return canvas if image.dtype == np.uint8 else (canvas / 255).astype(image.dtype)
+    dtype = np.asarray(image).dtype
+    return (canvas / 255).astype(dtype) if dtype.kind == "f" else canvas
 
 
 def _scale_to(canvas: Canvas, width: int, height: int) -> NDArray[np.float64]:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..physics.errors import InvalidInputError, require
 from .outline_cuts import cut_by_majority, grab_cut, window_of
+from .pixels import as_picture, as_uint8
 from .prompts import Box, checked_box, checked_points
 from .sketch import extract_sketch
 from .trimap import trimap_from_points
@@ -84,12 +85,7 @@ def segment(
 
 
 def _as_uint8(image: NDArray[Any]) -> NDArray[np.uint8]:
-    picture = np.asarray(image)
-    shape_ok = picture.ndim == 3 and picture.shape[2] == 3 and picture.size > 0
-    require("image", f"shape {picture.shape}", shape_ok, "an RGB picture of shape [h, w, 3]")
-    if picture.dtype == np.uint8:
-        return np.ascontiguousarray(picture)
-    return np.rint(np.clip(picture, 0, 1) * 255).astype(np.uint8)
+    return np.ascontiguousarray(as_uint8(as_picture(image)))
 
 
 def _box_mask(box: Box | None, width: int, height: int) -> Mask:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.errors import require
+from .pixels import as_picture
 
 __all__ = ["cleaned", "extract_sketch", "picture_of"]
 
@@ -100,9 +101,7 @@ def picture_of(image: NDArray[Any]) -> FloatImage:
     Raises:
         InvalidInputError: it is no such picture.
     """
-    picture = np.asarray(image)
-    shape_ok = picture.ndim == 3 and picture.shape[2] == 3 and picture.size > 0
-    require("image", f"shape {picture.shape}", shape_ok, "an RGB picture of shape [h, w, 3]")
+    picture = as_picture(image)
     if picture.dtype == np.uint8:
         return picture.astype(np.float32) * np.float32(1 / 255)
     return np.ascontiguousarray(picture, dtype=np.float32)

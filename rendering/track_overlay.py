@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..physics.errors import require
 from ..physics.tracks import Fit, Tracks
+from .pixels import as_picture, as_uint8
 
 __all__ = ["draw_tracks", "fitted"]
 
@@ -58,10 +59,9 @@ def draw_tracks(image: NDArray[Any], tracks: Tracks, sample: int, *, tail: int =
         A new picture of the same size and type.
     """
     require("sample", sample, 0 <= sample < len(tracks), f"0 to {len(tracks) - 1}")
+    image = as_picture(image)
     shape = image.shape
-    require("image", f"shape {shape}", len(shape) == 3 and shape[2] == 3, "an RGB picture of shape [h, w, 3]")
-    whole = image.dtype == np.uint8
-    canvas = np.array(image) if whole else np.rint(np.clip(image, 0, 1) * 255).astype(np.uint8)
+    canvas = np.array(as_uint8(image))
     path = tracks.path.astype(np.float64) * (shape[1] / tracks.width, shape[0] / tracks.height)
     unit = max(shape[:2]) / 1280
     colours = _colours(path)
@@ -72,7 +72,7 @@ def draw_tracks(image: NDArray[Any], tracks: Tracks, sample: int, *, tail: int =
     for number, colour in enumerate(colours):
         radius = unit * (3.5 if colour == _GREY else 5.5)
         _dot(canvas, path[sample, number], colour, radius, filled=bool(tracks.visibility[sample, number]))
-    return canvas if whole else (canvas / 255).astype(image.dtype)
+    return canvas if image.dtype == np.uint8 else (canvas / 255).astype(image.dtype)
 
 
 def _colours(path: NDArray[np.float64]) -> list[tuple[int, int, int]]:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..physics.errors import InvalidInputError, require
 from .atomic import replacing
 from .frame_folder import check_frame_folder, write_frame_folder
-from .images import to_uint8
+from .pixels import as_uint8
 from .places import StrPath, check_file_place, is_folder_name, place_of, printable, suffix_of
 
 if TYPE_CHECKING:
@@ -209,7 +209,7 @@ def _uniform(frames: Iterable[NDArray[Any]]) -> Iterator[NDArray[np.uint8]]:
     """The frames as uint8 RGB or RGBA, each checked to be like the first."""
     shape: tuple[int, ...] | None = None
     for number, frame in enumerate(frames):
-        pixels = to_uint8(np.asarray(frame))
+        pixels = as_uint8(frame, name=f"frame {number}")
         if pixels.ndim == 2:
             pixels = np.repeat(pixels[..., None], 3, axis=2)
         if pixels.ndim != 3 or pixels.shape[2] not in (3, 4) or pixels.size == 0:

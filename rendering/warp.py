@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ..physics.errors import require
 from ..physics.flow import FlowField
+from .pixels import as_float
 from .splatting import splat, split_fragments
 
 __all__ = ["SPLAT_MODES", "SplatMode", "WarpedSketch", "forward_warp", "warp_sketch"]
@@ -111,7 +112,7 @@ def warp_sketch(
     Raises:
         InvalidInputError: sizes differ or a parameter is unusable.
     """
-    sketch = np.asarray(sketch, dtype=np.float32)
+    sketch = as_float(sketch)
     height, width = sketch.shape[:2]
     require("sketch", f"shape {sketch.shape}", sketch.ndim == 2, "of shape [h, w]")
     same_size = field.inside.shape == sketch.shape

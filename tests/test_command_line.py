@@ -33,6 +33,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     save_image("girl.png", image)
     save_image("hair.png", strip.astype(np.uint8) * 255)
     save_image("small.png", np.full((6, 8), 255, np.uint8))
+    save_image("narrow.png", np.full((6, 6), 255, np.uint8))
     save_image("empty.png", np.zeros((HEIGHT, WIDTH), np.uint8))
     (tmp_path / "points.txt").write_text("70,50,1\n120,50,0\n")
     pin = {"position": [70, 20], "region": {"type": "circle", "radius": 20}, "motion": {"type": "pinned"}}
@@ -136,7 +137,7 @@ def test_quiet_says_nothing(folder: Path, capsys: Output) -> None:
         ("animate girl.png --output o.mp4", "needs --mask or --points"),
         ("animate none.png --mask hair.png --output o.mp4", "existing file. Got: none.png"),
         ("animate girl.png --mask none.png --output o.mp4", "existing file. Got: none.png"),
-        ("animate girl.png --mask small.png --output o.mp4", "160 x 120 px. Got: 8 x 6 px"),
+        ("animate girl.png --mask narrow.png --output o.mp4", "160 x 120 px). Got: 6 x 6 px"),
         ("animate girl.png --mask empty.png --output o.mp4", "empty mask"),
         ("animate points.txt --mask hair.png --output o.mp4", "PNG, JPEG or WebP"),
         ("animate girl.png --mask hair.png --output o.avi", "output must end in .mp4"),
@@ -255,3 +256,18 @@ def test_demo(folder: Path) -> None:
         stream = container.streams.video[0]
         assert (stream.width, stream.height) == load_image(EXAMPLE / "illustration.png").shape[1::-1]
     assert frames_of("demo.mp4") == 3
+
+
+def test_what_may_not_be_meant_in_a_mask_is_said(folder: Path, capsys: Output) -> None:
+    mask = np.full((HEIGHT, WIDTH), 255, np.uint8)
+    mask[20:50, 60:90] = 0
+    save_image("inverted.png", mask)
+    assert status(*["animate", "girl.png", "--mask", "inverted.png", "--frames", "1", "--quiet", "--output", "o/"]) == 0
+    (warning,) = capsys.readouterr().err.splitlines()
+    assert warning.startswith("physanimator: warning: mask inverted.png covers 95 % of the picture")
+    assert warning.endswith("invert it")
+
+
+def test_points_in_the_encoding_of_a_windows_pipe(folder: Path) -> None:
+    Path("utf16.txt").write_text("x;y;label\r\n70;50;1\r\n120;50;0\r\n", encoding="utf-16")
+    assert status(*["animate", "girl.png", "--points", "utf16.txt", "--frames", "1", "--quiet", "--output", "o/"]) == 0

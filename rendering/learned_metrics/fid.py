@@ -60,7 +60,7 @@ def _root_of_covariance(sample: Features) -> Features:
 def _features(network: InceptionFeatures, pictures: Iterable[NDArray[Any]], name: str) -> Features:
     found = []
     for picture in pictures:
-        check_picture(picture)
+        check_picture(picture, name=name)
         found.append(network(torch.from_numpy(as_float(picture)).permute(2, 0, 1)[None])[0].double().numpy())
     require(name, len(found), len(found) >= 2, "at least 2 pictures")
     return np.stack(found)

@@ -47,7 +47,7 @@ def video_score(frames: Sequence[NDArray[Any]], description: str, folder: Path) 
     require_file(folder, VIDEO_SCORE_FOLDER)
     question = _question(folder).replace("{text_prompt}", description)
     chosen = np.unique(np.linspace(0, len(frames) - 1, _MOST_FRAMES).round().astype(int))
-    pictures = [Image.fromarray(to_uint8(np.asarray(frames[k]))) for k in chosen]
+    pictures = [Image.fromarray(to_uint8(frames[k])) for k in chosen]
     question += " <image>" * max(0, len(pictures) - question.count("<image>"))
     model, processor = _loaded(folder)
     inputs = processor(text=question, images=pictures, return_tensors="pt")
@@ -74,6 +74,9 @@ def _loaded(folder: Path) -> tuple[Any, Any]:
             "VideoScore needs the packages mantis-vl (https://github.com/TIGER-AI-Lab/Mantis) and transformers."
             f" Got: {error}"
         ) from error
-    processor = AutoProcessor.from_pretrained(folder, local_files_only=True)
-    model = Idefics2ForSequenceClassification.from_pretrained(folder, local_files_only=True, torch_dtype="auto")
+    try:
+        processor = AutoProcessor.from_pretrained(folder, local_files_only=True)
+        model = Idefics2ForSequenceClassification.from_pretrained(folder, local_files_only=True, torch_dtype="auto")
+    except Exception as error:  # damaged files and wrong configurations make the library raise nearly anything
+        raise InvalidInputError(f"{folder} cannot be loaded as VideoScore: {error or type(error).__name__}") from error
     return model.eval().requires_grad_(False), processor

@@ -50,7 +50,7 @@ def model_type_of(folder: Path) -> str:
     """
     try:
         config = json.loads((folder / "config.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise CheckpointError(f"{folder} has no readable config.json. Wanted: {_FOLDER_WANTED}") from error
     name = config.get("model_type") if isinstance(config, dict) else None
     if name not in FAMILIES:
@@ -75,10 +75,9 @@ def _from_folder(folder: Path, name: str) -> nn.Module:
         network, report = _transformers().AutoModelForMaskGeneration.from_pretrained(
             folder, local_files_only=True, use_safetensors=True, trust_remote_code=False, output_loading_info=True
         )
-    except (ImportError, OSError, RuntimeError, ValueError, KeyError) as error:
-        raise CheckpointError(
-            f"{folder} cannot be loaded as {FAMILIES[name].title}: {str(error).strip().splitlines()[0]}"
-        ) from error
+    except Exception as error:  # damaged files and wrong configurations make the library raise nearly anything
+        reason = (str(error).strip() or type(error).__name__).splitlines()[0]
+        raise CheckpointError(f"{folder} cannot be loaded as {FAMILIES[name].title}: {reason}") from error
     faults = [*report["missing_keys"], *(fault[0] for fault in report["mismatched_keys"])]
     if faults:
         raise CheckpointError(

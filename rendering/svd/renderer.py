@@ -12,7 +12,7 @@ from torch import Tensor
 
 from ...physics.errors import require
 from ...physics.progress import Progress
-from ..pixels import as_float, check_picture
+from ..pixels import as_float, as_picture
 from .conditioning import Conditioning, condition_on
 from .decoding import decode, decoding_chunks
 from .frame_layout import CLIP_FRAMES, FrameLayout
@@ -73,7 +73,7 @@ class SketchVideoRenderer:
         Returns:
             An iterator over float32 pictures, 0..1, shape [h, w, 3]. Bad input raises here.
         """
-        check_picture(image)
+        image = as_picture(image)
         height, width = image.shape[:2]
         require("sketches", f"{len(sketches)}", len(sketches) >= 2, "2 or more: the illustration's and another frame's")
         sizes, expected = (

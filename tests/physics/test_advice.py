@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from physanimator.physics.advice import advice
+import pytest
+from physanimator.physics.advice import advice, inverted_masks
 from physanimator.physics.mesh import TriangleMesh
+from physanimator.physics.meshing import mesh_from_mask
 from physanimator.physics.rig import Circle, RigPoint
 from physanimator.physics.scene import Body, Scene
 
@@ -33,3 +35,19 @@ def test_held_parts_and_bodies_that_are_free_on_purpose_need_no_word() -> None:
 def test_a_rig_point_beside_everything_is_reported() -> None:
     (sentence,) = advice(Scene((Body(two_triangles()),), rig_points=(RigPoint((90, 10), Circle(3)),)))
     assert sentence.startswith("rig_points[0] touches no body")
+
+
+@pytest.mark.parametrize(("inverted", "held"), [(True, "bodies[0] (hair) covers 93 % of the picture"), (False, "")])
+def test_what_covers_most_of_the_picture_may_be_inverted(inverted: bool, held: str) -> None:
+    part = np.zeros((90, 120), bool)
+    part[20:45, 30:60] = True
+    sentences = inverted_masks(Scene((Body(mesh_from_mask(part != inverted), name="hair"),)))
+    assert len(sentences) == inverted
+    assert all(each.startswith(held) and each.endswith("invert it") for each in sentences)
+
+
+def test_a_large_part_that_leaves_the_border_free_is_meant() -> None:
+    part = np.zeros((90, 120), bool)
+    part[8:82, 10:110] = True
+    assert part.mean() > 0.6
+    assert advice(Scene((Body(mesh_from_mask(part)),))) == []

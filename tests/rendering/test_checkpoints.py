@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pickle
+import random
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -109,3 +111,41 @@ def test_a_file_without_tensors_is_named(tmp_path: Path) -> None:
 
 def test_below_keeps_the_rest_of_the_name() -> None:
     assert set(below({"a.b.c": torch.zeros(1), "b.c": torch.zeros(1)}, "a.")) == {"b.c"}
+
+
+@pytest.mark.parametrize("suffix", [".safetensors", ".ckpt", ".pth"])
+def test_damaged_files_are_read_or_named_in_a_sentence(tmp_path: Path, suffix: str) -> None:
+    whole, path = tmp_path / f"whole{suffix}", tmp_path / f"damaged{suffix}"
+    if suffix == ".safetensors":
+        save_file(weights(), whole)
+    else:
+        torch.save(weights(), whole, _use_new_zipfile_serialization=suffix == ".ckpt")
+    content, dice, said = whole.read_bytes(), random.Random(0), []
+    for _ in range(150):
+        damaged = bytearray(content[: dice.choice((len(content), dice.randrange(len(content))))])
+        for _ in range(dice.choice((0, 1, 5))):
+            if damaged:
+                damaged[dice.randrange(len(damaged))] = dice.randrange(256)
+        path.write_bytes(bytes(damaged))
+        try:
+            read_checkpoint(path, wanted=WANTED)
+        except CheckpointError as error:
+            said.append(str(error))
+    assert len(said) > 50
+    assert all(each.isprintable() for each in said)
+
+
+def test_archives_that_unpack_to_more_than_they_are_stay_packed(tmp_path: Path) -> None:
+    path = tmp_path / "bomb.pth"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("archive/data.pkl", bytes(10_000_000))
+    with pytest.raises(CheckpointError, match="unpacks to more than its size"):
+        read_checkpoint(path, wanted=WANTED)
+
+
+@pytest.mark.parametrize("length", [10**9, 2**63 - 1, 2**64 - 1])
+def test_a_header_that_says_it_is_endless(tmp_path: Path, length: int) -> None:
+    path = tmp_path / "long.safetensors"
+    path.write_bytes(length.to_bytes(8, "little") + b"{}")
+    with pytest.raises(CheckpointError, match="damaged or was not downloaded"):
+        read_checkpoint(path, wanted=WANTED)

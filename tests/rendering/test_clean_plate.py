@@ -104,9 +104,9 @@ def test_unusable_input_is_refused() -> None:
         clean_plate(gradient(), np.ones((HEIGHT, WIDTH), bool))
     with pytest.raises(InvalidInputError, match="proportions"):
         clean_plate(gradient(), np.ones((HEIGHT, HEIGHT), bool))
-    with pytest.raises(InvalidInputError, match="image must have the shape"):
+    with pytest.raises(InvalidInputError, match="image must be an RGB picture"):
         clean_plate(gradient()[..., 0], MASK)
-    with pytest.raises(InvalidInputError, match="uint8 or float32"):
+    with pytest.raises(InvalidInputError, match="divide by 255"):
         clean_plate(gradient().astype(np.float64), MASK)
 
 

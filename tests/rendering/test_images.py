@@ -78,11 +78,12 @@ def test_colour_and_opacity_of_any_depth(tmp_path: Path, dtype: type) -> None:
     assert (loaded[:3] == 255).all()
 
 
-@pytest.mark.parametrize("mode", ["1", "L", "LA", "P", "CMYK", "YCbCr"])
+@pytest.mark.parametrize("mode", ["1", "L", "LA", "P", "CMYK", "YCbCr", "LAB"])
 def test_every_mode_becomes_rgb(tmp_path: Path, mode: str) -> None:
     white = Image.new("RGB", (9, 7), "white")
-    converted = white.convert(mode)
-    name = tmp_path / ("a.tif" if mode in ("CMYK", "YCbCr") else "a.png")
+    lab = [ImageCms.createProfile(each) for each in ("sRGB", "LAB")]
+    converted = ImageCms.profileToProfile(white, *lab, outputMode="LAB") if mode == "LAB" else white.convert(mode)
+    name = tmp_path / ("a.tif" if mode in ("CMYK", "YCbCr", "LAB") else "a.png")
     converted.save(name)
     loaded = load_image(name)
     assert loaded.shape == (7, 9, 3)
@@ -155,9 +156,15 @@ def test_cut_out_part_is_its_own_mask(tmp_path: Path, colour: int) -> None:
 
 
 def test_mask_of_another_size(tmp_path: Path) -> None:
-    save_image(tmp_path / "mask.png", np.full((6, 8), 255, np.uint8))
-    with pytest.raises(InvalidInputError, match=r"size of the picture, 16 x 12 px\. Got: 8 x 6 px"):
-        load_mask(tmp_path / "mask.png", width=16, height=12)
+    save_image(tmp_path / "mask.png", np.pad(np.full((3, 8), 255, np.uint8), ((0, 3), (0, 0))))
+    mask = load_mask(tmp_path / "mask.png", width=16, height=12)
+    assert mask.shape == (12, 16)
+    assert mask[:5].min() > 0.9
+    assert mask[7:].max() < 0.1
+    with pytest.raises(
+        InvalidInputError, match=r"mask .*mask.png must have .*proportions \(16 x 16 px\)\. Got: 8 x 6 px"
+    ):
+        load_mask(tmp_path / "mask.png", width=16, height=16)
 
 
 def test_empty_mask(tmp_path: Path) -> None:
@@ -183,8 +190,49 @@ def test_missing_broken_and_foreign_files(tmp_path: Path) -> None:
 @pytest.mark.parametrize("size", [(LONGEST_SIDE + 1, 2), (12000, 9000), (20000, 20000)])
 def test_too_large_pictures_are_refused_without_decoding(tmp_path: Path, size: tuple[int, int]) -> None:
     Image.new("1", size).save(tmp_path / "large.png")
-    with pytest.raises(InvalidInputError, match=f"at most {LONGEST_SIDE} px"):
+    with pytest.raises(
+        InvalidInputError, match=rf"at most 67 million pixels .* {LONGEST_SIDE} px on a side\. Got: ({size[0]}|more)"
+    ):
         load_image(tmp_path / "large.png")
+
+
+def test_long_pages_are_taken(tmp_path: Path) -> None:
+    Image.new("1", (800, 12000), 1).save(tmp_path / "page.png")
+    assert load_image(tmp_path / "page.png").shape == (12000, 800, 3)
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"),
+    [
+        (np.array([[0, 100, 255]], np.int32), [0, 100, 255]),
+        (np.array([[0, 100 * 257, 65535]], np.int32), [0, 100, 255]),
+        (np.array([[0, 100 << 23, 2**31 - 1]], np.int32), [0, 100, 255]),
+        (np.array([[0, 100 / 255, 1]], np.float32), [0, 100, 255]),
+        (np.array([[0, 100, 255]], np.float32), [0, 100, 255]),
+        (np.array([[-0.1, 100 / 255, 1.1]], np.float32), [0, 100, 255]),
+    ],
+)
+def test_planes_of_thirty_two_bits(tmp_path: Path, values: np.ndarray, expected: list[int]) -> None:
+    Image.fromarray(values).save(tmp_path / "deep.tif")
+    assert load_image(tmp_path / "deep.tif")[0, :, 0].tolist() == expected
+
+
+@pytest.mark.parametrize(
+    ("value", "message"), [(np.nan, "finite numbers"), (np.inf, "finite"), (-3.0, "Got: -3 to 1"), (4.0, "Got: 0 to 4")]
+)
+def test_planes_that_cannot_be_told(tmp_path: Path, value: float, message: str) -> None:
+    values = np.zeros((8, 9), np.float32)
+    values[2:6, 2:6], values[0, 0] = 1, value
+    Image.fromarray(values).save(tmp_path / "deep.tif")
+    for load in (load_image, lambda path: load_mask(path, width=9, height=8)):
+        with pytest.raises(InvalidInputError, match="deep.tif must.*" + message):
+            load(tmp_path / "deep.tif")
+
+
+def test_page_descriptions_are_not_opened(tmp_path: Path) -> None:
+    (tmp_path / "page.png").write_bytes(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\nshowpage\n")
+    with pytest.raises(InvalidInputError, match="PNG, JPEG or WebP"):
+        load_image(tmp_path / "page.png")
 
 
 def test_save_refuses_unknown_suffix_and_missing_folder(tmp_path: Path) -> None:
@@ -203,6 +251,6 @@ def test_failed_save_keeps_the_earlier_file(tmp_path: Path) -> None:
 
 
 def test_to_uint8_rounds_and_clips() -> None:
-    assert to_uint8(np.array([-1.0, 0.0, 0.5, 0.9999, 2.0])).tolist() == [0, 0, 128, 255, 255]
+    assert to_uint8(np.array([-0.1, 0.0, 0.5, 0.9999, 1.1])).tolist() == [0, 0, 128, 255, 255]
     same = drawing()
     assert to_uint8(same) is same

@@ -208,7 +208,7 @@ def test_uint8_frames_and_progress() -> None:
         (list(clip())[:3], {}, "frames must be one for each of the motion's 5 frames. Got: 3"),
         ([*clip(), BACKGROUND], {}, "frames must be one for each of the motion's 5 frames. Got: at least 6"),
         ([np.zeros((9, 9, 3), np.float32)], {}, "frames must have the motion's size, 160 x 96 px"),
-        ([np.zeros((9, 9), np.float32)], {}, "image must have the shape"),
+        ([np.zeros((9, 9), np.float32)], {}, "frames must be an RGB picture"),
         (list(clip()), {"sketches": [np.ones((HEIGHT, WIDTH))]}, "sketches must be one for each of 5 frames"),
         (list(clip()), {"sketches": [sketch(3)] * 5}, "sketches must be of one shape"),
     ],

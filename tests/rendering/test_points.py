@@ -124,3 +124,80 @@ def test_a_wrong_document_of_query_points(changes: dict[str, object], words: str
 def test_a_document_without_a_version_is_no_list_of_points() -> None:
     with pytest.raises(InvalidInputError, match="version: is missing"):
         parse_points({"query_points": []}, width=10, height=10)
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        "x,y,label\n10,20,1\n30.5,40,0",
+        '"X";"Y";"Label"\r\n10;20;1\r\n30.5;40;0\r\n',
+        "id\tx\ty\tlabel\n7\t10\t20\t1\n8\t30.5\t40\t0",
+        "10,20,1,\n30.5,40,0,",
+        "\ufeff10;20\n30.5;40;0",
+        "10,20;30.5,40,0",
+        "10,20,+\n30.5,40,bg",
+        '{"points": [[10, 20], [30.5, 40]], "labels": [1, 0]}',
+        '{"point_coords": [[[10, 20], [30.5, 40]]], "point_labels": [[1, 0]]}',
+        {"points": np.array([[10, 20], [30.5, 40]]), "labels": np.array([1, 0])},
+        json.dumps({"coordinates_positive": '[{"x": 10, "y": 20}]', "coordinates_negative": '[{"x": 30.5, "y": 40}]'}),
+        "[{'x': 10, 'y': 20, 'label': None}, {'x': 30.5, 'y': 40, 'label': False}]",
+        "[[10, 20, 1,], [30.5, 40, 0],]",
+        '{"x": 10, "y": 20}\n{"x": 30.5, "y": 40, "label": 0}\n',
+        "(10, 20), (30.5, 40, 0)",
+        '{"normalised": true, "points": [[0.1, 0.4], [0.305, 0.8]], "labels": [1, 0]}',
+        '{"normalized": true, "positive": [[0.1, 0.4]], "negative": [[0.305, 0.8]]}',
+    ],
+)
+def test_what_other_editors_and_tables_write(points: object) -> None:
+    found = parse_points(points, width=100, height=50)
+    assert [(round(p.x, 6), round(p.y, 6), p.positive) for p in found] == [(10, 20, True), (30.5, 40, False)]
+
+
+def test_a_single_pair_is_one_point() -> None:
+    assert parse_points("[10, 20]", width=100, height=50) == EXPECTED[:1]
+
+
+@pytest.mark.parametrize(
+    "points", ['[{"x": 0.55, "y": 0.3}]', "0.5,0.25,1\n1,0.5,0", '{"points": [[0.5, 1]]}', [[0.1, 0.2]]]
+)
+def test_normalised_points_are_asked_about(points: object) -> None:
+    with pytest.raises(
+        InvalidInputError, match=r"points must be pixels; if these are normalised, multiply .* Got: all from"
+    ):
+        parse_points(points, width=100, height=50)
+
+
+def test_the_corner_of_the_picture_is_no_normalised_point() -> None:
+    assert len(parse_points("[[0, 1], [1, 0], [0, 0]]", width=100, height=50)) == 3
+    assert len(parse_points("[[0.5, 0.5], [40, 3]]", width=100, height=50)) == 2
+
+
+def test_a_normalised_path_is_asked_about_but_not_an_offset() -> None:
+    with pytest.raises(InvalidInputError, match="stroke must be pixels"):
+        parse_polyline("[[0.1, 0.5], [0.9, 0.5]]", name="stroke")
+    assert parse_polyline("[[0, 0], [0.9, 0.5]]", offsets=True)[1] == (0.9, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("points", "message"),
+    [
+        ("[" * 200_000, "nested deeper"),
+        ('{"a":' * 100_000, "nested deeper"),
+        ("(" * 100_000, "nested deeper"),
+        ("[[1e999, 2]]", "finite pixel coordinates"),
+        (f"[[{'9' * 600}, 2]]", r"finite pixel coordinates. Got: \[999999... \(600 digits\), 2\]"),
+        (f"[[{'9' * 6000}, 2]]", "6000 digits"),
+        ('{"a\\nb": 1}', r"Got: an object with a\\nb"),
+        ('{"points": [[1, 2]], "labels": [1, 0]}', "labels must be one for each of 1 points. Got: 2"),
+        ('{"points": 5}', "points must be a list of points"),
+        ("1,2\n" * 5000, "at most 1000. Got: 5000 points"),
+        ("[[3, 4, -1]]", "label must be 1"),
+        (None, "points must be a list"),
+        (b"1,2", "points must be a list"),
+    ],
+)
+def test_hostile_points_are_one_short_line(points: object, message: str) -> None:
+    with pytest.raises(InvalidInputError, match=message) as caught:
+        parse_points(points, width=100, height=50)
+    assert str(caught.value).isprintable()
+    assert len(str(caught.value)) < 500

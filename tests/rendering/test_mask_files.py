@@ -1,0 +1,176 @@
+"""Which part a painted picture means: white, one colour, or the opacity; and what cannot mean one part."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from physanimator.physics.errors import InvalidInputError
+from physanimator.rendering.images import load_mask
+from physanimator.rendering.mask_files import read_mask
+from PIL import Image, ImageFilter
+
+HEIGHT, WIDTH = 90, 120
+COLOURS = {
+    "white": (255, 255, 255),
+    "red": (255, 0, 0),
+    "green": (0, 255, 0),
+    "blue": (0, 0, 255),
+    "dark blue": (0, 0, 128),
+    "dark red": (128, 0, 0),
+    "pink": (230, 120, 140),
+    "grey": (128, 128, 128),
+    "dark grey": (40, 40, 40),
+    "one": (1, 1, 1),
+}
+
+
+def disc(soft: float = 0.0) -> np.ndarray:
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
+    picture = Image.fromarray(((np.hypot(x - 50, y - 40) < 25) * 255).astype(np.uint8))
+    return np.asarray(picture.filter(ImageFilter.GaussianBlur(soft)) if soft else picture) / 255.0
+
+
+def painted(shares: np.ndarray, part: tuple[int, ...], rest: tuple[int, ...]) -> np.ndarray:
+    return np.rint(shares[..., None] * np.array(part) + (1 - shares[..., None]) * np.array(rest)).astype(np.uint8)
+
+
+def read(path: Path, picture: np.ndarray, **options: object) -> np.ndarray:
+    Image.fromarray(picture).save(path, **options)
+    return load_mask(path, width=WIDTH, height=HEIGHT)
+
+
+def labels() -> np.ndarray:
+    areas = np.zeros((HEIGHT, WIDTH), int)
+    areas[10:40, 10:50], areas[50:80, 10:50], areas[20:70, 70:110] = 1, 2, 3
+    return areas
+
+
+@pytest.mark.parametrize("colour", COLOURS)
+@pytest.mark.parametrize("soft", [0.0, 2.0])
+def test_one_colour_on_black_is_the_part_as_soft_as_it_was(tmp_path: Path, colour: str, soft: float) -> None:
+    if (colour, soft) == ("one", 2.0):
+        pytest.skip("one level cannot be soft")
+    mask = read(tmp_path / "a.png", painted(disc(soft), COLOURS[colour], (0, 0, 0)))
+    assert np.abs(mask - disc(soft)).max() < 0.04
+
+
+@pytest.mark.parametrize("colour", [each for each in COLOURS if each not in ("white", "dark grey", "one")])
+@pytest.mark.parametrize("soft", [0.0, 2.0])
+def test_one_colour_on_white_is_the_part_and_says_so(tmp_path: Path, colour: str, soft: float) -> None:
+    Image.fromarray(painted(disc(soft), COLOURS[colour], (255, 255, 255))).save(tmp_path / "a.png")
+    found = read_mask(tmp_path / "a.png", width=WIDTH, height=HEIGHT)
+    assert np.abs(found.coverage - disc(soft)).max() < 0.04
+    assert "on white was taken as the part" in found.notes[0]
+
+
+def test_white_on_a_colour_is_the_part(tmp_path: Path) -> None:
+    mask = read(tmp_path / "a.png", painted(disc(), (255, 255, 255), (200, 30, 30)))
+    assert ((mask > 0.5) == (disc() > 0.5)).all()
+
+
+@pytest.mark.parametrize("colour", ["white", "red", "blue", "pink"])
+@pytest.mark.parametrize("quality", [60, 95])
+def test_noise_of_jpeg_is_no_colour(tmp_path: Path, colour: str, quality: int) -> None:
+    mask = read(tmp_path / "a.jpg", painted(disc(1.0), COLOURS[colour], (0, 0, 0)), quality=quality)
+    assert ((mask > 0.5) != (disc() > 0.5)).mean() < 0.01
+
+
+@pytest.mark.parametrize("colour", COLOURS)
+def test_on_nothing_the_opacity_is_the_part(tmp_path: Path, colour: str) -> None:
+    opacity = np.rint(disc(2.0) * 255).astype(np.uint8)
+    rgba = np.dstack([np.broadcast_to(np.array(COLOURS[colour], np.uint8), (HEIGHT, WIDTH, 3)), opacity])
+    assert np.abs(read(tmp_path / "a.png", rgba) - disc(2.0)).max() < 0.004
+
+
+def test_a_cut_out_drawing_of_many_colours_counts_by_its_opacity(tmp_path: Path) -> None:
+    colours = np.random.default_rng(0).integers(0, 256, (HEIGHT, WIDTH, 3), dtype=np.uint8)
+    rgba = np.dstack([colours, (disc() * 255).astype(np.uint8)])
+    assert (read(tmp_path / "a.png", rgba) == disc()).all()
+
+
+@pytest.mark.parametrize("opacity", [254, 0])
+def test_a_pixel_that_is_not_opaque_decides_nothing(tmp_path: Path, opacity: int) -> None:
+    rgba = np.dstack([painted(disc(), (255, 255, 255), (0, 0, 0)), np.full((HEIGHT, WIDTH), 255, np.uint8)])
+    rgba[3, 3, 3] = opacity
+    assert (read(tmp_path / "a.png", rgba) == disc()).all()
+
+
+def test_white_counts_among_white_and_black_on_nothing(tmp_path: Path) -> None:
+    opacity = np.zeros((HEIGHT, WIDTH), np.uint8)
+    opacity[5:80, 10:100] = 255
+    rgba = np.dstack([painted(disc(), (255, 255, 255), (0, 0, 0)), opacity])
+    Image.fromarray(rgba).save(tmp_path / "a.png")
+    found = read_mask(tmp_path / "a.png", width=WIDTH, height=HEIGHT)
+    assert (found.coverage == disc()).all()
+    assert "white was taken as the part" in found.notes[0]
+
+
+def test_lines_drawn_in_a_white_part_do_not_make_it_a_mask(tmp_path: Path) -> None:
+    rgba = np.dstack([painted(disc(), (255, 255, 255), (255, 255, 255)), (disc() * 255).astype(np.uint8)])
+    rgba[::8, :, :3] = 0
+    assert (read(tmp_path / "a.png", rgba) == disc()).all()
+
+
+@pytest.mark.parametrize(
+    ("colours", "message"),
+    [
+        ([0, 1, 2, 3], "3 grey levels besides black: 1 on .*, 2 on .*, 3 on"),
+        ([0, 85, 170, 255], "3 grey levels besides black: 85 on"),
+        ([0, 100, 200, 0], "2 grey levels"),
+        ([(0, 0, 0), (255, 0, 0), (0, 255, 0), (0, 0, 255)], "4 colours: black [56].* blue 1. %, .*(green|red) 1. %"),
+        ([(0, 0, 0), (128, 0, 0), (255, 0, 0), (0, 0, 0)], "2 shades of red"),
+        ([(0, 0, 0), (255, 255, 255), (255, 0, 0), (0, 0, 0)], r"colours: black [78]\d %, .*red"),
+        ([(0, 0, 255), (255, 0, 0), (0, 0, 255), (0, 0, 255)], r"colours: blue [789]\d %, red"),
+        ([(255, 0, 0)] * 4, "one colour: red 100 %"),
+        ([0] * 4, "black all over"),
+    ],
+)
+@pytest.mark.parametrize("form", ["png", "jpg", "palette", "16 bits"])
+def test_several_parts_are_refused_with_what_was_seen(
+    tmp_path: Path, colours: list[int | tuple[int, int, int]], message: str, form: str
+) -> None:
+    picture = np.array(colours, np.uint8)[labels()]
+    path = tmp_path / ("a.jpg" if form == "jpg" else "a.png")
+    image = Image.fromarray(picture)
+    if form == "jpg" and (picture.max() < 16 or "shades" in message):
+        pytest.skip("JPEG does not keep them")
+    if form == "16 bits":
+        if picture.ndim == 3:
+            pytest.skip("a plane only")
+        image = Image.fromarray(picture.astype(np.uint16) * np.uint16(257 if picture.max() > 3 else 1))
+    (image.quantize(16) if form == "palette" else image).save(path)
+    with pytest.raises(InvalidInputError, match=message) as caught:
+        load_mask(path, width=WIDTH, height=HEIGHT)
+    assert str(path) in str(caught.value)
+
+
+def test_a_photograph_is_no_mask(tmp_path: Path) -> None:
+    colours = np.random.default_rng(0).integers(0, 256, (HEIGHT // 10, WIDTH // 10, 3), dtype=np.uint8)
+    Image.fromarray(colours).resize((WIDTH, HEIGHT), Image.Resampling.BICUBIC).save(tmp_path / "a.png")
+    with pytest.raises(InvalidInputError, match="must show a mask, not a picture"):
+        load_mask(tmp_path / "a.png", width=WIDTH, height=HEIGHT)
+
+
+def test_a_grey_beside_white_and_black_counts_in_part_and_says_so(tmp_path: Path) -> None:
+    picture = np.array([0, 128, 255, 0], np.uint8)[labels()]
+    Image.fromarray(picture).save(tmp_path / "a.png")
+    found = read_mask(tmp_path / "a.png", width=WIDTH, height=HEIGHT)
+    assert np.abs(found.coverage - picture / 255).max() < 1e-6
+    assert "grey (128 of 255) on" in found.notes[0]
+
+
+@pytest.mark.parametrize("soft", [0.0, 1.0, 4.0])
+def test_soft_masks_keep_every_level(tmp_path: Path, soft: float) -> None:
+    mask = np.rint(disc(soft) * 255).astype(np.uint8)
+    assert (np.rint(read(tmp_path / "a.png", mask) * 255) == mask).all()
+    assert not read_mask(tmp_path / "a.png", width=WIDTH, height=HEIGHT).notes
+
+
+@pytest.mark.parametrize(("colour", "said"), [(255, True), (0, False)])
+def test_what_covers_most_of_the_picture_may_be_inverted(tmp_path: Path, colour: int, said: bool) -> None:
+    Image.fromarray(np.where(disc() > 0.5, 255 - colour, colour).astype(np.uint8)).save(tmp_path / "a.png")
+    found = read_mask(tmp_path / "a.png", width=WIDTH, height=HEIGHT)
+    assert ["invert it" in note for note in found.notes] == [True] * said
+    assert not said or "covers 82 % of the picture" in found.notes[0]
