@@ -175,7 +175,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             progress=progress,
             **inputs,
         )
-        for sentence in advice(animation.scene, masks=not options.mask):
+        for sentence in advice(animation.scene, masks=not getattr(options, "mask", None)):
             print(f"physanimator: warning: {sentence}", file=sys.stderr)
         write_outputs(options, animation, progress)
     if options.verbose:
