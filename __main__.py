@@ -217,7 +217,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             progress=progress,
             **inputs,
         )
-        for sentence in advice(animation.scene, masks=not options.mask):
+        for sentence in advice(animation.scene, masks=not getattr(options, "mask", None)):
             warn(f"physanimator: warning: {sentence}")
         write_outputs(options, animation, progress)
     if options.verbose:
