@@ -111,7 +111,8 @@ class Render(io.ComfyNode):
         for frame, covered in drawn:
             frames.put(frame)
             alpha.put(covered)
-        return io.NodeOutput(frames.tensor, alpha.tensor, batch_of_pictures([layers.plate], 1))
+        behind_all = layers.plate if behind.has_alpha else over(layers.plate, behind.colour)
+        return io.NodeOutput(frames.tensor, alpha.tensor, batch_of_pictures([behind_all], 1))
 
 
 def _composed(
@@ -200,8 +201,9 @@ class Interpolate(io.ComfyNode):
         name, choice = chosen(backend, "backend", (*BACKENDS, _TOONCRAFTER))
         known = motion.motion if motion else None
         at = whole_numbers_of(keyframes_at, name="keyframes_at")
-        keyframes, indices = _keyframes(pictures_of(images, name="images"), images_are, every, at, known)
         drawn_by_model = name == _TOONCRAFTER
+        pictures = pictures_of(images, name="images", alpha=not drawn_by_model)
+        keyframes, indices = _keyframes(pictures, images_are, every, at, known)
         sketches = choice.get("sketches")
         frames = interpolate(
             list(keyframes),

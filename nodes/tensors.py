@@ -30,16 +30,17 @@ __all__ = [
 FloatImage = NDArray[np.float32]
 
 
-def pictures_of(images: torch.Tensor, *, name: str = "image") -> FloatImage:
+def pictures_of(images: torch.Tensor, *, name: str = "image", alpha: bool = False) -> FloatImage:
     """A batch of pictures as an array.
 
     Args:
         images: the host's IMAGE, 0..1, shape [f, h, w, c] with 3 or 4 channels.
         name: what the node calls the input.
+        alpha: keep a fourth channel; without, pictures that have one are laid over white.
 
     Returns:
-        RGB, float32, 0..1, shape [f, h, w, 3]; shares memory with ``images`` where it can, so only read it. Pictures
-        with alpha are laid over white.
+        RGB, float32, 0..1, shape [f, h, w, 3], or straight RGBA, [f, h, w, 4]; shares memory with ``images`` where it
+        can, so only read it.
 
     Raises:
         InvalidInputError: the shape is another, or a value is not finite.
@@ -49,7 +50,7 @@ def pictures_of(images: torch.Tensor, *, name: str = "image") -> FloatImage:
             f"{name} must be a batch of RGB pictures of shape [f, h, w, 3]. Got: {tuple(images.shape)}"
         )
     pictures = images.detach().cpu().float().numpy()
-    return pictures if pictures.shape[-1] == 3 else np.stack([over(np.clip(each, 0, 1)) for each in pictures])
+    return pictures if alpha or pictures.shape[-1] == 3 else np.stack([over(np.clip(each, 0, 1)) for each in pictures])
 
 
 def picture_of(images: torch.Tensor, *, name: str = "image") -> FloatImage:
