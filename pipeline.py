@@ -26,6 +26,7 @@ from .physics.progress import Progress
 from .physics.scene import Body, Scene
 from .physics.simulation import simulate
 from .rendering.animation import Animation, StageProgress, timed
+from .rendering.background import over, renderer_of
 from .rendering.drawing_checks import check_count
 from .rendering.pixels import as_picture
 from .rendering.video import check_frame_rate
@@ -60,12 +61,14 @@ def animate(
     colliders: Sequence[Mask] = (),
     plate: Image | None = None,
     progress: StageProgress | None = None,
+    pixel_art: bool = False,
 ) -> Animation:
     """Set parts of an illustration in motion.
 
     Args:
-        image: the illustration, RGB, shape [h, w, 3]: uint8, uint16, other whole numbers 0..255, or floating-point
-            numbers 0..1 of any precision, as :func:`~physanimator.rendering.pixels.as_picture` says.
+        image: the illustration, RGB, or straight RGBA to move on transparency, shape [h, w, 3] or [h, w, 4]: uint8,
+            uint16, other whole numbers 0..255, or floating-point numbers 0..1 of any precision, as
+            :func:`~physanimator.rendering.pixels.as_picture` says.
         masks: where each moving part is, bool, 0..1, 0..255 or 0..65535, each of shape [h, w] or, to be scaled, of the
             picture's proportions; later ones lie in front.
         points: for each further part its query points, in any form that
@@ -87,15 +90,16 @@ def animate(
             passing gusts, when there is no scene.
         contact: how the parts keep out of each other, instead of what the scene says.
         colliders: masks of what the parts keep out of besides the scene's colliders; they need contact.
-        plate: the illustration without the moving parts, if it exists, in any form that ``image`` may have and of its
-            size; painted in when None.
+        plate: the illustration without the moving parts, if it exists, RGB or RGBA in any form that ``image`` may have
+            and of its size; painted in when None.
         progress: called as the stages "simulate" and those of the frames advance.
+        pixel_art: move whole pixels, or the blocks that an enlarged picture shows for them, and mix no colours.
 
     Raises:
         InvalidInputError: an input is unusable; the message names it.
     """
     seconds: dict[str, float] = {}
-    image = as_picture(image)
+    image = as_picture(image, alpha=True)
     plate = _checked_plate(plate, image)
     masks, colliders = (
         _coverages("masks", () if masks is None else masks, image),
@@ -109,7 +113,7 @@ def animate(
 
         check_document(scene)
     with timed(seconds, "segment"):
-        parts = (*masks, *_segmented(image, points or ()))
+        parts = (*masks, *_segmented(over(image), points or ()))
     _check_parts(parts)
     with timed(seconds, "mesh"):
         meshes = [mesh_from_mask(each, spacing=spacing) for each in parts]
@@ -134,9 +138,7 @@ def animate(
     with timed(seconds, "simulate"):
         motion = simulate(whole, frames=frames, progress=_stage("simulate", progress))
     with timed(seconds, "prepare"):
-        from .rendering.composite import LayeredRenderer
-
-        renderer = LayeredRenderer(image, parts, motion, plate=plate)
+        renderer = renderer_of(image, parts, motion, plate=plate, pixel_art=pixel_art)
     return Animation(image, parts, whole, motion, renderer, skip, seconds)
 
 
@@ -144,9 +146,9 @@ def _checked_plate(plate: Image | None, image: Image) -> Image | None:
     """The plate as an array, which suits the picture: the renderer, which needs it, comes after the simulation."""
     if plate is None:
         return None
-    plate = as_picture(plate, name="plate")
-    if plate.shape != image.shape:
-        raise InvalidInputError(f"plate must have the picture's shape, {image.shape}. Got: {plate.shape}")
+    plate = as_picture(plate, name="plate", alpha=True)
+    if plate.shape[:2] != image.shape[:2]:
+        raise InvalidInputError(f"plate must have the picture's size, {image.shape[:2]}. Got: {plate.shape[:2]}")
     return plate
 
 

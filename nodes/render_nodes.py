@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
+from ..physics.errors import require
+from .background_inputs import background_chosen, background_inputs
 from .cartoon_interpolation import missing_tooncrafter_files, tooncrafter_backend
 from .literals import chosen, refusal, whole_numbers_of
 from .model_files import find_model_file
 from .progress import host_progress
 from .sketch_video import missing_sketch_video_files, sketch_video_frames
 from .sketch_video_inputs import sketch_video_inputs
-from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of, pictures_of
+from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_with_alpha, pictures_of
 from .tooncrafter_inputs import tooncrafter_inputs
 from .wires import MaskedMotion, MotionWire
 
@@ -23,7 +25,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..physics.motion import Motion
+    from ..rendering.background import Background
     from ..rendering.composite import LayeredRenderer
+    from ..rendering.pixel_art import PixelArtRenderer
 
 __all__ = ["Interpolate", "Render"]
 
@@ -59,18 +63,24 @@ class Render(io.ComfyNode):
                     optional=True,
                     tooltip="The picture without the moving parts. Painted automatically when left out.",
                 ),
+                *background_inputs(),
             ],
             outputs=[
                 io.Image.Output(display_name="frames", tooltip="One picture a frame: for Create Video."),
-                io.Mask.Output(display_name="alpha", tooltip="White where the moving parts are, one mask a frame."),
+                io.Mask.Output(
+                    display_name="alpha",
+                    tooltip="White where the moving parts are, one mask a frame; of transparent frames the alpha.",
+                ),
                 io.Image.Output("plate", display_name="clean_plate", tooltip="The picture without the moving parts."),
             ],
         )
 
     @classmethod
-    def validate_inputs(cls, renderer: dict[str, Any] | None = None, **others: Any) -> bool | str:
+    def validate_inputs(
+        cls, renderer: dict[str, Any] | None = None, background: dict[str, Any] | None = None, **others: Any
+    ) -> bool | str:
         # Before the simulation, not after it. The host hands over what a choice brings only if every input is taken.
-        return missing_sketch_video_files(renderer or {}) or True
+        return missing_sketch_video_files(renderer or {}) or refusal(lambda: background_chosen(background))
 
     @classmethod
     def execute(
@@ -79,26 +89,40 @@ class Render(io.ComfyNode):
         motion: MaskedMotion,
         renderer: dict[str, Any] | None = None,
         clean_plate: torch.Tensor | None = None,
+        background: dict[str, Any] | None = None,
+        image_alpha: torch.Tensor | None = None,
+        pixel_art: bool = False,
     ) -> io.NodeOutput:
-        from ..rendering.composite import LayeredRenderer
+        from ..rendering.background import over, renderer_of
 
-        picture, plate = picture_of(image), None if clean_plate is None else picture_of(clean_plate, name="clean_plate")
-        layers = LayeredRenderer(picture, motion.masks, motion.motion, plate=plate)
+        behind, by_model = background_chosen(background), renderer is not None and renderer["renderer"] == _SKETCH_VIDEO
+        picture = picture_with_alpha(image, image_alpha)
+        plate = None if clean_plate is None else picture_with_alpha(clean_plate, name="clean_plate")
+        if by_model:
+            transparent = behind.has_alpha or pixel_art
+            require("background", behind.kind, not transparent, "opaque, and pixel_art off, with sketch-guided SVD")
+            picture, plate = over(picture, behind.colour), plate if plate is None else over(plate, behind.colour)
+        layers = renderer_of(picture, motion.masks, motion.motion, plate=plate, pixel_art=pixel_art)
         frames, alpha = picture_batch(len(layers)), mask_batch(len(layers))
-        if renderer is not None and renderer["renderer"] == _SKETCH_VIDEO:
+        if by_model:
             drawn = zip(sketch_video_frames(picture, layers, renderer), map(layers.alpha, count()), strict=False)
         else:
-            drawn = _composed(layers)
+            drawn = _composed(layers, behind)
         for frame, covered in drawn:
             frames.put(frame)
             alpha.put(covered)
-        return io.NodeOutput(frames.tensor, alpha.tensor, batch_of_pictures([layers.plate], 1))
+        behind_all = layers.plate if behind.has_alpha else over(layers.plate, behind.colour)
+        return io.NodeOutput(frames.tensor, alpha.tensor, batch_of_pictures([behind_all], 1))
 
 
-def _composed(layers: LayeredRenderer) -> Iterator[tuple[NDArray[Any], NDArray[Any]]]:
+def _composed(
+    layers: LayeredRenderer | PixelArtRenderer, background: Background
+) -> Iterator[tuple[NDArray[Any], NDArray[Any]]]:
+    from ..rendering.background import shown_frame_and_alpha
+
     report = host_progress()
     for number in range(len(layers)):
-        yield layers.frame_and_alpha(number)
+        yield shown_frame_and_alpha(layers, number, background)
         report(number + 1, len(layers))
 
 
@@ -177,8 +201,9 @@ class Interpolate(io.ComfyNode):
         name, choice = chosen(backend, "backend", (*BACKENDS, _TOONCRAFTER))
         known = motion.motion if motion else None
         at = whole_numbers_of(keyframes_at, name="keyframes_at")
-        keyframes, indices = _keyframes(pictures_of(images, name="images"), images_are, every, at, known)
         drawn_by_model = name == _TOONCRAFTER
+        pictures = pictures_of(images, name="images", alpha=not drawn_by_model)
+        keyframes, indices = _keyframes(pictures, images_are, every, at, known)
         sketches = choice.get("sketches")
         frames = interpolate(
             list(keyframes),

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ..physics.plan import SimulationPlan
     from .animation import Animation, StageProgress
 
-__all__ = ["check_outputs", "check_sizes", "report", "write_outputs"]
+__all__ = ["background_for", "check_outputs", "check_sizes", "report", "write_outputs"]
 
 LARGEST_WIDTH = 8192
 """The largest width that can be asked for [px]; its square is the most pixels that a frame may have."""
@@ -33,14 +33,17 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     """
     from ..physics.errors import InvalidInputError
     from ..physics.tracks import check_track_options
+    from .background import Background, background_of, check_in_betweens
     from .command_files import check_apart
-    from .drawing_checks import check_drawing
+    from .drawing_checks import check_count
     from .text_files import check_text_output
     from .video import check_frame_rate
 
     check_apart(options, bundled=bundled)
-    _check_clips(options)
-    check_drawing(transparent=_is_transparent(options), every=options.interpolate)
+    said = background_of(options.background) if options.background else Background()
+    _check_clips(options, alpha=said.has_alpha)
+    check_count("--interpolate", options.interpolate)
+    check_in_betweens(said, options.interpolate, pixel_art=options.pixel_art)
     if options.fps is not None:
         check_frame_rate(options.fps)
     for path, suffix in ((options.save_tracks, ".json"), (options.save_motion, ".json"), (options.save_svg, ".svg")):
@@ -65,6 +68,7 @@ def check_sizes(options: argparse.Namespace, image: NDArray[Any]) -> None:
         InvalidInputError: the message names the format and its limit.
     """
     from ..physics.errors import require
+    from .background import background_of
     from .drawing_checks import height_at
 
     height, width = image.shape[:2]
@@ -72,13 +76,14 @@ def check_sizes(options: argparse.Namespace, image: NDArray[Any]) -> None:
         width, height = options.width, height_at(image, options.width)
         held = width * height <= LARGEST_WIDTH**2
         require("--width", f"{width} x {height} px", held, f"such that a frame has at most {LARGEST_WIDTH}^2 pixels")
-    _check_clips(options, size=(width, height))
+    alpha = background_of(background_for(options, image)).has_alpha
+    _check_clips(options, alpha=alpha, size=(width, height))
 
 
-def _check_clips(options: argparse.Namespace, *, size: tuple[int, int] | None = None) -> None:
+def _check_clips(options: argparse.Namespace, *, alpha: bool, size: tuple[int, int] | None = None) -> None:
     from .video import check_output
 
-    check_output(options.output, alpha=_is_transparent(options), size=size)
+    check_output(options.output, alpha=alpha, size=size)
     for path in (options.save_sketch, options.save_flow, options.preview):
         if path is not None:
             check_output(path, size=size)
@@ -88,7 +93,7 @@ def write_outputs(options: argparse.Namespace, animation: Animation, progress: S
     """Write the animation, and all that was asked for beside it."""
     animation.save(
         options.output,
-        transparent=_is_transparent(options),
+        background=background_for(options, animation.image),
         every=options.interpolate,
         width=options.width,
         progress=progress,
@@ -147,7 +152,21 @@ def _save_data(options: argparse.Namespace, animation: Animation) -> None:
         animation.save_svg(options.save_svg)
 
 
-def _is_transparent(options: argparse.Namespace) -> bool:
-    if options.background is None:
-        return Path(options.output).suffix.lower() == ".webm"
-    return bool(options.background == "transparent")
+def background_for(options: argparse.Namespace, image: Any) -> str:
+    """The background of what is written, as said or as usual for the illustration and the output.
+
+    Raises:
+        InvalidInputError: in-betweens are asked for where it is transparent.
+    """
+    from .background import check_in_betweens, is_transparent, usual_background
+    from .video import holds_alpha
+
+    if options.background is not None:
+        return str(options.background)
+    usual = usual_background(
+        transparent_picture=is_transparent(image),
+        file_has_alpha=holds_alpha(options.output),
+        parts=Path(options.output).suffix.lower() == ".webm",
+    )
+    check_in_betweens(usual, options.interpolate)
+    return usual.kind

@@ -7,9 +7,9 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError, require
+from ..physics.errors import require
 
-__all__ = ["check_count", "check_drawing", "height_at"]
+__all__ = ["check_count", "height_at"]
 
 
 def check_count(name: str, value: object, *, least: int = 1, unit: str = "frame") -> None:
@@ -27,21 +27,6 @@ def check_count(name: str, value: object, *, least: int = 1, unit: str = "frame"
     whole = isinstance(value, numbers.Integral) and type(value) is not bool
     expected = f"at least {least} {unit}" if whole else "a whole number"
     require(name, value, whole and int(value) >= least, expected)  # type: ignore[call-overload]
-
-
-def check_drawing(*, transparent: bool = False, every: int = 1) -> None:
-    """Refuse ways to draw frames that do not go together.
-
-    Args:
-        transparent: only the moving parts, as RGBA.
-        every: draw each so many-th frame anew and fill in the others.
-
-    Raises:
-        InvalidInputError: ``every`` is no number of frames, or in-betweens and transparency are asked for together.
-    """
-    check_count("every", every)
-    if transparent and every > 1:
-        raise InvalidInputError("transparent frames must be drawn one by one. Got: in-betweens as well")
 
 
 def height_at(picture: NDArray[Any], width: int) -> int:

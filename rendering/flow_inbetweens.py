@@ -81,7 +81,8 @@ def _trust(one: FloatImage, other: FloatImage, first: FloatImage, last: FloatIma
 
 def _flow(start: FloatImage, end: FloatImage) -> FloatImage:
     """Displacement from one picture to another [px], shape [h, w, 2]."""
-    greys = [cv2.cvtColor(np.rint(picture * 255).astype(np.uint8), cv2.COLOR_RGB2GRAY) for picture in (start, end)]
+    shown = (np.rint(picture[..., :3] * 255).astype(np.uint8) for picture in (start, end))
+    greys = [cv2.cvtColor(np.ascontiguousarray(picture), cv2.COLOR_RGB2GRAY) for picture in shown]
     if min(greys[0].shape) < 16:
         return np.zeros((*greys[0].shape, 2), np.float32)
     search = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM)

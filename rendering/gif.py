@@ -39,7 +39,7 @@ def shown_indices(count: int, frame_rate: Fraction) -> Iterator[int]:
 
 
 def paletted(
-    frames: Iterable[av.VideoFrame], frame_rate: Fraction, *, folder: Path | None = None
+    frames: Iterable[av.VideoFrame], frame_rate: Fraction, *, dithered: bool = True, folder: Path | None = None
 ) -> Iterator[av.VideoFrame]:
     """Frames in 256 colours that are chosen for all of them together.
 
@@ -49,6 +49,7 @@ def paletted(
         frames: of one size, in FFmpeg's format rgb24 or rgba, with their times.
         frame_rate: frames a second.
         folder: where the temporary file is made, such as that of the result; the system's own when None.
+        dithered: mix colours that are missing from others; without, each pixel gets the nearest one.
 
     Yields:
         The frames that a GIF can show, in FFmpeg's format pal8.
@@ -57,7 +58,7 @@ def paletted(
         lengths: list[int] = []
         palette, like = _palette(_recorded(frames, spool, lengths))
         spool.seek(0)
-        yield from _painted(_replayed(spool, lengths, like, frame_rate), palette, like)
+        yield from _painted(_replayed(spool, lengths, like, frame_rate), palette, like, dithered=dithered)
 
 
 def _recorded(frames: Iterable[av.VideoFrame], spool: IO[bytes], lengths: list[int]) -> Iterator[av.VideoFrame]:
@@ -101,12 +102,14 @@ def _palette(frames: Iterator[av.VideoFrame]) -> tuple[av.VideoFrame, av.VideoFr
     return next(_pulled(sink)), first
 
 
-def _painted(frames: Iterable[av.VideoFrame], palette: av.VideoFrame, like: av.VideoFrame) -> Iterator[av.VideoFrame]:
+def _painted(
+    frames: Iterable[av.VideoFrame], palette: av.VideoFrame, like: av.VideoFrame, *, dithered: bool
+) -> Iterator[av.VideoFrame]:
     from av.filter import Graph
 
     graph = Graph()
     source, colours, sink = _buffer(graph, like), _buffer(graph, palette), graph.add("buffersink")
-    painter = graph.add("paletteuse", "dither=bayer:bayer_scale=4:diff_mode=rectangle")
+    painter = graph.add("paletteuse", f"dither={'bayer:bayer_scale=4' if dithered else 'none'}:diff_mode=rectangle")
     source.link_to(painter, 0, 0)
     colours.link_to(painter, 0, 1)
     painter.link_to(sink)

@@ -25,18 +25,19 @@ StrPath = str | os.PathLike[str]
 _COMPRESSION = 4  # of PNG: within 2 % of the size at Pillow's own 6, in less than half the time
 
 
-def load_image(path: StrPath) -> NDArray[np.uint8]:
+def load_image(path: StrPath, *, alpha: bool = False) -> NDArray[np.uint8]:
     """Read an illustration.
 
     The orientation noted by a camera or scanner is applied, an embedded colour profile is converted to sRGB,
-    pictures of 16 and 32 bits a channel and grey ones become 8-bit RGB, and transparent areas are laid over white. Of
-    an animated file the first frame is read.
+    pictures of 16 and 32 bits a channel and grey ones become 8-bit RGB, and transparent areas are laid over white
+    unless alpha is kept. Of an animated file the first frame is read.
 
     Args:
         path: a PNG, JPEG, WebP, TIFF, PSD or other picture that Pillow reads without help of another program.
+        alpha: keep the alpha of a picture that is not opaque everywhere.
 
     Returns:
-        RGB, uint8, shape [h, w, 3].
+        RGB, uint8, shape [h, w, 3]; or straight RGBA, shape [h, w, 4], black where alpha is 0.
 
     Raises:
         InvalidInputError: there is no such file, it is no picture, it is damaged or it is too large.
@@ -47,6 +48,10 @@ def load_image(path: StrPath) -> NDArray[np.uint8]:
         picture = in_srgb(ImageOps.exif_transpose(opened))
         if has_transparency(picture):
             picture = with_opacity(picture, name=f"picture {path}")
+            pixels = np.array(picture)
+            if alpha and pixels[..., 3].min() < 255:
+                pixels[pixels[..., 3] == 0] = 0
+                return pixels
             picture = Image.alpha_composite(Image.new("RGBA", picture.size, "white"), picture)
         return np.array(in_8_bits(picture, name=f"picture {path}").convert("RGB"))
 

@@ -40,7 +40,7 @@ class Clip:
     """Keyframes and everything that is known about what happens between them.
 
     Attributes:
-        keyframes: RGB, uint8 or float in 0..1, each of shape [h, w, 3].
+        keyframes: RGB, uint8 or float in 0..1, each of shape [h, w, 3]; or premultiplied RGBA, float32, [h, w, 4].
         indices: frame number of each keyframe, increasing.
         motion: positions of the bodies in every frame, if known.
         masks: soft mask of each body in the drawing, shape [h, w]; empty when unknown.

@@ -7,7 +7,7 @@ entries of ``BACKENDS`` and say which files they need.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,10 +18,12 @@ from ..physics.errors import InvalidInputError, require
 from ..physics.masks import coverage_of
 from ..physics.motion import Motion
 from ..physics.progress import Progress
+from .background import is_transparent
 from .flow_inbetweens import FlowInterpolator
 from .inbetweening import Clip, Interpolator, ModelFile, as_float, like
 from .motion_inbetweens import MotionInterpolator
 from .pixels import as_picture
+from .premultiplied import premultiplied, straight
 
 __all__ = [
     "BACKENDS",
@@ -89,8 +91,8 @@ def interpolate(
     """All frames from the first keyframe to the last; keyframes come out unchanged.
 
     Args:
-        keyframes: RGB in any form that :func:`~physanimator.rendering.pixels.as_picture` takes, of one size and type,
-            shape [h, w, 3] each.
+        keyframes: RGB or straight RGBA in any form that :func:`~physanimator.rendering.pixels.as_picture` takes, of one
+            size and type, shape [h, w, 3] or [h, w, 4] each; backends by video models take RGB alone.
         indices: frame number of each keyframe, increasing.
         backend: name of an entry of ``BACKENDS``, or a backend that was made elsewhere, such as
             ``tooncrafter.interpolator.ToonCrafterInterpolator``; "motion" without a known motion becomes "flow".
@@ -110,7 +112,7 @@ def interpolate(
             missing.
     """
     require("keyframes", f"{len(keyframes)}", len(keyframes) >= 1, "at least one")
-    keyframes = [as_picture(keyframe, name=f"keyframes[{k}]") for k, keyframe in enumerate(keyframes)]
+    keyframes = [as_picture(keyframe, name=f"keyframes[{k}]", alpha=True) for k, keyframe in enumerate(keyframes)]
     _check(keyframes, indices)
     chosen = _chosen("flow" if backend == "motion" and motion is None else backend)
     if motion is not None:
@@ -120,14 +122,23 @@ def interpolate(
         require("masks", f"{len(masks)}", counted, f"none or one per body ({len(motion.bodies)})")
     if len(sketches):
         _check_sketches(sketches, indices[-1], keyframes[0].shape[:2])
-    clip = Clip(keyframes, tuple(indices), motion, tuple(map(coverage_of, masks)), _files(chosen, find_file), sketches)
-    return _frames(chosen, clip, progress)
+    # Hidden colours must not come into those that are seen.
+    mixable = [premultiplied(each) for each in keyframes] if is_transparent(keyframes[0]) else keyframes
+    files = _files(chosen, find_file)
+    clip = Clip(mixable, tuple(indices), motion, tuple(map(coverage_of, masks)), files, sketches)
+    return _frames(chosen, clip, keyframes, progress)
 
 
-def _frames(backend: Interpolator, clip: Clip, progress: Progress | None) -> Iterator[NDArray[Any]]:
+def _frames(
+    backend: Interpolator, clip: Clip, keyframes: Sequence[NDArray[Any]], progress: Progress | None
+) -> Iterator[NDArray[Any]]:
     total, done = clip.indices[-1] - clip.indices[0] + 1, 0
-    for number, keyframe in enumerate(clip.keyframes):
-        between = backend.in_betweens(clip, number) if number + 1 < len(clip.keyframes) else ()
+    for number, keyframe in enumerate(keyframes):
+        between: Iterable[NDArray[Any]] = ()
+        if number + 1 < len(keyframes):
+            between = backend.in_betweens(clip, number)
+        if is_transparent(keyframe):
+            between = (like(straight(each), keyframe) for each in between)
         for frame in _chain(keyframe, between):
             done += 1
             yield frame

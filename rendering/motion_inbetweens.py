@@ -110,7 +110,7 @@ def _plate(clip: Clip, number: int, first: _Keyframe, last: _Keyframe) -> FloatI
     _, labels = cv2.distanceTransformWithLabels(
         (~known).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
     )
-    colours = np.zeros((labels.max() + 1, 3), np.float32)
+    colours = np.zeros((labels.max() + 1, picture.shape[2]), np.float32)
     colours[labels[known]] = picture[known]
     # Streaks from single pixels are smoothed away.
     filled = cv2.GaussianBlur(colours[labels], (0, 0), 3)
@@ -179,7 +179,9 @@ def _draw_body(
 
 
 def _read(picture: FloatImage, at: FloatImage, method: int) -> FloatImage:
-    return cv2.remap(picture, at, None, method, borderMode=cv2.BORDER_REPLICATE)
+    read = cv2.remap(picture, at, None, method, borderMode=cv2.BORDER_REPLICATE)
+    # Where resampling goes beyond an alpha of 1, premultiplied colours go along.
+    return read / np.maximum(read[..., 3:], 1) if read.ndim == 3 and read.shape[2] == 4 else read
 
 
 def _visible(keyframe: _Keyframe, at: FloatImage, rank: int) -> FloatImage:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError, require
 from .atomic import replacing
+from .bleeding import bled
 from .frame_folder import check_frame_folder, write_frame_folder
 from .pixels import as_uint8
 from .places import StrPath, check_file_place, is_folder_name, place_of, printable, suffix_of
@@ -31,6 +32,7 @@ __all__ = [
     "check_frame_rate",
     "check_output",
     "exact_frame_rate",
+    "holds_alpha",
     "write_animation",
 ]
 
@@ -47,8 +49,10 @@ class VideoFormat:
         codec: FFmpeg's name of the encoder.
         pixels: pixel format of opaque frames.
         alpha_pixels: pixel format of frames with alpha; None where the format has no alpha.
+        mixes_neighbours: colours of neighbours are mixed, whatever their alpha.
         options: of the encoder.
         alpha_options: of the encoder, in addition, for frames with alpha.
+        exact_options: of the encoder, in addition, where colours shall stay as they are.
         container_options: of the file format.
         longest_side: largest width and height that it holds [px].
     """
@@ -57,8 +61,10 @@ class VideoFormat:
     codec: str
     pixels: str
     alpha_pixels: str | None = None
+    mixes_neighbours: bool = False
     options: dict[str, str] = field(default_factory=dict)
     alpha_options: dict[str, str] = field(default_factory=dict)
+    exact_options: dict[str, str] = field(default_factory=dict)
     container_options: dict[str, str] = field(default_factory=dict)
     longest_side: int = 65_535
 
@@ -78,6 +84,7 @@ FORMATS = {
         "libvpx-vp9",
         "yuv420p",
         "yuva420p",
+        mixes_neighbours=True,
         options={"crf": "22", "b": "0", "cpu-used": "3", "row-mt": "1"},
         # Alternate reference frames and alpha exclude each other in libvpx.
         alpha_options={"auto-alt-ref": "0"},
@@ -88,7 +95,9 @@ FORMATS = {
         "libwebp_anim",
         "bgra",
         "bgra",
+        mixes_neighbours=True,
         options={"quality": "90"},
+        exact_options={"lossless": "1"},
         container_options={"loop": "0"},
         longest_side=16_383,
     ),
@@ -149,7 +158,19 @@ def check_frame_rate(frame_rate: float | Fraction) -> None:
     require("frame_rate", frame_rate, held, f"a number from {slowest:g} to {fastest:g} frames a second")
 
 
-def write_animation(frames: Iterable[NDArray[Any]], path: StrPath, frame_rate: float | Fraction) -> None:
+def holds_alpha(path: StrPath) -> bool:
+    """Whether what :func:`write_animation` writes there can be transparent.
+
+    Args:
+        path: a file ending in one of ``FORMATS``, or a folder ending in ``/``.
+    """
+    chosen = FORMATS.get(suffix_of(path))
+    return is_folder_name(path) or (chosen is not None and chosen.alpha_pixels is not None)
+
+
+def write_animation(
+    frames: Iterable[NDArray[Any]], path: StrPath, frame_rate: float | Fraction, *, exact: bool = False
+) -> None:
     """Write frames as they come; the file or folder appears only when it is complete.
 
     A file of the same name is replaced at the end; in a folder the numbered frames of an earlier clip are, if this
@@ -161,6 +182,8 @@ def write_animation(frames: Iterable[NDArray[Any]], path: StrPath, frame_rate: f
             Alpha is straight, not premultiplied.
         path: a file ending in one of ``FORMATS``, or a folder ending in ``/`` for ``frame_0000.png`` and so on.
         frame_rate: frames a second; 23.976, 29.97 and 59.94 are taken as the exact rates so called.
+        exact: for pixel art: colours as they are wherever the format can hold them; a GIF of up to 255 colours and
+            animated WebP can.
 
     Raises:
         InvalidInputError: see :func:`check_output`; or there is no frame, or they differ in size.
@@ -171,12 +194,15 @@ def write_animation(frames: Iterable[NDArray[Any]], path: StrPath, frame_rate: f
     if first is None:
         raise InvalidInputError("an animation must have at least one frame. Got: none")
     check_output(path, alpha=first.shape[2] == 4, size=(first.shape[1], first.shape[0]))
-    every = itertools.chain([first], iterator)
+    every: Iterable[NDArray[np.uint8]] = itertools.chain([first], iterator)
     if is_folder_name(path):
         write_frame_folder(every, path)
         return
     with replacing(path) as temporary:
-        _encode(every, temporary, FORMATS[suffix_of(path)], first.shape, exact_frame_rate(frame_rate))
+        chosen = FORMATS[suffix_of(path)]
+        if first.shape[2] == 4 and chosen.mixes_neighbours and not exact:
+            every = map(bled, every)
+        _encode(every, temporary, chosen, first.shape, exact_frame_rate(frame_rate), exact=exact)
 
 
 def exact_frame_rate(frame_rate: float | Fraction) -> Fraction:
@@ -221,12 +247,18 @@ def _uniform(frames: Iterable[NDArray[Any]]) -> Iterator[NDArray[np.uint8]]:
 
 
 def _encode(
-    frames: Iterable[NDArray[np.uint8]], path: Path, chosen: VideoFormat, shape: tuple[int, ...], rate: Fraction
+    frames: Iterable[NDArray[np.uint8]],
+    path: Path,
+    chosen: VideoFormat,
+    shape: tuple[int, ...],
+    rate: Fraction,
+    *,
+    exact: bool,
 ) -> None:
     import av
 
     try:
-        _mux(frames, path, chosen, shape, rate)
+        _mux(frames, path, chosen, shape, rate, exact=exact)
     except av.FFmpegError as error:
         if isinstance(error, OSError):
             raise
@@ -234,7 +266,13 @@ def _encode(
 
 
 def _mux(
-    frames: Iterable[NDArray[np.uint8]], path: Path, chosen: VideoFormat, shape: tuple[int, ...], rate: Fraction
+    frames: Iterable[NDArray[np.uint8]],
+    path: Path,
+    chosen: VideoFormat,
+    shape: tuple[int, ...],
+    rate: Fraction,
+    *,
+    exact: bool,
 ) -> None:
     import av
 
@@ -242,14 +280,13 @@ def _mux(
     even = chosen.codec == "libx264"
     height, width = (size + size % 2 if even else size for size in shape[:2])
     with av.open(str(path), "w", format=chosen.container, options=chosen.container_options) as container:
-        stream = container.add_stream(
-            chosen.codec, rate=rate, options={**chosen.options, **(chosen.alpha_options if alpha else {})}
-        )
+        options = chosen.options | (chosen.alpha_options if alpha else {}) | (chosen.exact_options if exact else {})
+        stream = container.add_stream(chosen.codec, rate=rate, options=options)
         stream.width, stream.height = width, height
         stream.pix_fmt = (chosen.alpha_pixels if alpha else None) or chosen.pixels
         stream.codec_context.time_base = 1 / rate
         _describe(stream)
-        for frame in _converted(frames, stream.pix_fmt, rate, even=even, folder=path.parent):
+        for frame in _converted(frames, stream.pix_fmt, rate, even=even, exact=exact, folder=path.parent):
             container.mux(stream.encode(frame))
         container.mux(stream.encode(None))
 
@@ -264,13 +301,13 @@ def _describe(stream: av.VideoStream) -> None:
 
 
 def _converted(
-    frames: Iterable[NDArray[np.uint8]], pixels: str, rate: Fraction, *, even: bool, folder: Path
+    frames: Iterable[NDArray[np.uint8]], pixels: str, rate: Fraction, *, even: bool, exact: bool, folder: Path
 ) -> Iterator[av.VideoFrame]:
     """Numbered frames in a stream's pixel format."""
     if pixels == "pal8":
         from .gif import paletted
 
-        yield from paletted(_numbered(frames, rate, even=even), rate, folder=folder)
+        yield from paletted(_numbered(frames, rate, even=even), rate, dithered=not exact, folder=folder)
         return
     for frame in _numbered(frames, rate, even=even):
         if pixels.startswith("yuv"):

@@ -324,3 +324,24 @@ def test_bad_input_raises_at_once(
 def test_bad_keyframe_plans(count: int, every: int) -> None:
     with pytest.raises(InvalidInputError, match="must be at least 1 frame"):
         keyframe_indices(count, every)
+
+
+@pytest.mark.parametrize("backend", ["motion", "blend", "flow"])
+@pytest.mark.parametrize("dtype", [np.uint8, np.float32])
+def test_in_betweens_of_transparent_keyframes_mix_no_hidden_colours(motion: Motion, backend: str, dtype: type) -> None:
+    indices = [0, 3, 6]
+    keyframes = []
+    for frame in indices:
+        image = np.zeros((HEIGHT, WIDTH, 4), np.uint8)
+        image[..., :3] = (255, 0, 255)  # hidden
+        corners = np.rint(motion.positions[frame][[0, 4, 24, 20]] - 0.5).astype(np.int32)
+        cv2.fillPoly(image, [corners], (40, 200, 60, 255))
+        keyframes.append(image if dtype == np.uint8 else image.astype(np.float32) / 255)
+    drawn = list(interpolate(keyframes, indices, backend=backend, motion=motion))
+    assert all((drawn[index] == keyframe).all() for index, keyframe in zip(indices, keyframes, strict=True))
+    for frame in (1, 2, 4, 5):
+        shown = drawn[frame].astype(np.float64) * (1 if dtype == np.uint8 else 255)
+        seen = shown[..., 3] > 20
+        assert drawn[frame].dtype == dtype
+        assert seen.sum() > 1500
+        assert np.abs(shown[seen][:, :3] - (40, 200, 60)).max() <= 8
