@@ -1,0 +1,168 @@
+"""Masks as people and networks make them - grown, shrunk, blurred, scaled, painted by hand - made regular.
+
+Such a mask says only about where a part ends. What a soft edge leaves outside stays behind as a ghost of the part's
+outline when the part moves, what a wide one takes in goes along as a halo. A regular mask ends at the part's edge, as
+the picture shows it, and its edge is hard or as soft as one pixel; the matting does the rest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from .edge_search import found_shape
+from .mask_edges import CROSS, FAINT, SQUARE, edge_strength, grown, mean_near
+from .pixel_windows import window_around
+
+__all__ = ["regular_mask"]
+
+FloatImage = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+_HALF = 0.5
+# The edge may lie this far from the mask's, and as far again as half of a soft transition is wide [px].
+_REACH = 10.0
+_WIDEST = 30.0
+# Noise around edges, as compression makes it, stays below this much and below this share of the edge's pixels.
+_NOISE = 0.1
+_NOISY = 0.1
+# Transitions of anti-aliased edges are narrower than the first width; those from the second on are blurred [px].
+_ANTI_ALIASED = 1.7
+_SOMEWHAT_SOFT = 1.9
+_BLURRED = 3.0
+# Share of soft pixels in uniform blocks from which on a mask has been enlarged without smoothing.
+_BLOCKS = 0.25
+# An edge that is found elsewhere must be this much stronger than the mask's own, and differ by this much in colour.
+_STRONGER = 1.15
+_LEAST_STEP = 0.04
+# Where less of a hard edge would move, the mask has been made with care and is taken at its word.
+_MOVED = 0.3
+_MARGIN = 40
+
+
+@dataclass(frozen=True, eq=False)
+class _Edge:
+    """The edge of a mask.
+
+    Attributes:
+        inside: the part, shape [h, w].
+        line: its outermost pixels, shape [h, w].
+        width: of the transition at the nearest place of the edge [px], shape [h, w].
+    """
+
+    inside: Mask
+    line: Mask
+    width: FloatImage
+
+    def median_width(self) -> float:
+        """Half of the edge is softer than this [px]."""
+        return float(np.median(self.width[self.line]))
+
+
+def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
+    """A mask whose edge lies where the picture has one.
+
+    A soft edge becomes a hard one, and moves onto an edge of the picture if there is a stronger one near by; a hard
+    edge moves if much of the mask's edge does. A mask made with care comes back as it was, and so does whatever lies
+    between colours that cannot be told apart. A mask that nowhere becomes white is scaled up to white.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3].
+        mask: soft mask in 0 to 1, shape [h, w].
+
+    Returns:
+        The mask in 0 to 1, shape [h, w].
+    """
+    mask = _up_to_white(mask)
+    if not (mask > _HALF).any() or (mask > _HALF).all():
+        return mask
+    window = window_around(mask > FAINT, margin=_MARGIN)
+    regular = mask.copy()
+    regular[window] = _regular(image[window], mask[window])
+    return regular
+
+
+def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
+    mask = _without_noise(mask)
+    edge = _edge_of(mask)
+    soft = edge.median_width() > _SOMEWHAT_SOFT or _in_blocks(mask)
+    found, moved = _searched(image, mask, edge)
+    hard_line = edge.line & (edge.width <= _ANTI_ALIASED)
+    displaced = (grown(moved, np.ones((5, 5), np.uint8)) & hard_line).sum() > _MOVED * max(1, int(hard_line.sum()))
+    if soft or displaced:
+        again = found.astype(np.float32)
+        found, once_more = _searched(image, again, _edge_of(again))
+        rewritten = grown(moved | once_more, SQUARE) | (edge.width > (0 if soft else _ANTI_ALIASED))
+    else:
+        rewritten = edge.width > _BLURRED
+        found = np.where(rewritten, found, edge.inside)
+    near = _distance(found) <= _REACH + np.minimum(edge.width, _WIDEST)
+    told = edge_strength(image, found) > _LEAST_STEP
+    # Where the picture has no edge, a soft transition is what somebody wanted.
+    kept_soft = ~told & (edge.width > _BLURRED)
+    return np.where(rewritten & near & ~kept_soft, found, mask).astype(np.float32)
+
+
+def _searched(image: FloatImage, mask: FloatImage, edge: _Edge) -> tuple[Mask, Mask]:
+    """The shape with its edge moved where the picture has a stronger one, and where that is."""
+    reach = np.asarray(_REACH + _HALF * np.minimum(edge.width, _WIDEST), dtype=np.float32)
+    shape, likely = found_shape(image, mask, reach)
+    changed = shape != edge.inside
+    weight = mean_near(likely, changed, sigma=3.0)[0]
+    strength = edge_strength(image, shape)
+    better = strength > np.maximum(_STRONGER * edge_strength(image, edge.inside), _LEAST_STEP)
+    moved = changed & better & (np.where(shape, weight, 1 - weight) > _HALF)
+    # Changes as thin as one pixel are left to the matting.
+    thick = cv2.morphologyEx(moved.astype(np.uint8), cv2.MORPH_OPEN, np.ones((2, 2), np.uint8)) > 0
+    moved &= grown(thick, SQUARE)
+    return np.where(moved, shape, edge.inside), moved
+
+
+def _edge_of(mask: FloatImage) -> _Edge:
+    inside = mask > _HALF
+    line = inside & grown(~inside, CROSS)
+    soft = ((mask > 0.05) & (mask < 0.95)).astype(np.float32)
+    # So many soft pixels there are for each of the edge.
+    there = cv2.GaussianBlur(line.astype(np.float32), (0, 0), 5.0)
+    local = cv2.GaussianBlur(soft, (0, 0), 5.0) / np.maximum(there, np.float32(1e-3))
+    _, labels = cv2.distanceTransformWithLabels(
+        (~line).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    widths = np.zeros(int(labels.max()) + 1, dtype=np.float32)
+    widths[labels[line]] = local[line]
+    return _Edge(inside, line, widths[labels])
+
+
+def _up_to_white(mask: FloatImage) -> FloatImage:
+    highest = float(mask.max(initial=0))
+    if highest <= FAINT:
+        return mask
+    white = float(np.percentile(mask[mask > _HALF * highest], 90))
+    return np.minimum(mask / np.float32(white), 1) if white < 0.98 else mask
+
+
+def _without_noise(mask: FloatImage) -> FloatImage:
+    """The mask without the faint specks that compression leaves around its edge."""
+    inside = mask > _HALF
+    faint = (mask > FAINT) & (mask < _NOISE) & (_distance(inside) > 2)
+    if faint.sum() < _NOISY * (inside & grown(~inside, CROSS)).sum():
+        return mask
+    return np.where(mask < _NOISE, np.float32(0), np.where(mask > 1 - _NOISE, np.float32(1), mask))
+
+
+def _in_blocks(mask: FloatImage) -> bool:
+    """Whether the soft pixels come in blocks of one value."""
+    corners = np.stack([mask[:-1, :-1], mask[1:, :-1], mask[:-1, 1:], mask[1:, 1:]])
+    soft = (corners > 0.05) & (corners < 0.95)
+    alike = soft.all(axis=0) & (np.ptp(corners, axis=0) < 1e-3)
+    count = int(soft[0].sum())
+    return count > 0 and 4 * int(alike.sum()) > _BLOCKS * 4 * count
+
+
+def _distance(shape: Mask) -> FloatImage:
+    """From the edge of a shape, on either side [px], shape [h, w]."""
+    sides = [cv2.distanceTransform(side.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5) for side in (shape, ~shape)]
+    return np.asarray(np.maximum(*sides), dtype=np.float32)
