@@ -125,7 +125,7 @@ def _walked(
             total += np.bincount(own[own >= 0], conductance[own >= 0], count)
             ends = (own >= 0) & ~both & sure
             target += np.bincount(own[ends], conductance[ends], count)
-    chance, _ = cg((system + diags(total)).tocsr(), target, x0=wanted, M=diags(1 / total), maxiter=300)
+    chance, _ = cg((system + diags(total)).tocsr(), target, x0=wanted, rtol=1e-3, M=diags(1 / total), maxiter=300)
     return np.asarray(chance)
 
 

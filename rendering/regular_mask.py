@@ -38,8 +38,12 @@ _BLOCKS = 0.25
 # An edge that is found elsewhere must be this much stronger than the mask's own, and differ by this much in colour.
 _STRONGER = 1.15
 _LEAST_STEP = 0.04
-# Where less of a hard edge would move, the mask has been made with care and is taken at its word.
+# Where less of an edge would move, the mask has been made with care and is taken at its word.
 _MOVED = 0.3
+# A search that moves no more than this share of the edge has ended; it ends after so many rounds more at the latest.
+_SETTLED = 0.05
+_ROUNDS = 3
+_TOUCHING = np.ones((5, 5), np.uint8)
 _MARGIN = 40
 
 
@@ -88,22 +92,37 @@ def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
 def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
     mask = _without_noise(mask)
     edge = _edge_of(mask)
-    soft = edge.median_width() > _SOMEWHAT_SOFT or _in_blocks(mask)
-    found, moved = _searched(image, mask, edge)
-    hard_line = edge.line & (edge.width <= _ANTI_ALIASED)
-    displaced = (grown(moved, np.ones((5, 5), np.uint8)) & hard_line).sum() > _MOVED * max(1, int(hard_line.sum()))
-    if soft or displaced:
-        again = found.astype(np.float32)
-        found, once_more = _searched(image, again, _edge_of(again))
-        rewritten = grown(moved | once_more, SQUARE) | (edge.width > (0 if soft else _ANTI_ALIASED))
+    blurred = edge.width > _BLURRED
+    shape, moved = _searched(image, mask, edge)
+    displaced = _share(moved, edge.line & ~blurred) > _MOVED
+    if displaced:
+        shape, moved = _searched_again(image, shape, moved)
     else:
-        rewritten = edge.width > _BLURRED
-        found = np.where(rewritten, found, edge.inside)
-    near = _distance(found) <= _REACH + np.minimum(edge.width, _WIDEST)
-    told = edge_strength(image, found) > _LEAST_STEP
+        moved &= blurred
+        shape = np.where(moved, shape, edge.inside)
+    soft = displaced or edge.median_width() > _SOMEWHAT_SOFT or _in_blocks(mask)
+    rewritten = grown(moved, SQUARE) | (edge.width > _ANTI_ALIASED if soft else blurred)
+    near = _distance(shape) <= _REACH + np.minimum(edge.width, _WIDEST)
     # Where the picture has no edge, a soft transition is what somebody wanted.
-    kept_soft = ~told & (edge.width > _BLURRED)
-    return np.where(rewritten & near & ~kept_soft, found, mask).astype(np.float32)
+    wanted = blurred & (edge_strength(image, shape) < _LEAST_STEP)
+    return np.where(rewritten & near & ~wanted, shape, mask).astype(np.float32)
+
+
+def _share(moved: Mask, line: Mask) -> float:
+    """How much of an edge moves."""
+    return int((grown(moved, _TOUCHING) & line).sum()) / max(1, int(line.sum()))
+
+
+def _searched_again(image: FloatImage, shape: Mask, moved: Mask) -> tuple[Mask, Mask]:
+    """The shape searched from where it has got to, until little moves: strands are followed to their tips."""
+    everything = moved
+    for _ in range(_ROUNDS):
+        hard = _edge_of(shape.astype(np.float32))
+        shape, moved = _searched(image, shape.astype(np.float32), hard)
+        everything = everything | moved
+        if _share(moved, hard.line) < _SETTLED:
+            break
+    return shape, everything
 
 
 def _searched(image: FloatImage, mask: FloatImage, edge: _Edge) -> tuple[Mask, Mask]:
