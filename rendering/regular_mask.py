@@ -29,9 +29,8 @@ _WIDEST = 30.0
 # Noise around edges, as compression makes it, stays below this much and below this share of the edge's pixels.
 _NOISE = 0.1
 _NOISY = 0.1
-# Transitions of anti-aliased edges are narrower than the first width; those from the second on are blurred [px].
-_ANTI_ALIASED = 1.7
-_SOMEWHAT_SOFT = 1.9
+# Transitions of anti-aliased edges are mostly narrower than the first width; those from the second on are blurred [px].
+_ANTI_ALIASED = 1.9
 _BLURRED = 3.0
 # Share of soft pixels in uniform blocks from which on a mask has been enlarged without smoothing.
 _BLOCKS = 0.25
@@ -90,8 +89,10 @@ def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
 
 
 def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
-    mask = _without_noise(mask)
     edge = _edge_of(mask)
+    noisy = edge.median_width() < _BLURRED and _is_noisy(mask)
+    if noisy:
+        mask = np.where(mask < _NOISE, np.float32(0), np.where(mask > 1 - _NOISE, np.float32(1), mask))
     blurred = edge.width > _BLURRED
     shape, moved = _searched(image, mask, edge)
     displaced = _share(moved, edge.line & ~blurred) > _MOVED
@@ -100,8 +101,8 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
     else:
         moved &= blurred
         shape = np.where(moved, shape, edge.inside)
-    soft = displaced or edge.median_width() > _SOMEWHAT_SOFT or _in_blocks(mask)
-    rewritten = grown(moved, SQUARE) | (edge.width > _ANTI_ALIASED if soft else blurred)
+    soft = noisy or displaced or edge.median_width() > _ANTI_ALIASED or _in_blocks(mask)
+    rewritten = blurred | grown(moved, SQUARE) | soft
     near = _distance(shape) <= _REACH + np.minimum(edge.width, _WIDEST)
     # Where the picture has no edge, a soft transition is what somebody wanted.
     wanted = blurred & (edge_strength(image, shape) < _LEAST_STEP)
@@ -163,13 +164,11 @@ def _up_to_white(mask: FloatImage) -> FloatImage:
     return np.minimum(mask / np.float32(white), 1) if white < 0.98 else mask
 
 
-def _without_noise(mask: FloatImage) -> FloatImage:
-    """The mask without the faint specks that compression leaves around its edge."""
+def _is_noisy(mask: FloatImage) -> bool:
+    """Whether there are faint specks near the edge, as compression leaves them."""
     inside = mask > _HALF
     faint = (mask > FAINT) & (mask < _NOISE) & (_distance(inside) > 2)
-    if faint.sum() < _NOISY * (inside & grown(~inside, CROSS)).sum():
-        return mask
-    return np.where(mask < _NOISE, np.float32(0), np.where(mask > 1 - _NOISE, np.float32(1), mask))
+    return int(faint.sum()) > _NOISY * int((inside & grown(~inside, CROSS)).sum())
 
 
 def _in_blocks(mask: FloatImage) -> bool:
