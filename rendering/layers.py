@@ -24,6 +24,7 @@ from .beyond_border import on_canvas
 from .clean_plate import fill_hole
 from .colour_spreading import spread_colours
 from .matte import fitting_plate, in_levels, mixed_rim, soft_alpha, with_outline
+from .regular_mask import regular_mask
 
 __all__ = ["Layer", "take_apart"]
 
@@ -98,6 +99,7 @@ def take_apart(
     Returns:
         The plate, equal to the picture wherever no body is; and a layer for each body, from back to front.
     """
+    masks = [regular_mask(picture, mask) for mask in masks]
     supports, rounded = [with_outline(picture, mask) for mask in masks], in_levels(picture)
     if plate is None:
         unknown = [each | mixed_rim(mask, each) for mask, each in zip(masks, supports, strict=True)]

@@ -13,6 +13,7 @@ __all__ = [
     "SOLID",
     "SQUARE",
     "WIDE",
+    "edge_strength",
     "grown",
     "hard_edge",
     "inner_colour",
@@ -40,6 +41,7 @@ CROSS = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]], np.uint8)
 _HARD = 0.75
 # An edge is looked at over about this length [px].
 _SIGMA = 5.0
+_ALONG = 4.0
 # Up to the first difference a soft edge is trusted, from the second on the picture is.
 _TRUST = 0.1
 _DISBELIEF = 0.4
@@ -55,11 +57,27 @@ def hard_edge(mask: FloatImage, support: Mask) -> Mask:
     return mean_near(mask, support & grown(~support, CROSS))[0] > _HARD
 
 
-def mean_near(values: FloatImage, where: Mask) -> tuple[FloatImage, Mask]:
-    """Mean value of the nearby pixels in ``where``, and where there are any."""
+def mean_near(values: FloatImage, where: Mask, *, sigma: float = _SIGMA) -> tuple[FloatImage, Mask]:
+    """Mean value of the pixels in ``where`` within about ``sigma`` [px], and where there are any."""
     weight = where.astype(np.float32)
-    total = cv2.GaussianBlur(weight, (0, 0), _SIGMA)
-    return cv2.GaussianBlur(values * weight, (0, 0), _SIGMA) / np.maximum(total, 1e-6), total > 1e-3
+    total = cv2.GaussianBlur(weight, (0, 0), sigma)
+    return cv2.GaussianBlur(values * weight, (0, 0), sigma) / np.maximum(total, 1e-6), total > 1e-3
+
+
+def edge_strength(image: FloatImage, shape: Mask) -> FloatImage:
+    """How steeply the picture's colours change across the nearby edge of a shape [per px], shape [h, w].
+
+    The change is averaged along the edge with its sign, so that texture cancels.
+    """
+    soft = cv2.GaussianBlur(shape.astype(np.float32), (0, 0), 1.0)
+    right, down = cv2.Sobel(soft, -1, 1, 0), cv2.Sobel(soft, -1, 0, 1)
+    length = np.maximum(np.sqrt(right * right + down * down), np.float32(1e-6))
+    line = (grown(shape, CROSS) & grown(~shape, CROSS)).astype(np.float32)
+    across = cv2.Sobel(image, -1, 1, 0, scale=1 / 8) * (right / length)[..., None]
+    across += cv2.Sobel(image, -1, 0, 1, scale=1 / 8) * (down / length)[..., None]
+    total = np.maximum(cv2.GaussianBlur(line, (0, 0), _ALONG), np.float32(1e-4))
+    mean = cv2.GaussianBlur(across * line[..., None], (0, 0), _ALONG)
+    return np.asarray(np.linalg.norm(mean, axis=2) / total, dtype=np.float32)
 
 
 def inner_colour(image: FloatImage, support: Mask) -> FloatImage:

@@ -1,0 +1,158 @@
+"""Where a part ends in the picture, near the edge of a mask that is only about right.
+
+Pixels near the edge are told apart by colours: those of the mask's core, those well outside of it, and neither. A
+random walk (Grady, "Random Walks for Image Segmentation", 2006) then divides them along the picture's own edges.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from .mask_edges import SQUARE
+
+__all__ = ["found_shape"]
+
+FloatImage = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+_HALF = 0.5
+# A thin part's middle is as far from its edge as this share of the greatest distance near by.
+_MIDDLE = 0.7
+_NEARBY = np.ones((23, 23), np.uint8)
+# Colours are compared with so many of either side, half of them from the near and half from the wider surroundings
+# [px]; the best few count. Colours this much apart are alike.
+_SAMPLES = 36
+_NEAR, _FAR = 9, 30
+_BEST = 3
+_ALIKE = 0.08
+# A colour of neither side is more often the part's, whose outline is drawn, than the background's.
+_OUTLINE, _STRANGE = 0.07, 0.02
+# Distance from the mask's edge, as a share of the reach, at which the mask itself is e : 1 sure; and its weight.
+_UNSURE, _WEIGHT = 0.35, 0.5
+# Colours of neighbours that differ by this much are divided by an edge; what a wall of them still lets through; and
+# what the step of a mask does. How much what a pixel's colour tells counts beside what its neighbours say.
+_STEP = 0.05
+_LEAK = 0.002
+_MASK_STEP = 0.4
+_COLOUR = 0.05
+_SPECK = 12
+_NEIGHBOURS = ((0, 1, 1.0), (1, 0, 1.0), (1, 1, 0.7), (1, -1, 0.7))
+
+
+def found_shape(image: FloatImage, mask: FloatImage, reach: FloatImage) -> tuple[Mask, FloatImage]:
+    """Divide the pixels near the edge of a mask between the part and what is around it.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3].
+        mask: soft mask in 0 to 1, shape [h, w].
+        reach: how far from the mask's edge that of the part may be [px], shape [h, w].
+
+    Returns:
+        The part, shape [h, w]; and how likely each colour is the part's, one half where nothing is known, shape [h, w].
+    """
+    inside = mask > _HALF
+    depth, away = _depth(inside), _depth(~inside)
+    core, outside = (depth > reach) | _middle(depth), (away > reach) | _middle(away)
+    band = ~core & ~outside
+    likely = np.full(mask.shape, _HALF, dtype=np.float32)
+    if not (core.any() and outside.any() and band.any()):
+        return inside, likely
+    part, rest = _explained(image, band, core), _explained(image, band, outside)
+    likely[band] = (part + _OUTLINE) / (part + rest + _OUTLINE + _STRANGE)
+    way = np.clip((depth - away)[band] / (_UNSURE * reach[band]), -20, 20)
+    odds = likely[band] / (1 - likely[band]) * np.exp(_WEIGHT * way)
+    shape = inside.copy()
+    shape[band] = _walked(image, mask, band, core, odds / (1 + odds)) > _HALF
+    return _tidied(shape, core), likely
+
+
+def _depth(shape: Mask) -> FloatImage:
+    """Distance of a shape's pixels from its edge [px]."""
+    distance = cv2.distanceTransform(shape.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    return np.asarray(np.where(shape, distance - np.float32(_HALF), 0), dtype=np.float32)
+
+
+def _middle(depth: FloatImage) -> Mask:
+    """The middle of what is thin."""
+    ridge = (cv2.dilate(depth, SQUARE) <= depth + 1e-3) & (depth >= 1.5)
+    return ridge & (depth > _MIDDLE * cv2.dilate(depth, _NEARBY))
+
+
+def _explained(image: FloatImage, band: Mask, side: Mask) -> FloatImage:
+    """How well the colours of one side explain each pixel of the band, 0 to 1, shape [n]."""
+    height, width = band.shape
+    _, labels = cv2.distanceTransformWithLabels(
+        (~side).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    places = np.zeros(int(labels.max()) + 1, dtype=np.int64)
+    at = np.flatnonzero(side)
+    places[labels.ravel()[at]] = at
+    nearest = places[labels]
+    row, column = np.divmod(nearest[band], width)
+    random = np.random.default_rng(0)
+    spans = np.repeat([_NEAR, _FAR], _SAMPLES // 2)[:, None]
+    steps = np.rint(random.uniform(-1, 1, (_SAMPLES, 2)) * spans).astype(np.int64)
+    colours, own = image.reshape(-1, 3), image[band]
+    distances = np.empty((_SAMPLES, len(own)), dtype=np.float32)
+    for number, (down, right) in enumerate(steps):
+        sample = nearest[np.clip(row + down, 0, height - 1), np.clip(column + right, 0, width - 1)]
+        difference = own - colours[sample]
+        distances[number] = np.einsum("ij,ij->i", difference, difference)
+    best = np.partition(distances, _BEST - 1, axis=0)[:_BEST]
+    return np.asarray(np.exp(-best / (2 * _ALIKE**2)).mean(axis=0), dtype=np.float32)
+
+
+def _walked(
+    image: FloatImage, mask: FloatImage, band: Mask, core: Mask, wanted: NDArray[np.float32]
+) -> NDArray[np.float64]:
+    """Chance of a walk from each pixel of the band to end in the core, shape [n]."""
+    from scipy.sparse import coo_matrix, diags
+    from scipy.sparse.linalg import cg
+
+    count = int(band.sum())
+    number = np.full(band.shape, -1, dtype=np.int64)
+    number[band] = np.arange(count)
+    total, target = np.full(count, _COLOUR), _COLOUR * wanted.astype(np.float64)
+    system = coo_matrix((count, count))
+    for one, other, conductance in _pairs(image, mask):
+        first, second, sure = number[one], number[other], core[one] | core[other]
+        both = (first >= 0) & (second >= 0)
+        joined = coo_matrix((-conductance[both], (first[both], second[both])), shape=(count, count))
+        system = system + joined + joined.T
+        for own in (first, second):
+            total += np.bincount(own[own >= 0], conductance[own >= 0], count)
+            ends = (own >= 0) & ~both & sure
+            target += np.bincount(own[ends], conductance[ends], count)
+    chance, _ = cg((system + diags(total)).tocsr(), target, x0=wanted, rtol=1e-3, M=diags(1 / total), maxiter=300)
+    return np.asarray(chance)
+
+
+def _pairs(
+    image: FloatImage, mask: FloatImage
+) -> list[tuple[tuple[slice, slice], tuple[slice, slice], NDArray[np.float32]]]:
+    """Neighbouring pixels, as slices of either, with how easily a walk goes from one to the other."""
+    height, width = mask.shape
+    pairs = []
+    for down, right, near in _NEIGHBOURS:
+        one = slice(0, height - down), slice(max(0, -right), width - max(0, right))
+        other = slice(down, height), slice(max(0, right), width + min(0, right))
+        difference = image[one] - image[other]
+        alike = np.exp(np.einsum("ijk,ijk->ij", difference, difference) / np.float32(-2 * _STEP**2))
+        step = np.abs(mask[one] - mask[other]) > _MASK_STEP
+        pairs.append((one, other, np.float32(near) * (alike + _LEAK) * np.where(step, np.float32(_MASK_STEP), 1)))
+    return pairs
+
+
+def _tidied(shape: Mask, core: Mask) -> Mask:
+    """The pieces that hang together with the core, without pinholes."""
+    _, labels = cv2.connectedComponents(shape.astype(np.uint8), connectivity=8)
+    kept = np.zeros(int(labels.max()) + 1, dtype=bool)
+    kept[np.unique(labels[core])] = True
+    kept[0] = False
+    tidied = kept[labels]
+    _, labels, statistics, _ = cv2.connectedComponentsWithStats((~tidied).astype(np.uint8), connectivity=4)
+    small = statistics[:, cv2.CC_STAT_AREA] < _SPECK
+    small[0] = False
+    return tidied | small[labels]

@@ -1,0 +1,186 @@
+"""Masks as people and networks make them - grown, shrunk, blurred, scaled, painted by hand - made regular.
+
+Such a mask says only about where a part ends. What a soft edge leaves outside stays behind as a ghost of the part's
+outline when the part moves, what a wide one takes in goes along as a halo. A regular mask ends at the part's edge, as
+the picture shows it, and its edge is hard or as soft as one pixel; the matting does the rest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from .edge_search import found_shape
+from .mask_edges import CROSS, FAINT, SQUARE, edge_strength, grown, mean_near
+from .pixel_windows import window_around
+
+__all__ = ["regular_mask"]
+
+FloatImage = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+_HALF = 0.5
+# The edge may lie this far from the mask's, and as far again as half of a soft transition is wide [px].
+_REACH = 10.0
+_WIDEST = 30.0
+# Noise around edges, as compression makes it, stays below this much and below this share of the edge's pixels.
+_NOISE = 0.1
+_NOISY = 0.1
+# Transitions of anti-aliased edges are mostly narrower than the first width; those from the second on are blurred [px].
+_ANTI_ALIASED = 1.9
+_BLURRED = 3.0
+# Share of soft pixels in uniform blocks from which on a mask has been enlarged without smoothing.
+_BLOCKS = 0.25
+# An edge that is found elsewhere must be this much stronger than the mask's own, and differ by this much in colour.
+_STRONGER = 1.15
+_LEAST_STEP = 0.04
+# Where less of an edge would move, the mask has been made with care and is taken at its word.
+_MOVED = 0.3
+# A search that moves no more than this share of the edge has ended; it ends after so many rounds more at the latest.
+_SETTLED = 0.05
+_ROUNDS = 3
+_TOUCHING = np.ones((5, 5), np.uint8)
+_MARGIN = 40
+
+
+@dataclass(frozen=True, eq=False)
+class _Edge:
+    """The edge of a mask.
+
+    Attributes:
+        inside: the part, shape [h, w].
+        line: its outermost pixels, shape [h, w].
+        width: of the transition at the nearest place of the edge [px], shape [h, w].
+    """
+
+    inside: Mask
+    line: Mask
+    width: FloatImage
+
+    def median_width(self) -> float:
+        """Half of the edge is softer than this [px]."""
+        return float(np.median(self.width[self.line]))
+
+
+def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
+    """A mask whose edge lies where the picture has one.
+
+    A soft edge becomes a hard one, and moves onto an edge of the picture if there is a stronger one near by; a hard
+    edge moves if much of the mask's edge does. A mask made with care comes back as it was, and so does whatever lies
+    between colours that cannot be told apart. A mask that nowhere becomes white is scaled up to white.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3].
+        mask: soft mask in 0 to 1, shape [h, w].
+
+    Returns:
+        The mask in 0 to 1, shape [h, w].
+    """
+    mask = _up_to_white(mask)
+    if not (mask > _HALF).any() or (mask > _HALF).all():
+        return mask
+    window = window_around(mask > FAINT, margin=_MARGIN)
+    regular = mask.copy()
+    regular[window] = _regular(image[window], mask[window])
+    return regular
+
+
+def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
+    edge = _edge_of(mask)
+    noisy = edge.median_width() < _BLURRED and _is_noisy(mask)
+    if noisy:
+        mask = np.where(mask < _NOISE, np.float32(0), np.where(mask > 1 - _NOISE, np.float32(1), mask))
+    blurred = edge.width > _BLURRED
+    shape, moved = _searched(image, mask, edge)
+    displaced = _share(moved, edge.line & ~blurred) > _MOVED
+    if displaced:
+        shape, moved = _searched_again(image, shape, moved)
+    else:
+        moved &= blurred
+        shape = np.where(moved, shape, edge.inside)
+    soft = noisy or displaced or edge.median_width() > _ANTI_ALIASED or _in_blocks(mask)
+    rewritten = blurred | grown(moved, SQUARE) | soft
+    near = _distance(shape) <= _REACH + np.minimum(edge.width, _WIDEST)
+    # Where the picture has no edge, a soft transition is what somebody wanted.
+    wanted = blurred & (edge_strength(image, shape) < _LEAST_STEP)
+    return np.where(rewritten & near & ~wanted, shape, mask).astype(np.float32)
+
+
+def _share(moved: Mask, line: Mask) -> float:
+    """How much of an edge moves."""
+    return int((grown(moved, _TOUCHING) & line).sum()) / max(1, int(line.sum()))
+
+
+def _searched_again(image: FloatImage, shape: Mask, moved: Mask) -> tuple[Mask, Mask]:
+    """The shape searched from where it has got to, until little moves: strands are followed to their tips."""
+    everything = moved
+    for _ in range(_ROUNDS):
+        hard = _edge_of(shape.astype(np.float32))
+        shape, moved = _searched(image, shape.astype(np.float32), hard)
+        everything = everything | moved
+        if _share(moved, hard.line) < _SETTLED:
+            break
+    return shape, everything
+
+
+def _searched(image: FloatImage, mask: FloatImage, edge: _Edge) -> tuple[Mask, Mask]:
+    """The shape with its edge moved where the picture has a stronger one, and where that is."""
+    reach = np.asarray(_REACH + _HALF * np.minimum(edge.width, _WIDEST), dtype=np.float32)
+    shape, likely = found_shape(image, mask, reach)
+    changed = shape != edge.inside
+    weight = mean_near(likely, changed, sigma=3.0)[0]
+    strength = edge_strength(image, shape)
+    better = strength > np.maximum(_STRONGER * edge_strength(image, edge.inside), _LEAST_STEP)
+    moved = changed & better & (np.where(shape, weight, 1 - weight) > _HALF)
+    # Changes as thin as one pixel are left to the matting.
+    thick = cv2.morphologyEx(moved.astype(np.uint8), cv2.MORPH_OPEN, np.ones((2, 2), np.uint8)) > 0
+    moved &= grown(thick, SQUARE)
+    return np.where(moved, shape, edge.inside), moved
+
+
+def _edge_of(mask: FloatImage) -> _Edge:
+    inside = mask > _HALF
+    line = inside & grown(~inside, CROSS)
+    soft = ((mask > 0.05) & (mask < 0.95)).astype(np.float32)
+    # So many soft pixels there are for each of the edge.
+    there = cv2.GaussianBlur(line.astype(np.float32), (0, 0), 5.0)
+    local = cv2.GaussianBlur(soft, (0, 0), 5.0) / np.maximum(there, np.float32(1e-3))
+    _, labels = cv2.distanceTransformWithLabels(
+        (~line).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    widths = np.zeros(int(labels.max()) + 1, dtype=np.float32)
+    widths[labels[line]] = local[line]
+    return _Edge(inside, line, widths[labels])
+
+
+def _up_to_white(mask: FloatImage) -> FloatImage:
+    highest = float(mask.max(initial=0))
+    if highest <= FAINT:
+        return mask
+    white = float(np.percentile(mask[mask > _HALF * highest], 90))
+    return np.minimum(mask / np.float32(white), 1) if white < 0.98 else mask
+
+
+def _is_noisy(mask: FloatImage) -> bool:
+    """Whether there are faint specks near the edge, as compression leaves them."""
+    inside = mask > _HALF
+    faint = (mask > FAINT) & (mask < _NOISE) & (_distance(inside) > 2)
+    return int(faint.sum()) > _NOISY * int((inside & grown(~inside, CROSS)).sum())
+
+
+def _in_blocks(mask: FloatImage) -> bool:
+    """Whether the soft pixels come in blocks of one value."""
+    corners = np.stack([mask[:-1, :-1], mask[1:, :-1], mask[:-1, 1:], mask[1:, 1:]])
+    soft = (corners > 0.05) & (corners < 0.95)
+    alike = soft.all(axis=0) & (np.ptp(corners, axis=0) < 1e-3)
+    count = int(soft[0].sum())
+    return count > 0 and 4 * int(alike.sum()) > _BLOCKS * 4 * count
+
+
+def _distance(shape: Mask) -> FloatImage:
+    """From the edge of a shape, on either side [px], shape [h, w]."""
+    sides = [cv2.distanceTransform(side.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5) for side in (shape, ~shape)]
+    return np.asarray(np.maximum(*sides), dtype=np.float32)
