@@ -68,6 +68,12 @@ def fitted(coverage: Coverage, width: int, height: int) -> Coverage:
     return np.asarray(cv2.resize(coverage, (width, height), interpolation=method), dtype=np.float32)
 
 
+def largest_area(coverage: Coverage) -> int:
+    """Area of the largest connected part of a mask [px^2], 0 where nothing is white."""
+    inside = coverage > 0.5
+    return int(_parts(inside, connectivity=8)[1].max()) if inside.any() else 0
+
+
 def without_specks(coverage: Coverage, smallest_part: float) -> Coverage:
     """The mask without connected parts below an area [px^2].
 
