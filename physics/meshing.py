@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .contours import contours_at_half, resampled, smoothed
+from .ending import working
 from .errors import MeshingError, require
 from .masks import continued, coverage_of, fitted, largest_area, with_sound_details, without_specks
 from .mesh import TriangleMesh
@@ -33,7 +34,8 @@ _MOST_COARSENING = 2.0
 _MARGIN = 0.04
 # White that is smaller is meshed in so much larger pixels, in which triangles follow it as they follow larger parts.
 _SMALL = 64.0  # [px], the diagonal of its box
-_SPECK, _SPECK_SHARE = 16.0, 0.05  # [px^2], or less where the largest part is small
+# White parts below so many px^2 are specks, or below this share of the largest part if it is small.
+_SPECK, _SMALLEST, _SPECK_SHARE = 16.0, 4.0, 0.05
 # Thinnest part and smoothing of outlines, in smallest spacings.
 _THINNEST = 0.9
 _SMOOTHING = 0.35
@@ -41,6 +43,7 @@ _SMOOTHING = 0.35
 _ATTEMPTS, _TIGHTER = 8, 0.7
 
 
+@working()
 def mesh_from_mask(
     mask: ArrayLike,
     *,
@@ -72,7 +75,7 @@ def mesh_from_mask(
         border_margin: how far parts that touch the picture's border are continued past it [px], so that they can
             sway without opening a gap there; None chooses twice the spacing or 9 % of the white's own size.
         smallest_part: white parts below this area [px^2] are dropped; None means 16, or a twentieth of the largest
-            part if that is less.
+            part if that is less, but at least 4.
         smallest_hole: holes below this area [px^2] are filled; None means half of spacing squared.
 
     Raises:
@@ -108,7 +111,7 @@ def mesh_from_mask(
 
 def _without_specks(coverage: NDArray[np.float32], smallest_part: float | None) -> NDArray[np.float32]:
     if smallest_part is None:
-        smallest_part = min(_SPECK, _SPECK_SHARE * largest_area(coverage))
+        smallest_part = max(_SMALLEST, min(_SPECK, _SPECK_SHARE * largest_area(coverage)))
     return without_specks(coverage, smallest_part)
 
 

@@ -223,7 +223,7 @@ def run(function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
 
 
 def launch(function: Callable[..., T], constant: Any, state: Any, *arguments: Any) -> T:
-    """``function(constant, state, *arguments)`` on the Taichi thread, or in a process of our own where others use Taichi.
+    """``function(constant, state, *arguments)`` on the Taichi thread, or in a process of ours where others use Taichi.
 
     Args:
         function: a function of a module of this package.

@@ -1,4 +1,4 @@
-"""What is chosen for a part follows the part: neither an empty margin nor the scale of the drawing changes its motion."""
+"""What is chosen for a part follows the part: neither an empty margin nor the scale of the art changes its motion."""
 
 from __future__ import annotations
 
