@@ -17,6 +17,10 @@ __all__ = ["WEB_DIRECTORY", "__version__", "comfy_entrypoint"]
 
 async def comfy_entrypoint() -> Any:
     """Return the node extension to a ComfyUI host (V3 entry point, called once at start-up)."""
+    import importlib.util
+
+    if importlib.util.find_spec("cv2") is None:
+        raise ImportError("PhysAnimator needs OpenCV: run its install.py with the Python that runs ComfyUI")
     from .nodes.extension import PhysAnimatorExtension
 
     return PhysAnimatorExtension()

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from .physics.automatic import Attachment, automatic_scene
 from .physics.collision import Collider, Contact
+from .physics.ending import working
 from .physics.errors import InvalidInputError, require
 from .physics.given_scene import given_scene, materials_of
 from .physics.loop import loop_frames
@@ -40,6 +41,7 @@ DEFAULT_FRAMES = 72
 DEFAULT_FRAME_RATE = 24.0
 
 
+@working()
 def animate(
     image: Image,
     masks: Sequence[Mask] | None = None,

@@ -32,13 +32,18 @@ __all__ = [
     "gusts",
     "pins",
     "swaying_by_size",
+    "unit_of",
 ]
 
 Attachment = Literal["auto", "top", "bottom", "left", "right"]
 ATTACHMENTS: tuple[Attachment, ...] = get_args(Attachment)
 
 USUAL_LENGTH = 0.3
-"""Length of the body for which the presets' sway frequencies are meant [side]."""
+"""Length of the body for which the presets' sway frequencies are meant [unit]."""
+
+# Sizes are chosen in units that follow the bodies, so that an empty margin around the same drawing changes nothing: a
+# unit is the longest side of a picture on which the largest body is as large as a head of hair usually is.
+_LARGEST_LENGTH = 0.46  # of that body [unit]
 
 _OUTWARD: dict[str, tuple[float, float]] = {
     "top": (0.0, -1.0),
@@ -49,11 +54,13 @@ _OUTWARD: dict[str, tuple[float, float]] = {
 # Share of a part's extent that is held: a head of hair rests on the skull, a ribbon hangs from its knot.
 _HELD_SHARE = {"hair": 0.22, "ribbon": 0.1, "cloth": 0.08, "leaf": 0.05, "jelly": 0.1}
 _USUAL_SHARE = 0.1
+_MARGIN = 0.01  # around what is held, as a share of the part, and at most 1 px
 # A neck on a border is narrow when the body's widest section is at least this many times wider.
 _NECK_RATIO = 1.6
-# The wind field: usual strength [side/s^2], and an eddy as a share of all bodies' extent and at least of the picture's.
+# The wind field: usual strength [unit/s^2], and an eddy as a share of all bodies' extent and at least so many units.
 _BREEZE = 1.0
 _EDDY, _SMALLEST_EDDY = 0.4, 0.05
+_NARROWEST_GUST = 0.12  # [unit]
 
 
 def automatic_scene(
@@ -76,8 +83,8 @@ def automatic_scene(
         wind_angle: where the wind blows to [degrees]: 0 to the right, 90 up, 180 to the left.
         turbulence: None for gusts that pass as energy strokes; a share from 0 to 1 for a wind field instead, which
             blows everywhere, comes and goes, and has eddies of that share.
-        sway_by_size: take the materials' sway frequencies for a body of ``USUAL_LENGTH`` and let smaller bodies sway
-            faster and larger ones slower, as pendulums do; otherwise they hold as they are.
+        sway_by_size: take the materials' sway frequencies for a body of ``USUAL_LENGTH``, the largest body being of
+            half as much again, and let smaller bodies sway faster, as pendulums do; otherwise they hold as they are.
 
     Raises:
         InvalidInputError: no body, or a number of sides that fits neither one nor all bodies.
@@ -88,7 +95,8 @@ def automatic_scene(
     require("wind_strength", wind_strength, bool(np.isfinite(wind_strength)), "finite")
     require("wind_angle", wind_angle, bool(np.isfinite(wind_angle)), "finite degrees")
     if sway_by_size:
-        bodies = [replace(body, material=swaying_by_size(body.material, body.mesh)) for body in bodies]
+        unit = unit_of([body.mesh for body in bodies])
+        bodies = [replace(body, material=swaying_by_size(body.material, body.mesh, unit=unit)) for body in bodies]
     held = [pin for number, body in enumerate(bodies) for pin in pins(body, number, attach=sides[number])]
     meshes = [body.mesh for body in bodies]
     if turbulence is not None:
@@ -98,11 +106,27 @@ def automatic_scene(
     return Scene(tuple(bodies), strokes, tuple(held), frame_rate=frame_rate)
 
 
-def swaying_by_size(material: Material, mesh: TriangleMesh) -> Material:
-    """The material with its sway frequency f made that of the body's size, f sqrt(USUAL_LENGTH / length)."""
+def unit_of(meshes: Sequence[TriangleMesh]) -> float:
+    """The length in which sizes are chosen for these bodies [px], whatever the size of the picture around them."""
+    return max(_length(mesh) for mesh in meshes) / _LARGEST_LENGTH
+
+
+def _length(mesh: TriangleMesh) -> float:
+    """Diagonal of a body's bounding box [px]."""
+    return float(np.hypot(*np.ptp(mesh.vertices, axis=0)))
+
+
+def swaying_by_size(material: Material, mesh: TriangleMesh, *, unit: float) -> Material:
+    """The material with its sway frequency f made that of the body's size, f sqrt(USUAL_LENGTH / length).
+
+    Args:
+        material: of the body.
+        mesh: its shape.
+        unit: of lengths [px], see ``unit_of``.
+    """
     if material.sway_frequency is None:
         return material
-    length = float(np.hypot(*np.ptp(mesh.vertices, axis=0))) / mesh.longest_side
+    length = _length(mesh) / unit
     return replace(material, sway_frequency=material.sway_frequency * float(np.sqrt(USUAL_LENGTH / length)))
 
 
@@ -158,7 +182,8 @@ def _held_region(
     limit = max(share * float(depth.max()), float(np.sort(depth)[min(2, len(depth) - 1)]))
     held = part[depth <= limit + 1e-9]
     # A margin keeps the vertices inside the polygon in spite of rounding, and gives collinear ones an area.
-    corners = np.concatenate([held + np.array(offset) for offset in ((-1, -1), (-1, 1), (1, -1), (1, 1))])
+    margin = min(1.0, _MARGIN * float(np.ptp(part, axis=0).max()))
+    corners = np.concatenate([held + margin * np.array(offset) for offset in ((-1, -1), (-1, 1), (1, -1), (1, 1))])
     return tuple((float(x), float(y)) for x, y in corners[ConvexHull(corners).vertices])
 
 
@@ -170,21 +195,22 @@ def gusts(meshes: Sequence[TriangleMesh], *, strength: float = 1.0, angle: float
         strength: factor on the usual wind.
         angle: where the wind blows to [degrees]: 0 to the right, 90 up.
     """
-    vertices = np.concatenate([mesh.vertices for mesh in meshes])
+    vertices, unit = np.concatenate([mesh.vertices for mesh in meshes]), unit_of(meshes)
     radians = np.deg2rad(angle)
     along = np.array([np.cos(radians), -np.sin(radians)])
     across = np.array([-along[1], along[0]])
     first, last = (vertices @ along).min(), (vertices @ along).max()
     low, high = (vertices @ across).min(), (vertices @ across).max()
-    radius = max(high - low, 0.12 * meshes[0].longest_side)
+    radius = max(high - low, _NARROWEST_GUST * unit)
     speed = 2 * radius / 0.75
+    usual, digits = strength * unit / meshes[0].longest_side, max(1, 4 - int(np.log10(unit)))
     strokes = []
     for rank, (force, interval, start, bend) in enumerate(((1.0, 1.37, 0.0, 0.12), (0.6, 2.23, 0.6, -0.18))):
         distance = np.linspace(first - 0.85 * radius, last + radius, 17)
         lift = bend * radius * np.sin(np.linspace(0, 2 * np.pi * (1 + rank), 17))
         path = distance[:, None] * along + ((low + high) / 2 + lift)[:, None] * across
-        points = tuple((round(float(x), 1), round(float(y), 1)) for x, y in path)
-        strokes.append(EnergyStroke("wind", points, radius, speed, force * strength, start, None, interval))
+        points = tuple((round(float(x), digits), round(float(y), digits)) for x, y in path)
+        strokes.append(EnergyStroke("wind", points, radius, speed, force * usual, start, None, interval))
     return tuple(strokes)
 
 
@@ -199,6 +225,6 @@ def breeze(
         angle: where the wind blows to [degrees]: 0 to the right, 90 up.
         turbulence: strength of the eddies as a share of the wind's.
     """
-    vertices = np.concatenate([mesh.vertices for mesh in meshes])
-    size = max(_EDDY * float(np.ptp(vertices, axis=0).max()), _SMALLEST_EDDY * meshes[0].longest_side)
-    return Wind(_BREEZE * strength, angle, turbulence=turbulence, turbulence_size=size)
+    vertices, unit = np.concatenate([mesh.vertices for mesh in meshes]), unit_of(meshes)
+    size = max(_EDDY * float(np.ptp(vertices, axis=0).max()), _SMALLEST_EDDY * unit)
+    return Wind(_BREEZE * strength * unit / meshes[0].longest_side, angle, turbulence=turbulence, turbulence_size=size)

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +19,8 @@ from numpy.typing import NDArray
 from . import taichi_runtime
 from .collision import Contact
 from .contact_kernels import build_contact_kernel
-from .contact_surface import contact_surface
-from .contact_team import pieces_of, team_for
+from .contact_surface import ContactSurface, contact_surface
+from .contact_team import Pieces, pieces_of, team_for
 from .drive import drive
 from .elasticity import RestShape
 from .pace import Pace
@@ -32,6 +33,16 @@ from .system import System
 __all__ = ["TouchingBodies"]
 
 _paces: dict[tuple[int, int], Pace] = {}  # by threads and work in a tick; used on the Taichi thread only
+
+
+class _Touching(NamedTuple):
+    """What the kernel reads, and the surface with what it notes there from one launch to the next."""
+
+    solid: Solid
+    surface: ContactSurface
+    pieces: Pieces
+    threads: int
+    options: tuple[float, float, int]
 
 
 class TouchingBodies:
@@ -51,16 +62,19 @@ class TouchingBodies:
         start: NDArray[np.float32] | None = None,
     ) -> None:
         """Prepare bodies that are drawn displaced from rest by ``start`` [side], shape [v, 2]; None: at rest."""
-        self._scene, self._contact = scene, contact
+        self._scene = scene
         if start is not None:
             drawn = RestShape(system.rest.positions + start, system.rest.triangles)
             system = replace(system, rest=drawn)
-        self._surface, still = contact_surface(scene, system, contact)
+        surface, still = contact_surface(scene, system, contact)
         added = np.zeros((len(still), 4), np.float32)
         added[:, :2] = still
         self._solid = solid._replace(vertices=np.concatenate([solid.vertices, added]))
-        self._pieces = pieces_of(solid, most_threads())
-        self._threads = min(most_threads(), len(self._pieces.blocks))  # of one piece, no two can work at once
+        pieces = pieces_of(solid, most_threads())
+        threads = min(most_threads(), len(pieces.blocks))  # of one piece, no two can work at once
+        thickness = contact.thickness / scene.bodies[0].mesh.longest_side
+        options = (contact.friction, thickness, int(contact.self_contact))
+        self._touching = _Touching(self._solid, surface, pieces, threads, options)
         self.count = len(solid.vertices)
         self.state = State.at_rest(self._solid)
         if start is not None:
@@ -69,25 +83,26 @@ class TouchingBodies:
     def advance(self, first: int, end: int, *, block: int = 1) -> None:
         """Carry the state on from one tick to another, some ticks in a launch."""
         for tick in range(first, end, block):
-            taichi_runtime.run(self._advance, self.state, drive(self._scene, tick, min(block, end - tick)))
+            acting = drive(self._scene, tick, min(block, end - tick))
+            taichi_runtime.launch(_advance, self._touching, self.state, acting)
 
     def record(self, first: int, end: int, *, count: int) -> NDArray[np.float32]:
         """Carry the state on in one launch; the displacement so many times meanwhile [side], shape [count, v, 2]."""
         recording = self.state.recording(count)
-        taichi_runtime.run(self._advance, recording, drive(self._scene, first, end - first))
+        taichi_runtime.launch(_advance, self._touching, recording, drive(self._scene, first, end - first))
         return recording.records
 
-    def _advance(self, state: State, acting: Drive) -> None:
-        kernel = taichi_runtime.compiled(build_contact_kernel)
-        *arrays, gravity, wind = acting
-        thickness = self._contact.thickness / self._scene.bodies[0].mesh.longest_side
-        options = (self._contact.friction, thickness, int(self._contact.self_contact))
-        pairs = state.corner_forces.reshape(-1, 2)
-        ticks = len(acting.first_particles) - 1
-        team = team_for(self._pieces, self._solid, len(self._surface.points), ticks)
-        work = float(LANES * (np.diff(self._solid.starts[:, 1]) * self._solid.substeps).sum())
-        pace = _paces.setdefault((self._threads, int(work).bit_length()), Pace())
-        shared, start = pace.share(), time.perf_counter()
-        threads = self._threads if shared else 1
-        kernel(threads, *team, *self._solid, *state, pairs, *arrays, *gravity, *wind, *self._surface, *options)
-        pace.learn(shared=shared, work=work * ticks, seconds=time.perf_counter() - start)
+
+def _advance(touching: _Touching, state: State, acting: Drive) -> None:
+    kernel = taichi_runtime.compiled(build_contact_kernel)
+    solid, surface, pieces, threads, options = touching
+    *arrays, gravity, wind = acting
+    pairs = state.corner_forces.reshape(-1, 2)
+    ticks = len(acting.first_particles) - 1
+    team = team_for(pieces, solid, len(surface.points), ticks)
+    work = float(LANES * (np.diff(solid.starts[:, 1]) * solid.substeps).sum())
+    pace = _paces.setdefault((threads, int(work).bit_length()), Pace())
+    shared, start = pace.share(), time.perf_counter()
+    now = threads if shared else 1
+    kernel(now, *team, *solid, *state, pairs, *arrays, *gravity, *wind, *surface, *options)
+    pace.learn(shared=shared, work=work * ticks, seconds=time.perf_counter() - start)

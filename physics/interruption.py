@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
+from .ending import stop_at_end
+
 __all__ = ["checkpoint", "interruptible"]
 
 _check: ContextVar[Callable[[], None] | None] = ContextVar("check", default=None)
@@ -22,7 +24,8 @@ def interruptible(check: Callable[[], None]) -> Iterator[None]:
 
 
 def checkpoint() -> None:
-    """Stop here if whoever waits for the result has given it up."""
+    """Stop here if whoever waits for the result has given it up, or the process is ending."""
+    stop_at_end()
     check = _check.get()
     if check is not None:
         check()

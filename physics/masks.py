@@ -107,6 +107,12 @@ def may_be_inverted(coverage: Coverage) -> bool:
     return share > _NEARLY_ALL or (share > 0.5 and float(border.mean()) > 0.5)
 
 
+def largest_area(coverage: Coverage) -> int:
+    """Area of the largest connected part of a mask [px^2], 0 where nothing is white."""
+    inside = coverage > 0.5
+    return int(_parts(inside, connectivity=8)[1].max()) if inside.any() else 0
+
+
 def without_specks(coverage: Coverage, smallest_part: float) -> Coverage:
     """The mask without connected parts below an area [px^2].
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .contours import contours_at_half, resampled, smoothed
+from .ending import working
 from .errors import MeshingError, require
-from .masks import continued, coverage_of, fitted, with_sound_details, without_specks
+from .masks import continued, coverage_of, fitted, largest_area, with_sound_details, without_specks
 from .mesh import TriangleMesh
 from .spacing import GAP_FACTOR, SpacingField, spacing_field
 from .triangulation import CrossingEdgesError, interior_seeds, morton_order, triangulate
@@ -23,12 +24,18 @@ MOST_TRIANGLES = 200_000
 
 _WANTED_TRIANGLES = 2000
 _EQUILATERAL = np.sqrt(3) / 4
-# Bounds of the spacings that are chosen here, in pixels and in longest sides of the picture.
+# Bounds of the spacings that are chosen here, in pixels and in units. A unit is the longest side of a picture on which
+# white of this size is as large as a head of hair usually is: an empty margin around a drawing changes no mesh.
+_USUAL_LENGTH = 0.46
 _LEAST_SPACING_PX, _LEAST_SPACING = 5.0, 0.0075
 _LEAST_FLOOR_PX, _MOST_FLOOR = 2.5, 0.0075
 # Coarser triangles cannot make up for more thin parts than this.
 _MOST_COARSENING = 2.0
 _MARGIN = 0.04
+# White that is smaller is meshed in so much larger pixels, in which triangles follow it as they follow larger parts.
+_SMALL = 64.0  # [px], the diagonal of its box
+# White parts below so many px^2 are specks, or below this share of the largest part if it is small.
+_SPECK, _SMALLEST, _SPECK_SHARE = 16.0, 4.0, 0.05
 # Thinnest part and smoothing of outlines, in smallest spacings.
 _THINNEST = 0.9
 _SMOOTHING = 0.35
@@ -36,6 +43,7 @@ _SMOOTHING = 0.35
 _ATTEMPTS, _TIGHTER = 8, 0.7
 
 
+@working()
 def mesh_from_mask(
     mask: ArrayLike,
     *,
@@ -46,7 +54,7 @@ def mesh_from_mask(
     elements_across: int = 3,
     smallest_spacing: float | None = None,
     border_margin: float | None = None,
-    smallest_part: float = 16.0,
+    smallest_part: float | None = None,
     smallest_hole: float | None = None,
 ) -> TriangleMesh:
     """A triangle mesh of the white parts of a mask (paper, Method, "Deformable Body Model").
@@ -65,8 +73,9 @@ def mesh_from_mask(
         elements_across: how many triangles thin strands get across.
         smallest_spacing: lower bound of the spacing in thin parts [px]; None chooses it from ``spacing``.
         border_margin: how far parts that touch the picture's border are continued past it [px], so that they can
-            sway without opening a gap there; None chooses twice the spacing or 4 % of the longest side.
-        smallest_part: white parts below this area [px^2] are dropped.
+            sway without opening a gap there; None chooses twice the spacing or 9 % of the white's own size.
+        smallest_part: white parts below this area [px^2] are dropped; None means 16, or a twentieth of the largest
+            part if that is less, but at least 4.
         smallest_hole: holes below this area [px^2] are filled; None means half of spacing squared.
 
     Raises:
@@ -75,21 +84,52 @@ def mesh_from_mask(
             proportions, or would need too many triangles.
     """
     options = _Options(
-        spacing, min_angle, elements_across, smallest_spacing, border_margin, smallest_part, smallest_hole
+        spacing, min_angle, elements_across, smallest_spacing, border_margin, smallest_part, smallest_hole, 1.0
     )
     coverage = coverage_of(mask)
     height = coverage.shape[0] if height is None else height
     width = coverage.shape[1] if width is None else width
     for name, size in (("width", width), ("height", height)):
         require(name, size, size >= 1, "at least 1 px")
-    coverage = without_specks(fitted(coverage, width, height), smallest_part)
+    coverage = _without_specks(fitted(coverage, width, height), smallest_part)
+    low, high, length = _box(coverage)
+    corner, times = np.zeros(2), 1
+    if length < _SMALL:
+        times = int(np.ceil(_SMALL / length))
+        coverage, corner = _enlarged(coverage, low, high, times)
+        options, spacing = options.enlarged(times), spacing and spacing * times
+    options = replace(options, unit=length * times / _USUAL_LENGTH)
     shape = _prepared(coverage, spacing, options) if spacing else _for_wanted_triangles(coverage, options)
     if shape.expected_triangles > MOST_TRIANGLES:
         raise MeshingError(
             f"spacing must be larger: a mesh may have at most {MOST_TRIANGLES} triangles."
             f" Got: {shape.field.values.max():.4g} px, which makes about {shape.expected_triangles:.0f}"
         )
-    return _in_morton_order(*_meshed(shape, options), shape.origin, width, height)
+    points, triangles = _meshed(shape, options)
+    return _in_morton_order(points / times, triangles, shape.origin / times + corner, width, height)
+
+
+def _without_specks(coverage: NDArray[np.float32], smallest_part: float | None) -> NDArray[np.float32]:
+    if smallest_part is None:
+        smallest_part = max(_SMALLEST, min(_SPECK, _SPECK_SHARE * largest_area(coverage)))
+    return without_specks(coverage, smallest_part)
+
+
+def _box(coverage: NDArray[np.float32]) -> tuple[NDArray[np.int64], NDArray[np.int64], float]:
+    """First and last but one row and column of the white, and the diagonal of its box [px]."""
+    inside = coverage > 0.5
+    rows, columns = np.nonzero(inside.any(axis=1))[0], np.nonzero(inside.any(axis=0))[0]
+    low, high = np.array([rows[0], columns[0]]), np.array([rows[-1], columns[-1]]) + 1
+    return low, high, float(np.hypot(*(high - low)))
+
+
+def _enlarged(
+    coverage: NDArray[np.float32], low: NDArray[np.int64], high: NDArray[np.int64], times: int
+) -> tuple[NDArray[np.float32], FloatArray]:
+    """The white of a mask in pixels of which so many are one across, and where its corner lies in the mask [px]."""
+    first, last = np.maximum(low - 2, 0), np.minimum(high + 2, coverage.shape)
+    crop = coverage[first[0] : last[0], first[1] : last[1]]
+    return np.repeat(np.repeat(crop, times, axis=0), times, axis=1), first[::-1].astype(np.float64)
 
 
 @dataclass(frozen=True)
@@ -99,8 +139,19 @@ class _Options:
     elements_across: int
     smallest_spacing: float | None
     border_margin: float | None
-    smallest_part: float
+    smallest_part: float | None
     smallest_hole: float | None
+    unit: float
+
+    def enlarged(self, times: int) -> _Options:
+        """The same in pixels of which so many are one across."""
+        longer = {
+            name: value * times
+            for name in ("spacing", "smallest_spacing", "border_margin")
+            if (value := getattr(self, name)) is not None
+        }
+        hole = None if self.smallest_hole is None else self.smallest_hole * times**2
+        return replace(self, smallest_hole=hole, **longer)
 
     def __post_init__(self) -> None:
         for name in ("spacing", "smallest_spacing"):
@@ -108,8 +159,7 @@ class _Options:
             require(name, value, value is None or 2 <= value < np.inf, "at least 2 px")
         require("min_angle", self.min_angle, 0 <= self.min_angle <= 30, "0 to 30 degrees")
         require("elements_across", self.elements_across, 1 <= self.elements_across <= 20, "1 to 20")
-        require("smallest_part", self.smallest_part, 0 <= self.smallest_part < np.inf, "at least 0 px^2")
-        for name, unit in (("border_margin", "px"), ("smallest_hole", "px^2")):
+        for name, unit in (("border_margin", "px"), ("smallest_hole", "px^2"), ("smallest_part", "px^2")):
             value = getattr(self, name)
             require(name, value, value is None or 0 <= value < np.inf, f"at least 0 {unit}")
 
@@ -134,12 +184,11 @@ class _Shape:
 
 def _prepared(coverage: NDArray[np.float32], spacing: float, options: _Options) -> _Shape:
     """The shape at one spacing [px]: continued past the border and freed of details below its triangles."""
-    side = max(coverage.shape)
     across, floor = options.elements_across, options.smallest_spacing
     if floor is None:
-        floor = max(_LEAST_FLOOR_PX, min(spacing / across, _MOST_FLOOR * side))
+        floor = max(_LEAST_FLOOR_PX, min(spacing / across, _MOST_FLOOR * options.unit))
     floor = min(floor, spacing)
-    margin = max(2 * spacing, _MARGIN * side) if options.border_margin is None else options.border_margin
+    margin = max(2 * spacing, _MARGIN * options.unit) if options.border_margin is None else options.border_margin
     smallest_hole = spacing**2 / 2 if options.smallest_hole is None else options.smallest_hole
     around, origin = continued(coverage, int(np.ceil(margin)), int(np.ceil(spacing)) + 2)
     sound = with_sound_details(
@@ -152,7 +201,7 @@ def _prepared(coverage: NDArray[np.float32], spacing: float, options: _Options) 
 def _for_wanted_triangles(coverage: NDArray[np.float32], options: _Options) -> _Shape:
     """The shape at a spacing that needs no more triangles than wanted, or few more."""
     area = float(np.count_nonzero(coverage > 0.5))
-    least = max(_LEAST_SPACING_PX, _LEAST_SPACING * max(coverage.shape), options.smallest_spacing or 0)
+    least = max(_LEAST_SPACING_PX, _LEAST_SPACING * options.unit, options.smallest_spacing or 0)
     first = spacing = max(least, float(np.sqrt(area / (_WANTED_TRIANGLES * _EQUILATERAL))))
     shape = _prepared(coverage, spacing, options)
     while shape.expected_triangles > _WANTED_TRIANGLES and spacing < _MOST_COARSENING * first:

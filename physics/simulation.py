@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from .contact_stepping import TouchingBodies
 from .drive import drive
 from .elasticity import RestShape
+from .ending import stop_at_end, working
 from .errors import InvalidInputError, SimulationError, require
 from .kernel_functions import REACH
 from .loop import MOST_CYCLES, first_frame, loop_frames, periodic, settled
@@ -40,6 +41,7 @@ _LAUNCH_WORK = 2e6  # triangle updates: some 15 ms, for which a launch stops the
 _ON_TICK = 1e-6  # [ticks]
 
 
+@working()
 def simulate(
     scene: Scene,
     *,
@@ -181,11 +183,13 @@ def _displacements(
     if fraction == 0 and block >= 2 * per_frame:
         most, left, together = block // per_frame, planned.frames - 1, 1
         while True:
+            stop_at_end()
             for displacement in record(done, done + together * per_frame, count=together):
                 yield displacement[:size]
             done, left = done + together * per_frame, left - together
             together = min(2 * together, most, left if left > 0 else most)  # the first frame comes at once
     for frame in count(first + 1):
+        stop_at_end()
         whole, fraction = _ticks(frame, scene.frame_rate)
         run(done, whole)
         done = whole

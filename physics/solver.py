@@ -37,14 +37,14 @@ def advance(solid: Solid, state: State, drive: Drive, *, threads: int | None = N
     """
     check_aligned(solid.corners, solid.elements, state.corner_forces)
     chosen = schedule(LANES * np.diff(solid.starts[:, 1]), solid.substeps, threads=threads)
-    taichi_runtime.run(_advance, solid, state, drive, chosen)
+    taichi_runtime.launch(_advance, solid, state, drive, chosen)
 
 
 def internal_forces(solid: Solid, displacement: NDArray[np.float32]) -> NDArray[np.float32]:
     """Internal force on each vertex at a displacement, shape [v, 2]: what ``advance`` computes in a substep."""
     corner_forces = aligned((len(solid.corners), 3, 2 * LANES))
-    arrays = solid.corners, solid.elements, np.ascontiguousarray(displacement, dtype=np.float32), corner_forces
-    taichi_runtime.run(_internal_forces, *arrays)
+    arrays = np.ascontiguousarray(displacement, dtype=np.float32), corner_forces
+    taichi_runtime.launch(_internal_forces, solid, arrays)
     pairs = corner_forces.reshape(-1, 2)[solid.slots]
     vertices = np.repeat(np.arange(len(solid.vertices)), np.diff(solid.first_slots))
     force = np.zeros_like(displacement)
@@ -73,5 +73,5 @@ def _advance(solid: Solid, state: State, drive: Drive, chosen: Schedule) -> None
         pace.learn(shared=shared, work=work, seconds=time.perf_counter() - start)
 
 
-def _internal_forces(*arrays: NDArray[Any]) -> None:
-    taichi_runtime.compiled(build_kernels).forces(*arrays)
+def _internal_forces(solid: Solid, arrays: tuple[NDArray[Any], ...]) -> None:
+    taichi_runtime.compiled(build_kernels).forces(solid.corners, solid.elements, *arrays)

@@ -1,41 +1,41 @@
 """Taichi on a thread of its own, so that it can live in somebody else's process.
 
-Taichi binds its program to the thread that initialised it, keeps one program for the whole process, and drops it
-when anybody calls ``ti.init`` again. Here one daemon thread does it all: it imports and initialises Taichi when the
-first job arrives, runs every kernel, and initialises again when another part of the process has replaced the program.
-Kernels take arrays only, never Taichi fields, whose memory would go with the program.
+Taichi binds its program to the thread that initialised it and has one program in a process, with which the fields of
+all its users go. Where nobody else has imported Taichi, one daemon thread does it all: it imports and initialises
+Taichi when the first job arrives and runs every kernel. Where others have, or as soon as they initialise it, kernels
+run in a process of their own (``taichi_worker``), and the program in this one is the others' alone.
 
-Taichi holds Python's global lock while a kernel runs: nothing can replace the program in the middle of a kernel,
-and a long kernel stops every other thread, so callers keep their launches to some tens of milliseconds.
+Taichi holds Python's global lock while a kernel runs: a long kernel stops every other thread, so callers keep their
+launches to some tens of milliseconds. Kernels take arrays only, never Taichi fields.
 """
 
 from __future__ import annotations
 
 import atexit
-import inspect
 import os
 import queue
 import sys
 import threading
-import time
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
-from types import CodeType, FrameType
+from collections.abc import Callable
+from contextlib import ExitStack
+from functools import wraps
 from typing import Any, ParamSpec, TypeVar, cast
 
 from .errors import PhysAnimatorError
+from .kernel_cache import KernelCache, kernel_cache
+from .taichi_program import end_program, import_taichi, is_initialising, new_program, program_of
 from .taichi_reading import quick_reading
+from .taichi_worker import TaichiWorker
 
-__all__ = ["compiled", "keep_compiled", "run"]
+__all__ = ["compiled", "keep_compiled", "launch", "own_this_process", "run"]
 
 P = ParamSpec("P")
 T = TypeVar("T")
 
 _POLL_SECONDS = 0.2
-_PATIENCE = 1000  # hundredths of a second
-_LAST_SECONDS = 30.0  # that the end of the process waits for a kernel which still runs: some 15 ms on an idle machine
+_LAST_SECONDS = 30.0  # that the end of the process, or of our program, waits for a kernel which still runs: some 15 ms
+_IDLE_SECONDS = 300.0  # after which a process of our own, which holds some 200 MB, is ended
 _WORTH_KEEPING = 0.25  # seconds of compiling: kernels that were on disk already take some hundredths to read
-_QUIET = {"ENABLE_TAICHI_HEADER_PRINT": "0", "TI_SKIP_VERSION_CHECK": "ON"}
 
 
 class _Job:
@@ -78,9 +78,14 @@ class _TaichiThread:
         self._thread: threading.Thread | None = None
         self._process = 0
         self._taichi: Any = None
+        self._reset: Any = None  # Taichi's own
         self._program: Any = None
+        self._cache = KernelCache(os.sep, usable=False)
         self._kernels: dict[Callable[[Any], Any], Any] = {}
+        self._alone = False
+        self._shared = False
         self._closed = False
+        self._worker = TaichiWorker()
         self._during_job = ExitStack()
 
     def run(self, call: Callable[[], T]) -> T:
@@ -94,11 +99,28 @@ class _TaichiThread:
     def compiled(self, build: Callable[[Any], T]) -> T:
         if threading.current_thread() is not self._thread:
             raise RuntimeError("compiled() must be called inside a job of run()")
-        taichi = self._initialised()
+        if not self._is_here():
+            raise PhysAnimatorError("Another part of this process uses Taichi, of which there can be only one")
         self._during_job.enter_context(quick_reading())
         if build not in self._kernels:
-            self._kernels[build] = build(taichi)
+            self._kernels[build] = build(self._taichi)
         return cast(T, self._kernels[build])
+
+    def launched(self, function: Callable[..., T], constant: Any, state: Any, *arguments: Any) -> T:
+        if self._is_here():
+            return function(constant, state, *arguments)
+        return cast(T, self._worker.launch(function, constant, state, arguments))
+
+    def keep_compiled(self) -> bool:
+        if self._shared:
+            return self._worker.keep_compiled()
+        if not self._is_ours() or self._program.get_total_compilation_time() < _WORTH_KEEPING:
+            return False
+        self._drop()
+        return True
+
+    def own_this_process(self) -> None:
+        self._alone = True
 
     def _start(self) -> None:
         with self._starting:
@@ -112,6 +134,17 @@ class _TaichiThread:
                 "Taichi cannot run in a forked process whose parent has used it; start the process with 'spawn'"
             )
 
+    def _work(self) -> None:
+        while True:
+            try:
+                job = self._jobs.get(timeout=_IDLE_SECONDS)
+            except queue.Empty:
+                self._worker.end_idle()
+                continue
+            with ExitStack() as self._during_job:
+                job.execute()
+            del job  # the arrays of a finished job must not live until the next one
+
     def _finish(self) -> None:
         """At the end of the process, close our program: only then does Taichi keep the compiled kernels on disk."""
         if self._process == os.getpid():
@@ -121,126 +154,57 @@ class _TaichiThread:
 
     def _close(self) -> None:
         self._closed = True
+        self._worker.close()
         if self._is_ours():
             self._drop()
 
-    def keep_compiled(self) -> bool:
-        if not self._is_ours() or self._program.get_total_compilation_time() < _WORTH_KEEPING:
-            return False
-        self._drop()
-        return True
-
     def _is_ours(self) -> bool:
-        return self._program is not None and self._taichi.lang.impl.get_runtime().prog is self._program
+        return self._program is not None and program_of(self._taichi) is self._program
 
     def _drop(self) -> None:
         """End our program, which writes what it has compiled to disk."""
+        program, self._program = self._program, None
         self._kernels.clear()
-        self._program = None
-        self._taichi.reset()
+        end_program(self._reset, program, self._cache)
 
-    def _work(self) -> None:
-        while True:
-            job = self._jobs.get()
-            with ExitStack() as self._during_job:
-                job.execute()
-            del job  # the arrays of a finished job must not live until the next one
-
-    def _initialised(self) -> Any:
-        """Taichi with our program in place; kernels of a program that is gone are forgotten."""
+    def _is_here(self) -> bool:
+        """Whether kernels run in this process, in which our program then is in place."""
         if self._closed:  # a program that is made while the process ends would end it with an abort
             raise PhysAnimatorError("Nothing more can be simulated: the process is ending")
-        if self._taichi is None:
-            _name_import_machinery()
-            with _environment(_QUIET):
-                import taichi
+        if self._taichi is None and not self._shared:
+            self._shared = "taichi" in sys.modules and not self._alone
+            if not self._shared:
+                self._taichi = import_taichi()
+                self._watch(self._taichi)
+        if self._shared:
+            return False
+        if self._program is None:
+            self._cache = kernel_cache()
+            self._program = new_program(self._taichi, self._cache)
+        return True
 
-            self._taichi = taichi
-        ti = self._taichi
-        if self._program is None or ti.lang.impl.get_runtime().prog is not self._program:
-            self._kernels.clear()
-            self._program = None
-            try:
-                self._program = _new_program(ti)
-            except Exception:  # somebody else's initialisation came in between
-                self._program = _new_program(ti)
-        return ti
+    def _watch(self, taichi: Any) -> None:
+        """See to it that our program is gone before anybody else's comes: Taichi's ``init`` begins with ``reset``."""
+        implementation = taichi.lang.impl
+        self._reset = reset = implementation.reset
 
+        @wraps(reset)
+        def watched() -> None:
+            if threading.current_thread() is not self._thread:
+                self._leave()
+                implementation.reset = reset
+            reset()
 
-def _new_program(ti: Any) -> Any:
-    _let_others_finish(ti.init)
-    with _environment(_QUIET), _without_announcement(ti.lang.misc):
-        ti.init(
-            arch=ti.cpu,
-            offline_cache=_can_cache(ti),
-            fast_math=False,
-            real_matrix_scalarize=False,
-            make_cpu_multithreading_loop=False,
-        )
-    return ti.lang.impl.get_runtime().prog
+        implementation.reset = watched
+        # Others may have waited for the import, and have gone on before us.
+        self._shared = is_initialising(taichi) or program_of(taichi) is not None
 
-
-def _name_import_machinery() -> None:
-    """Tell ``inspect`` to which module the frames of the import machinery belong.
-
-    Taichi asks for the source of such frames some hundred times while it is imported. Each time ``inspect`` would look
-    through all modules of the process, which takes seconds where a host has thousands.
-    """
-    known = getattr(inspect, "modulesbyfile", {})
-    known.setdefault("<frozen importlib._bootstrap>", "_frozen_importlib")
-
-
-def _let_others_finish(function: Any) -> None:
-    """Wait until no other thread is inside a function: two initialisations at once break each other."""
-    this = threading.get_ident()
-    for _ in range(_PATIENCE):
-        others = [frame for ident, frame in sys._current_frames().items() if ident != this]
-        if not any(_is_inside(function.__code__, frame) for frame in others):
-            return
-        time.sleep(0.01)
-
-
-def _is_inside(code: CodeType, frame: FrameType | None) -> bool:
-    while frame is not None:
-        if frame.f_code is code:
-            return True
-        frame = frame.f_back
-    return False
-
-
-def _can_cache(ti: Any) -> bool:
-    """Whether compiled kernels can be kept on disk; where they cannot, Taichi would fail on its way out."""
-    folder = os.environ.get("TI_OFFLINE_CACHE_FILE_PATH") or ti.lang.impl.default_cfg().offline_cache_file_path
-    try:
-        os.makedirs(folder, exist_ok=True)
-    except OSError:
-        return False
-    return os.access(folder, os.W_OK)
-
-
-@contextmanager
-def _environment(values: dict[str, str]) -> Iterator[None]:
-    """Environment variables for a while: no banner, and no question to Taichi's server about new versions."""
-    before = {name: os.environ.get(name) for name in values}
-    os.environ.update(values)
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                os.environ.pop(name, None)
-            else:
-                os.environ[name] = value
-
-
-@contextmanager
-def _without_announcement(module: Any) -> Iterator[None]:
-    """Taichi announces its start with a plain print; hide it in that module alone, not on everybody's stdout."""
-    module.print = lambda *_args, **_kwargs: None
-    try:
-        yield
-    finally:
-        del module.print
+    def _leave(self) -> None:
+        """Leave this process's Taichi to others."""
+        self._shared = True
+        job = _Job(lambda: self._drop() if self._is_ours() else None)
+        self._jobs.put(job)
+        job.done.wait(_LAST_SECONDS)
 
 
 _taichi_thread = _TaichiThread()
@@ -258,8 +222,24 @@ def run(function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
     return _taichi_thread.run(lambda: function(*args, **kwargs))
 
 
+def launch(function: Callable[..., T], constant: Any, state: Any, *arguments: Any) -> T:
+    """``function(constant, state, *arguments)`` on the Taichi thread, or in a process of ours where others use Taichi.
+
+    Args:
+        function: a function of a module of this package.
+        constant: nested tuples of arrays that belong to one simulation, and numbers. Another process gets them once:
+            what the function changes in them is seen by its later launches only.
+        state: a sequence of arrays that it changes in place, or None.
+        arguments: what else it reads.
+
+    Raises:
+        PhysAnimatorError: as ``run``, or the other process cannot be started, or has ended.
+    """
+    return run(_taichi_thread.launched, function, constant, state, *arguments)
+
+
 def compiled(build: Callable[[Any], T]) -> T:
-    """What ``build(taichi)`` returned, called once for each Taichi program; only inside a job of ``run``.
+    """What ``build(taichi)`` returned, called once for each Taichi program; only inside a job of ``run`` or ``launch``.
 
     Args:
         build: a module-level function that gets the taichi module and returns kernels.
@@ -274,3 +254,8 @@ def keep_compiled() -> bool:
     between two jobs; the next one reads its kernels from disk, which takes half a second.
     """
     return _taichi_thread.run(_taichi_thread.keep_compiled)
+
+
+def own_this_process() -> None:
+    """Say that this process is ours alone, so that kernels run in it whoever has imported Taichi."""
+    _taichi_thread.own_this_process()

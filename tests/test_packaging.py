@@ -130,9 +130,34 @@ def test_host_requirements_agree_and_leave_the_hosts_own_alone(metadata: Message
     host = _requirements([line for line in lines if line and not line.startswith("#")])
     package = _requirements([line for line in metadata.get_all("Requires-Dist", []) if ";" not in line])
     assert host.items() <= package.items()
-    assert package.keys() - host.keys() == {"torch", "numpy", "pillow"}
-    assert [name for name in host if "opencv" in name] == ["opencv-python-headless"]
+    assert package.keys() - host.keys() == {"torch", "numpy", "pillow", "opencv-python-headless"}
+    assert not [name for name in host if "opencv" in name], "it would overwrite another distribution's cv2"
     assert not any("==" in bound or "<" in bound for bound in package.values())
+
+
+@pytest.mark.parametrize("installed", ["contrib", "broken", "none"])
+def test_the_install_script_leaves_a_cv2_that_works_alone(installed: str, tmp_path: Path) -> None:
+    """It is run with a pip that only notes what it is asked for, and with each kind of cv2."""
+    environment = tmp_path / "environment"
+    for name, text in (
+        ("pip/__main__.py", f"import sys; print('pip', *sys.argv[1:]); open({str(tmp_path / 'asked')!r}, 'w')"),
+        ("pip/__init__.py", ""),
+        ("cv2/__init__.py", "import missing_library" if installed == "broken" else "imread = ximgproc = None"),
+    ):
+        if not (installed == "none" and name.startswith("cv2")):
+            (environment / name).parent.mkdir(parents=True, exist_ok=True)
+            (environment / name).write_text(text, encoding="utf-8")
+    script = (
+        f"import sys, runpy; sys.argv = ['install.py']\nimport subprocess as s; run = s.run\n"
+        f"def bare(command, **k): return run([command[0], '-S', *command[1:]] if command[0] == sys.executable"
+        f" else ['false'], env={{'PYTHONPATH': {str(environment)!r}}}, **k)\n"
+        f"s.run = bare\nrunpy.run_path({str(ROOT / 'install.py')!r}, run_name='__main__')"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (tmp_path / "asked").exists() == (installed != "contrib")
+    assert done.returncode == (0 if installed == "contrib" else 1), done.stderr  # the noting pip installs nothing
+    assert ("left as it is" in done.stdout) == (installed == "contrib")
+    assert ("pip install opencv-python-headless>=4.9" in done.stdout) == (installed != "contrib")
 
 
 def test_console_script(wheel: Path) -> None:

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physanimator.physics.taichi_runtime import compiled, keep_compiled, run
+from physanimator.physics.taichi_runtime import compiled, run
 
 PREAMBLE = f"import sys; sys.path.insert(0, {str(Path(__file__).resolve().parents[1])!r}); import conftest\n"
 
@@ -43,15 +43,6 @@ def incremented() -> float:
 def script(code: str) -> subprocess.CompletedProcess[str]:
     """Run Python code in a process of its own, with the package at hand."""
     return subprocess.run([sys.executable, "-c", PREAMBLE + code], capture_output=True, text=True, timeout=60)
-
-
-def initialise_elsewhere() -> None:
-    """What another part of the process might do; on its own thread, for which Taichi sets flush-to-zero."""
-    import taichi as ti
-
-    intruder = threading.Thread(target=ti.init, args=(ti.cpu,), kwargs={"log_level": ti.ERROR})
-    intruder.start()
-    intruder.join()
 
 
 def test_arguments_go_in_and_results_come_out() -> None:
@@ -94,41 +85,6 @@ def test_kernels_are_compiled_inside_a_job_only() -> None:
 
 def test_kernels_are_built_once() -> None:
     assert run(compiled, build_increment) is run(compiled, build_increment)
-
-
-def test_another_part_of_the_process_may_initialise_taichi_at_any_time() -> None:
-    assert incremented() == 1
-    before = run(compiled, build_increment)
-    initialise_elsewhere()
-    assert incremented() == 1
-    assert run(compiled, build_increment) is not before
-    import taichi as ti
-
-    initialise_elsewhere()
-    ti.reset()
-    assert incremented() == 1
-
-
-def test_others_initialise_while_jobs_run() -> None:
-    assert incremented() == 1
-    results: list[float] = []
-    stop = threading.Event()
-
-    def work() -> None:
-        while not stop.is_set():
-            results.append(incremented())
-
-    worker = threading.Thread(target=work)
-    worker.start()
-    for _ in range(3):
-        initialise_elsewhere()
-        seen = len(results)
-        while worker.is_alive() and len(results) < seen + 5:
-            time.sleep(0.01)
-    stop.set()
-    worker.join()
-    assert len(results) >= 15
-    assert set(results) == {1.0}
 
 
 def test_numbers_elsewhere_keep_their_last_digits() -> None:
@@ -204,15 +160,6 @@ def test_kernels_are_kept_although_a_signal_ends_the_process(tmp_path: Path) -> 
     assert list(tmp_path.rglob("*.tic"))
 
 
-def test_a_program_of_others_is_not_ended_to_keep_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("physanimator.physics.taichi_runtime._WORTH_KEEPING", 0.0)
-    incremented()
-    initialise_elsewhere()
-    assert keep_compiled() is False
-    assert incremented() == 1
-
-
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system does not fork")
 def test_modules_of_the_process_are_not_looked_through_while_taichi_is_imported() -> None:
     script = (
         PREAMBLE
@@ -235,6 +182,7 @@ print(Counting.asked)
     assert int(answer.stdout) < 30  # of some hundred times
 
 
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system does not fork")
 def test_a_forked_process_is_told_what_to_do() -> None:
     result = script(
         "import os, warnings\n"

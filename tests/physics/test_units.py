@@ -1,0 +1,96 @@
+"""What is chosen for a part follows the part: neither an empty margin nor the scale of the art changes its motion."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from physanimator.physics.automatic import automatic_scene
+from physanimator.physics.errors import MeshingError
+from physanimator.physics.material import preset
+from physanimator.physics.mesh import TriangleMesh
+from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.scene import Body
+from physanimator.physics.simulation import simulate
+
+FRAMES = 16
+
+
+def strand() -> NDArray[np.bool_]:
+    """A bent lock of hair on a picture of 240x160, with a gap in it."""
+    y, x = np.mgrid[:160, :240] + 0.5
+    middle = 110 + 20 * np.sin(y / 30)
+    return (np.abs(x - middle) < 14) & (np.abs(x - middle - 3) > 3 * (y > 80)) & (y > 20) & (y < 140)
+
+
+def moved(masks: list[NDArray[np.bool_]]) -> tuple[list[TriangleMesh], NDArray[np.float64]]:
+    """The meshes, and how far every vertex moves from frame 0 [px], shape [f, v, 2]."""
+    meshes = [mesh_from_mask(mask) for mask in masks]
+    motion = simulate(automatic_scene([Body(mesh, preset("hair")) for mesh in meshes]), frames=FRAMES)
+    positions = motion.positions.astype(np.float64)
+    return meshes, positions - positions[0]
+
+
+@pytest.fixture(scope="module")
+def alone() -> tuple[list[TriangleMesh], NDArray[np.float64]]:
+    return moved([strand()])
+
+
+@pytest.mark.parametrize(
+    "margins",
+    [((0, 80), (0, 0)), ((160, 0), (0, 0)), ((0, 0), (120, 120)), ((0, 480), (0, 720)), ((900, 2000), (13, 7))],
+    ids=["below", "above", "beside", "four times as large", "a long page"],
+)
+def test_an_empty_margin_changes_nothing(
+    margins: tuple[tuple[int, int], ...], alone: tuple[list[TriangleMesh], NDArray[np.float64]]
+) -> None:
+    (mesh,), expected = alone
+    (padded,), motion = moved([np.pad(strand(), margins)])
+    shift = [margins[1][0], margins[0][0]]
+    np.testing.assert_array_equal(padded.triangles, mesh.triangles)
+    np.testing.assert_allclose(padded.vertices, mesh.vertices + shift, atol=1e-9)
+    assert np.abs(expected).max() > 2
+    np.testing.assert_allclose(motion, expected, atol=2e-3 * max(1, max(map(max, margins)) / 240))
+
+
+def test_the_same_art_twice_as_large_moves_twice_as_far(
+    alone: tuple[list[TriangleMesh], NDArray[np.float64]],
+) -> None:
+    _, expected = alone
+    _, motion = moved([np.kron(strand(), np.ones((2, 2), bool))])
+    wanted, got = (np.linalg.norm(each, axis=2).max(axis=1) for each in (expected, motion))
+    np.testing.assert_allclose(got[1:], 2 * wanted[1:], rtol=0.1)
+
+
+def test_a_small_part_keeps_its_relation_to_a_large_one_on_any_page() -> None:
+    small = np.zeros((160, 240), bool)
+    small[40:80, 180:190] = True
+    _, expected = moved([strand(), small])
+    _, motion = moved([np.pad(each, ((0, 320), (0, 0))) for each in (strand(), small)])
+    np.testing.assert_allclose(motion, expected, atol=5e-3)
+
+
+@pytest.mark.parametrize(("width", "height"), [*product((3, 6, 20), (4, 11, 20)), (1, 9)])
+def test_parts_of_a_few_pixels_bend_by_a_fraction_of_themselves(width: int, height: int) -> None:
+    mask = np.zeros((32, 32), bool)
+    mask[6 : 6 + height, 5 : 5 + width] = True
+    (mesh,), motion = moved([mask])
+    size = np.hypot(width, height)
+    assert len(mesh.triangles) >= 12
+    assert np.all(np.ptp(mesh.vertices, axis=0) == pytest.approx((width, height), abs=0.6))
+    largest = np.linalg.norm(motion, axis=2).max()
+    assert 0.002 * size < largest < 0.6 * size
+
+
+def test_single_pixels_beside_a_small_part_are_dropped_and_a_small_part_beside_a_large_one() -> None:
+    mask = np.zeros((64, 64), bool)
+    mask[10:16, 10:14] = True
+    mask[40, 40] = True
+    assert mesh_from_mask(mask).components.max() == 0
+    mask[20:60, 20:60] = True
+    assert mesh_from_mask(mask).components.max() == 1
+    assert mesh_from_mask(mask, smallest_part=30).components.max() == 0
+    with pytest.raises(MeshingError, match="white part of at least 2000 px"):
+        mesh_from_mask(mask, smallest_part=2000)
