@@ -148,6 +148,7 @@ def _measure(options: argparse.Namespace) -> None:
     image, inputs = read_inputs(options)
     plate = load_image(options.plate) if options.plate else None
     timing = {"frames": options.frames, "loop": options.loop, "skip": options.skip, "frame_rate": options.fps}
+    timing["max_minutes"] = options.max_minutes
     with ExitStack() as bars:
         progress = None if options.quiet else _progress_bars(bars)
         animation = animate(image, plate=plate, progress=progress, **timing, **inputs)
@@ -173,6 +174,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             frame_rate=options.fps,
             plate=plate,
             progress=progress,
+            max_minutes=options.max_minutes,
             **inputs,
         )
         for sentence in advice(animation.scene):

@@ -23,6 +23,7 @@ from .physics.masks import coverage_of
 from .physics.material import Material
 from .physics.mesh import TriangleMesh
 from .physics.meshing import mesh_from_mask
+from .physics.plan import DEFAULT_MINUTES, work_of_minutes
 from .physics.progress import Progress
 from .physics.scene import Body, Scene
 from .physics.simulation import simulate
@@ -58,6 +59,7 @@ def animate(
     colliders: Sequence[Mask] = (),
     plate: Image | None = None,
     progress: StageProgress | None = None,
+    max_minutes: float = DEFAULT_MINUTES,
 ) -> Animation:
     """Set parts of an illustration in motion.
 
@@ -85,6 +87,8 @@ def animate(
         colliders: masks of what the parts keep out of besides the scene's colliders; they need contact.
         plate: the illustration without the moving parts, if it exists; painted in when None.
         progress: called as the stages "simulate" and those of the frames advance.
+        max_minutes: minutes that the simulation may take, by the estimate for one core of an ordinary machine; what
+            would take longer is refused before it begins.
 
     Raises:
         InvalidInputError: an input is unusable; the message names it.
@@ -93,6 +97,7 @@ def animate(
     image = np.asarray(image)
     require("image", f"shape {image.shape}", image.ndim == 3 and image.shape[2] == 3, "an RGB picture [h, w, 3]")
     _check_frames(frames, skip)
+    work_of_minutes(max_minutes)
     if isinstance(scene, Mapping):
         from .physics.scene_checking import check_document
 
@@ -121,7 +126,7 @@ def animate(
             _check_frames(frames, skip)
         whole = _touching(whole, contact, colliders)
     with timed(seconds, "simulate"):
-        motion = simulate(whole, frames=frames, progress=_stage("simulate", progress))
+        motion = simulate(whole, frames=frames, progress=_stage("simulate", progress), max_minutes=max_minutes)
     with timed(seconds, "prepare"):
         from .rendering.composite import LayeredRenderer
 
