@@ -191,6 +191,7 @@ def _measure(options: argparse.Namespace) -> None:
     image = over(image)  # clips are compared by their colours
     plate = load_image(options.plate) if options.plate else None
     timing = {"frames": options.frames, "loop": options.loop, "skip": options.skip, "frame_rate": options.fps}
+    timing["max_minutes"] = options.max_minutes
     with ExitStack() as bars:
         progress = _progress(options, bars)
         animation = animate(image, plate=plate, progress=progress, **timing, **inputs)
@@ -223,6 +224,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             plate=plate,
             progress=progress,
             pixel_art=options.pixel_art,
+            max_minutes=options.max_minutes,
             **inputs,
         )
         for sentence in advice(animation.scene, masks=not getattr(options, "mask", None)):

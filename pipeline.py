@@ -23,6 +23,7 @@ from .physics.masks import coverage_of, fitted
 from .physics.material import Material
 from .physics.mesh import TriangleMesh
 from .physics.meshing import mesh_from_mask
+from .physics.plan import DEFAULT_MINUTES, work_of_minutes
 from .physics.progress import Progress
 from .physics.scene import Body, Scene
 from .physics.simulation import simulate
@@ -64,6 +65,7 @@ def animate(
     plate: Image | None = None,
     progress: StageProgress | None = None,
     pixel_art: bool = False,
+    max_minutes: float = DEFAULT_MINUTES,
 ) -> Animation:
     """Set parts of an illustration in motion.
 
@@ -96,6 +98,8 @@ def animate(
             and of its size; painted in when None.
         progress: called as the stages "simulate" and those of the frames advance.
         pixel_art: move whole pixels, or the blocks that an enlarged picture shows for them, and mix no colours.
+        max_minutes: minutes that the simulation may take, by the estimate for one core of an ordinary machine; what
+            would take longer is refused before it begins.
 
     Raises:
         InvalidInputError: an input is unusable; the message names it.
@@ -110,6 +114,7 @@ def animate(
     _check_frames(frames, skip)
     if frame_rate is not None:
         check_frame_rate(frame_rate)
+    work_of_minutes(max_minutes)
     if isinstance(scene, Mapping):
         from .physics.scene_checking import check_document
 
@@ -138,7 +143,7 @@ def animate(
             _check_frames(frames, skip)
         whole = _touching(whole, contact, colliders)
     with timed(seconds, "simulate"):
-        motion = simulate(whole, frames=frames, progress=_stage("simulate", progress))
+        motion = simulate(whole, frames=frames, progress=_stage("simulate", progress), max_minutes=max_minutes)
     with timed(seconds, "prepare"):
         renderer = renderer_of(image, parts, motion, plate=plate, pixel_art=pixel_art)
     return Animation(image, parts, whole, motion, renderer, skip, seconds)

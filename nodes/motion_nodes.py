@@ -10,9 +10,10 @@ import numpy as np
 from comfy_api.latest import io
 from numpy.typing import NDArray
 
-from ..physics.limits import MAX_LOOP
+from ..physics.interruption import interruptible
+from ..physics.limits import DEFAULT_MINUTES, MAX_LOOP, MOST_MINUTES
 from .previews import animated
-from .progress import host_progress
+from .progress import host_check, host_progress
 from .tensors import picture_batch, pictures_for
 from .wires import MaskedMotion, MaskedScene, MotionWire, SceneWire
 
@@ -50,6 +51,17 @@ class Simulate(io.ComfyNode):
                     tooltip="Length of a seamless loop [s]: the last frame leads back to the first, which is not the"
                     " drawing then. All that acts is fitted to it. 0 is off, unless the scene has a loop.",
                 ),
+                io.Float.Input(
+                    "max_minutes",
+                    default=DEFAULT_MINUTES,
+                    min=0.1,
+                    max=MOST_MINUTES,
+                    step=0.5,
+                    optional=True,
+                    tooltip="Computing time that is allowed [min], by the estimate for one core of an ordinary machine:"
+                    " what would take longer is refused before it begins, with the estimate. Raise it to wait for"
+                    " long clips, fine meshes and stiff materials.",
+                ),
             ],
             outputs=[
                 MotionWire.Output(display_name="motion", tooltip="Where every part of every body is in each frame."),
@@ -60,14 +72,18 @@ class Simulate(io.ComfyNode):
         )
 
     @classmethod
-    def execute(cls, scene: MaskedScene, frames: int, loop: float = 0.0) -> io.NodeOutput:
+    def execute(
+        cls, scene: MaskedScene, frames: int, loop: float = 0.0, max_minutes: float = DEFAULT_MINUTES
+    ) -> io.NodeOutput:
         from ..physics.advice import advice
         from ..physics.simulation import simulate
 
         acting = replace(scene.scene, loop=loop) if loop else scene.scene
         for sentence in advice(acting):
             logging.warning("PhysAnimator: %s", sentence)
-        motion = simulate(acting, frames=None if acting.loop else frames, progress=host_progress())
+        wanted = None if acting.loop else frames
+        with interruptible(host_check()):
+            motion = simulate(acting, frames=wanted, progress=host_progress(), max_minutes=max_minutes)
         return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate)
 
 

@@ -12,7 +12,7 @@ from ..physics.errors import PhysAnimatorError
 from ..physics.preview_limits import MAX_REQUEST_BYTES
 from .preview_hosts import HOSTS_VARIABLE, Authority, authority_of, is_own_name, origin_of, told_origin
 
-__all__ = ["BUSY", "KEEP_NOTHING", "Guard", "body_of", "refused"]
+__all__ = ["BUSY", "KEEP_NOTHING", "Guard", "body_of", "hung_up", "refused"]
 
 Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
@@ -58,9 +58,7 @@ async def _answered(handler: Handler, request: web.Request) -> web.StreamRespons
     except PhysAnimatorError as error:
         return refused(422, str(error))
     except UnreadableBody:
-        answer = refused(400, UNREADABLE)
-        answer.force_close()  # what follows in the connection cannot be told from the body
-        return answer
+        return await hung_up(request, refused(400, UNREADABLE))
     except web.HTTPException:  # says itself what is wrong
         raise
     except ConnectionError:  # nobody is there to be answered
@@ -75,6 +73,17 @@ async def _answered(handler: Handler, request: web.Request) -> web.StreamRespons
 def refused(status: int, sentence: str) -> web.Response:
     """An answer that says what is wrong."""
     return web.json_response({"error": sentence}, status=status, headers=KEEP_NOTHING)
+
+
+async def hung_up(request: web.Request, answer: web.StreamResponse) -> web.StreamResponse:
+    """An answer after which the rest of a packed body is not read: the server would go on unpacking it."""
+    if request.headers.get("Content-Encoding") is not None:
+        answer.force_close()
+        await answer.prepare(request)
+        await answer.write_eof()
+        if request.transport is not None:
+            request.transport.close()
+    return answer
 
 
 class UnreadableBody(Exception):

@@ -26,7 +26,7 @@ from ..physics.preview_records import encode_mesh
 from ..physics.preview_requests import PreviewRequest, is_key, preview_scene, read_request
 from ..physics.preview_session import PreviewRun, PreviewRuns, stream
 from ..physics.preview_store import PreviewBodies, PreviewStore
-from .preview_guard import BUSY, KEEP_NOTHING, Guard, body_of, refused
+from .preview_guard import BUSY, KEEP_NOTHING, Guard, body_of, hung_up, refused
 from .preview_plates import Plates
 
 __all__ = ["PreviewRoutes"]
@@ -108,7 +108,9 @@ class PreviewRoutes:
             return refused(415, "The request must have the content type application/json.")
         body = await body_of(request)
         if body is None:
-            return refused(413, f"The scene must be at most {MAX_REQUEST_BYTES >> 20} MB of text.")
+            return await hung_up(
+                request, refused(413, f"The scene must be at most {MAX_REQUEST_BYTES >> 20} MB of text.")
+            )
         check = _Patience(request)
         wanted: PreviewRequest = await self._on_a_thread(check, read_request, body)
         stored = self.store.get(wanted.key)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     import torch
 
-__all__ = ["host_preview", "host_progress"]
+__all__ = ["host_check", "host_preview", "host_progress"]
 
 
 class Report(Protocol):
@@ -34,6 +34,14 @@ def host_progress() -> Report:
         bar.update_absolute(done, total, preview)
 
     return report
+
+
+def host_check() -> Callable[[], None]:
+    """What raises the host's interruption when asked to stop, for long preparations without a bar."""
+    import comfy.model_management
+
+    check: Callable[[], None] = comfy.model_management.throw_exception_if_processing_interrupted
+    return check
 
 
 def host_preview(device: torch.device) -> Callable[[torch.Tensor], Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 __all__ = [
+    "DEFAULT_MINUTES",
     "LARGEST",
     "MAX_BODIES",
     "MAX_COLLIDERS",
@@ -32,6 +33,12 @@ LARGEST = 1_000_000
 
 STIFFEST = 1e12
 """Largest Young's modulus [density side^2 / s^2]."""
+
+DEFAULT_MINUTES = 5.0
+"""Minutes of computing, by an estimate for one core of an ordinary machine, that a simulation may take unless told.
+
+A clip of less than a second may not take more than its share of them: a single tick must not take seconds.
+"""
 
 MOST_MINUTES = 10_000.0
 """Most minutes of computing that a simulation may be allowed: a week."""

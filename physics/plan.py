@@ -9,7 +9,7 @@ import numpy as np
 
 from .contact_surface import outline_spacing
 from .errors import SimulationError, require
-from .limits import MAX_OUTLINE_POINTS, MOST_MINUTES
+from .limits import DEFAULT_MINUTES, MAX_OUTLINE_POINTS, MOST_MINUTES
 from .outlines import count_outlines
 from .particles import most_alive
 from .scene import Scene
@@ -23,14 +23,8 @@ __all__ = ["DEFAULT_MINUTES", "MAX_WORK", "SimulationPlan", "check_work", "plan"
 UPDATES_PER_SECOND = 1.5e8
 """Triangle updates (one triangle in one substep) a second on one core of an ordinary machine; for estimates only."""
 
-DEFAULT_MINUTES = 5.0
-"""Minutes of computing, by that estimate, that a simulation may take unless more are allowed.
-
-A clip of less than a second may not take more than its share of them: a single tick must not take seconds.
-"""
-
 MAX_WORK = DEFAULT_MINUTES * 60 * UPDATES_PER_SECOND
-"""The same in triangle updates."""
+"""The most that is accepted unless told, ``DEFAULT_MINUTES``, in triangle updates."""
 
 OUTLINE_WORK = 20.0
 """Work of one point of a collider's outline in a tick, in triangle updates."""

@@ -27,7 +27,7 @@ def runs_of(mask: NDArray[np.bool_]) -> list[int]:
 
 
 def mask_of(runs: Sequence[int], *, width: int, height: int) -> NDArray[np.bool_]:
-    """The mask whose run lengths are ``runs``, bool, shape [h, w].
+    """The mask whose run lengths are ``runs``, bool, shape [h, w], not to be written to.
 
     Raises:
         InvalidInputError: the runs do not fill the mask.
@@ -35,4 +35,6 @@ def mask_of(runs: Sequence[int], *, width: int, height: int) -> NDArray[np.bool_
     total = sum(runs)
     require("runs", total, total == width * height, f"lengths that add up to width x height ({width * height})")
     painted = np.arange(len(runs)) % 2 == 1
-    return np.repeat(painted, np.array(runs, dtype=np.int64)).reshape(height, width)
+    mask = np.repeat(painted, np.array(runs, dtype=np.int64)).reshape(height, width)
+    mask.setflags(write=False)  # so that who keeps it need not copy it
+    return mask

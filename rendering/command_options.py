@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 
+from ..physics.limits import DEFAULT_MINUTES
+
 __all__ = ["add_animate", "add_demo", "add_figure", "add_measure"]
 
 _MASK = (
@@ -194,6 +196,14 @@ def _add_timing(group: argparse._ArgumentGroup) -> None:
         "--skip", metavar="N", type=int, default=0, help="leave out the first N frames, in which the motion settles in"
     )
     group.add_argument("--fps", metavar="F", type=float, help="frames a second (default: the scene's, or 24)")
+    group.add_argument(
+        "--max-minutes",
+        metavar="MIN",
+        type=float,
+        default=DEFAULT_MINUTES,
+        help="computing time that the simulation may take, as estimated for one core of an ordinary machine; what"
+        " would take longer is refused before it begins (default: %(default)g)",
+    )
 
 
 def _add_data(parser: argparse.ArgumentParser) -> None:

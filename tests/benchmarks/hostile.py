@@ -1,0 +1,110 @@
+"""Thousands of mutated scene documents and preview requests: each a scene or one sentence, in little time and memory.
+
+Seconds are those of the computing thread, so that other work on the machine does not count.
+
+    python tests/benchmarks/hostile.py --count 10000 --json
+
+Counts what came of them, and tells the slowest, the largest, and every error that is no sentence.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import resource
+import sys
+import time
+import traceback
+from collections import Counter
+from typing import Any
+
+import source_tree
+from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.json_text import read_json
+from physanimator.physics.plan import plan
+from physanimator.physics.preparation import Preparations
+from physanimator.physics.preview_requests import preview_scene, read_request
+from physanimator.physics.scene_json import scene_from_dict
+from physanimator.physics.simulation import simulate
+
+_mutations = source_tree.helper("mutations")
+_WORK = 2e6  # triangle updates of the simulation that follows
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=10_000)
+    parser.add_argument("--first", type=int, default=0, help="first seed")
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--simulate", action="store_true", help="also simulate a frame of what is accepted")
+    options = parser.parse_args()
+    bodies, kept = _mutations.patches(), Preparations(most=8)
+    before, report = _megabytes(), _Report()
+    for seed in range(options.first, options.first + options.count):
+        report.run(seed, bodies, kept, simulates=options.simulate)
+    found = report.found() | {"count": options.count, "peak_mb": round(_megabytes() - before, 1)}
+    print(json.dumps(found, indent=2) if options.json else "\n".join(f"{key}: {value}" for key, value in found.items()))
+    sys.exit(1 if report.faults else 0)
+
+
+class _Report:
+    """What came of each."""
+
+    def __init__(self) -> None:
+        self.outcomes: Counter[str] = Counter()
+        self.slow: list[tuple[float, int, str]] = []
+        self.large: list[tuple[float, int]] = []
+        self.faults: list[str] = []
+
+    def run(self, seed: int, bodies: list[Any], kept: Preparations, *, simulates: bool) -> None:
+        body = _mutations.mutated_request(seed) if seed % 2 else _mutations.mutated_document(seed)
+        begun, before = time.thread_time(), _megabytes()
+        stage = "scene"
+        try:
+            if isinstance(body, bytes):
+                scene, _ = preview_scene(read_request(body), bodies)
+                stage = "prepared"
+                kept(scene)
+            else:
+                scene = scene_from_dict(read_json(body), meshes=[each.mesh for each in bodies])
+            self.slow.append((time.thread_time() - begun, seed, "scene"))
+            begun, stage = time.thread_time(), "planned"
+            plan(scene, frames=5)
+            if simulates:
+                stage = "simulated"
+                simulate(scene, frames=None if scene.loop else 2, max_work=_WORK)
+            self.outcomes["a scene"] += 1
+        except InvalidInputError as error:
+            self.outcomes["a sentence"] += 1
+            self._check_sentence(seed, str(error))
+        except Exception as error:
+            self.outcomes["a fault"] += 1
+            where = traceback.extract_tb(error.__traceback__)[-1]
+            self.faults.append(
+                f"{seed} {stage}: {type(error).__name__} {error!s:.100} at {where.filename}:{where.lineno}"
+            )
+        self.slow.append((time.thread_time() - begun, seed, stage))
+        self.large.append((_megabytes() - before, seed))
+
+    def _check_sentence(self, seed: int, text: str) -> None:
+        digits = max((len(run) for run in "".join(c if c.isdigit() else " " for c in text).split()), default=0)
+        if not text.isprintable() or len(text) > 1300 or digits > 100:
+            self.faults.append(f"{seed}: no sentence: {text[:300]!r}")
+
+    def found(self) -> dict[str, Any]:
+        return {
+            "outcomes": dict(self.outcomes),
+            "slowest": [[round(seconds, 3), seed, stage] for seconds, seed, stage in sorted(self.slow)[-6:]],
+            "largest_growth_mb": [[round(grown, 1), seed] for grown, seed in sorted(self.large)[-4:]],
+            "faults": self.faults[:30],
+            "number_of_faults": len(self.faults),
+        }
+
+
+def _megabytes() -> float:
+    """The most memory that the process has held so far."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+if __name__ == "__main__":
+    main()
