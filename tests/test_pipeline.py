@@ -182,7 +182,7 @@ def test_saved_video_has_the_right_length_rate_and_alpha(windy: Animation, tmp_p
         ({"masks": []}, "at least one mask"),
         ({"masks": [np.ones((8, 8), bool)]}, r"masks\[0\] must have the picture's size or at least its proportions"),
         ({"image": np.zeros((HEIGHT, WIDTH), np.uint8)}, "image must be an RGB or RGBA picture"),
-        ({"plate": np.zeros((4, 4, 3), np.uint8)}, "plate must have the picture's shape"),
+        ({"plate": np.zeros((4, 4, 3), np.uint8)}, "plate must have the picture's size"),
         ({"plate": np.zeros((HEIGHT, WIDTH, 3), np.complex64)}, "plate|image"),
         ({"plate": "plate.png"}, "plate"),
         ({"image": np.zeros((HEIGHT, WIDTH, 3), np.complex64)}, "image"),

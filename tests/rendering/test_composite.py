@@ -250,7 +250,7 @@ def test_unusable_input_is_refused(renderer: LayeredRenderer) -> None:
         LayeredRenderer(image, [MASK, MASK], motion)
     with pytest.raises(InvalidInputError, match="mask must have the picture's size"):
         LayeredRenderer(image, [MASK[:, :-40]], motion)
-    with pytest.raises(InvalidInputError, match="plate must have the image's shape"):
+    with pytest.raises(InvalidInputError, match="plate must have the image's size"):
         LayeredRenderer(image, [MASK], motion, plate=as_uint8(image)[:, 1:])
     with pytest.raises(InvalidInputError, match="masks must leave some"):
         LayeredRenderer(image, [np.ones_like(MASK)], motion)
