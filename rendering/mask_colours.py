@@ -35,6 +35,7 @@ _LEAST_SHARE = 0.0005
 _EVEN = 12  # difference of neighbours within an even area, in any channel [8-bit levels]
 _MOSTLY = 0.3  # of what is painted must be even for the even areas to tell the colours
 _QUANTILE = 0.97
+_LITTLE = 0.25
 _MOST_COLOURS = 8
 # A level is one of its own, not part of a gradient, if it holds so many times what lies around it.
 _APART = 3.0
@@ -104,9 +105,18 @@ def _clusters(pixels: NDArray[np.uint8]) -> tuple[list[Colour], float]:
         if weights[near].sum() < _LEAST_SHARE:
             break
         red, green, blue = centre
-        found.append(Colour((float(red), float(green), float(blue)), float(weights[near].sum())))
-        left &= ~near & ~_mixed(means, found)
+        colour = Colour((float(red), float(green), float(blue)), float(weights[near].sum()))
+        left &= ~near
+        if not any(_is_noise_of(colour, each) for each in found[1:]):
+            found.append(colour)
+            left &= ~_mixed(means, found)
     return found, float(weights[left].sum())
+
+
+def _is_noise_of(colour: Colour, other: Colour) -> bool:
+    """Whether a colour is what JPEG makes of another along its edges: not far from it, and little."""
+    away = np.linalg.norm(np.subtract(colour.rgb, other.rgb))
+    return bool(away < 2 * _NEAR and colour.share < _LITTLE * other.share)
 
 
 def _end_of_ramp(
@@ -161,7 +171,7 @@ def flat_levels(plane: FloatPlane) -> list[tuple[float, float]]:
             beside = counts[max(0, level - around) : level + around + 1].sum() - near
             if near >= max(least, _APART * beside):
                 found.append((float(level) / 255, float(near / levels.size)))
-                counts[max(0, level - window) : level + window + 1] = 0
+                counts[max(0, level - _WINDOWS[1][0]) : level + _WINDOWS[1][0] + 1] = 0
                 break
     return sorted(found)
 

@@ -145,12 +145,14 @@ def _by_grey(plane: FloatPlane, called: str) -> MaskFile:
     unit = highest if highest < _FAINT else 1.0
     levels = flat_levels(plane / np.float32(unit))
     greys = [level for level, _ in levels if level > (_DARK if highest >= 0.5 else _DARK / 3)]
+    if len([level for level in greys if level >= _BRIGHT]) > 1:  # JPEG's noise in white
+        greys = [level for level in greys if level < _BRIGHT] + [1.0]
     white = highest >= _BRIGHT and _has_white(plane, levels)
     if white and len([level for level in greys if level < _BRIGHT]) == 1:
         return _with_one_grey(plane, next((level, share) for level, share in levels if level == greys[0]), called)
     if len(greys) > 1:
         seen = ", ".join(
-            f"{255 * unit * level:.0f} on {100 * share:.1f} %" for level, share in levels if level in greys
+            f"{255 * unit * level:.0f} on {100 * share:.1f} %" for level, share in levels if level >= greys[0]
         )
         raise InvalidInputError(
             f"{called} must show one part in white; of labels, save one as a mask of its own."
