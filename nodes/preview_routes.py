@@ -108,7 +108,9 @@ class PreviewRoutes:
             return refused(415, "The request must have the content type application/json.")
         body = await body_of(request)
         if body is None:
-            return await hung_up(request, refused(413, f"The scene must be at most {MAX_REQUEST_BYTES >> 20} MB of text."))
+            return await hung_up(
+                request, refused(413, f"The scene must be at most {MAX_REQUEST_BYTES >> 20} MB of text.")
+            )
         check = _Patience(request)
         wanted: PreviewRequest = await self._on_a_thread(check, read_request, body)
         stored = self.store.get(wanted.key)

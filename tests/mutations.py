@@ -58,22 +58,114 @@ _SCENE: dict[str, Any] = {
         },
     ],
     "contact": {"friction": 0.3, "thickness": 1.5, "self_contact": True},
-    "colliders": [{"region": _POLYGON}, {"region": _MASK}, {"region": {"type": "polygon", "points": [[0, 70], [100, 70], [50, 300]]}}],
+    "colliders": [
+        {"region": _POLYGON},
+        {"region": _MASK},
+        {"region": {"type": "polygon", "points": [[0, 70], [100, 70], [50, 300]]}},
+    ],
     "paint": [{"region": _MASK, "stiffness": 4, "density": 2}, {"region": _POLYGON, "damping": 3, "body": 0}],
     "query_points": [{"x": 10, "y": 20, "positive": True, "part": 1}],
 }
 
 _NUMBERS: list[Any] = [
-    0, -0.0, 1, -1, 2, 3.0, 0.5, 100, 1e3, 16384.0, 65536.0, 65536, 1e6, -1e6, 1e6 + 1, 1e12, 1e-3, 1e-30, 1e-150, 1e-300, 5e-324,
-    1e308, -1e308, 2**31, 2**53 + 1, 2**63, 2**64, 10**30, 10**629, -(10**629), float("nan"), float("inf"), float("-inf"),
-]  # fmt: skip
-_TEXTS = ["", "a", "hair", "polygon", "mask", "circle", "12", "NaN", "x" * 3000, "\n", "a\nb\x1b[31m", "\ud800", "é" * 200, "1" * 629, "../../etc"]
+    0,
+    -0.0,
+    1,
+    -1,
+    2,
+    3.0,
+    0.5,
+    100,
+    1e3,
+    16384.0,
+    65536.0,
+    65536,
+    1e6,
+    -1e6,
+    1e6 + 1,
+    1e12,
+    1e-3,
+    1e-30,
+    1e-150,
+    1e-300,
+    5e-324,
+    1e308,
+    -1e308,
+    2**31,
+    2**53 + 1,
+    2**63,
+    2**64,
+    10**30,
+    10**629,
+    -(10**629),
+    float("nan"),
+    float("inf"),
+    float("-inf"),
+]
+_TEXTS = [
+    "",
+    "a",
+    "hair",
+    "polygon",
+    "mask",
+    "circle",
+    "12",
+    "NaN",
+    "x" * 3000,
+    "\n",
+    "a\nb\x1b[31m",
+    "\ud800",
+    "é" * 200,
+    "1" * 629,
+    "../../etc",
+]
 _KEYS = [
-    "width", "height", "runs", "points", "region", "motion", "type", "radius", "path", "body", "preset", "name", "density",
-    "youngs_modulus", "sway_frequency", "poisson_ratio", "stretch_limit", "stiffness_scale", "density_scale", "damping_scale",
-    "wind_response", "layer", "mesh", "vertices", "triangles", "interval", "speed", "end", "repeat", "falloff", "friction", "x\ny",
-    "", "__proto__", "k" * 5000, "7" * 629, "\u202e", "times", "easing", "keep_area", "phase", "period", "loop", "sag", "seed",
-]  # fmt: skip
+    "width",
+    "height",
+    "runs",
+    "points",
+    "region",
+    "motion",
+    "type",
+    "radius",
+    "path",
+    "body",
+    "preset",
+    "name",
+    "density",
+    "youngs_modulus",
+    "sway_frequency",
+    "poisson_ratio",
+    "stretch_limit",
+    "stiffness_scale",
+    "density_scale",
+    "damping_scale",
+    "wind_response",
+    "layer",
+    "mesh",
+    "vertices",
+    "triangles",
+    "interval",
+    "speed",
+    "end",
+    "repeat",
+    "falloff",
+    "friction",
+    "x\ny",
+    "",
+    "__proto__",
+    "k" * 5000,
+    "7" * 629,
+    "\u202e",
+    "times",
+    "easing",
+    "keep_area",
+    "phase",
+    "period",
+    "loop",
+    "sag",
+    "seed",
+]
 
 _FAR = {"type": "polygon", "points": [[0, 0], [1e6, 1], [1e6, 60]]}
 
@@ -119,7 +211,18 @@ def patches(count: int = 2, cells: int = 6) -> list[Body]:
 def _base(chance: random.Random) -> dict[str, Any]:
     """A good scene, often without some of its features."""
     document = copy.deepcopy(_SCENE)
-    for name in ("loop", "wind", "sag", "strokes", "rig_points", "contact", "colliders", "paint", "query_points", "bodies"):
+    for name in (
+        "loop",
+        "wind",
+        "sag",
+        "strokes",
+        "rig_points",
+        "contact",
+        "colliders",
+        "paint",
+        "query_points",
+        "bodies",
+    ):
         if chance.random() < 0.35:
             document.pop(name, None)
     if chance.random() < 0.3 and "bodies" in document:
@@ -147,7 +250,9 @@ def _vary(document: Any, chance: random.Random) -> None:
     if lists and chance.random() < 0.3:
         holder, key = chance.choice(lists)
         entries = holder[key]
-        holder[key] = chance.choice((entries * chance.choice((2, 9, 40)), entries[::-1], entries[: len(entries) // 2 + 1]))
+        holder[key] = chance.choice(
+            (entries * chance.choice((2, 9, 40)), entries[::-1], entries[: len(entries) // 2 + 1])
+        )
         return
     numbers = [(h, k) for h, k in places if type(h[k]) in (int, float) and abs(h[k]) < 1e300 and k != "version"]
     if numbers:
@@ -178,7 +283,11 @@ def _mutate(document: Any, chance: random.Random) -> None:
         lambda: [chance.choice(_NUMBERS) for _ in range(chance.randrange(5))],
     ]
     if isinstance(value, int | float) and not isinstance(value, bool):
-        ways += [lambda: str(value), lambda: value if abs(value) > 1e290 else value * 10.0 ** chance.randrange(-12, 12), lambda: -value] * 2
+        ways += [
+            lambda: str(value),
+            lambda: value if abs(value) > 1e290 else value * 10.0 ** chance.randrange(-12, 12),
+            lambda: -value,
+        ] * 2
     if isinstance(value, list):
         ways += [lambda: value * 40, lambda: value[:-1], lambda: [*value, *value[:1]], lambda: value[::-1]]
     if isinstance(holder, dict) and chance.random() < 0.25:
@@ -205,7 +314,12 @@ def _large(chance: random.Random) -> Any:
         [
             {"type": "mask", "width": whole(side), "height": whole(side), "runs": [side * side]},
             {"type": "mask", "width": whole(side), "height": whole(side), "runs": [0, side * side]},
-            {"type": "mask", "width": whole(side), "height": whole(side), "runs": [*stripes, side * side - sum(stripes)]},
+            {
+                "type": "mask",
+                "width": whole(side),
+                "height": whole(side),
+                "runs": [*stripes, side * side - sum(stripes)],
+            },
             {"type": "mask", "width": 600, "height": 600, "runs": [1] * 360_000},
             {"type": "mask", "width": 65536, "height": 500, "runs": [65536] * 500},
             {"type": "polygon", "points": wave},

@@ -80,7 +80,9 @@ class _Report:
         except Exception as error:
             self.outcomes["a fault"] += 1
             where = traceback.extract_tb(error.__traceback__)[-1]
-            self.faults.append(f"{seed} {stage}: {type(error).__name__} {error!s:.100} at {where.filename}:{where.lineno}")
+            self.faults.append(
+                f"{seed} {stage}: {type(error).__name__} {error!s:.100} at {where.filename}:{where.lineno}"
+            )
         self.slow.append((time.thread_time() - begun, seed, stage))
         self.large.append((_megabytes() - before, seed))
 
