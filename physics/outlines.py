@@ -18,11 +18,14 @@ from .collision import Collider
 from .contours import area_of, contours_at_half, resampled
 from .interruption import checkpoint
 from .leading import farthest_led
+from .limits import MAX_OUTLINE_POINTS
 from .rig import MaskRegion
 from .scene import Body, Scene
 
 __all__ = [
     "LEAST_SPACING",
+    "MAX_OUTLINE_CROSSINGS",
+    "OutlineCounts",
     "Window",
     "count_outlines",
     "crossed",
@@ -39,6 +42,10 @@ IndexArray = NDArray[np.int64]
 LEAST_SPACING = 2.0
 """Smallest distance between the points of a collider's outline [px]."""
 
+MAX_OUTLINE_CROSSINGS = 2**22
+"""Pixel edges between painted and empty, of all colliders' masks together: beyond, masks are noise."""
+
+_CROWD = 3.0  # spacings, about as far as a search for contacts looks around
 _AROUND = 2.0  # [side] that bodies may leave the picture or their places, besides where they are led
 _FARTHEST = 4.0  # [side] at most: nobody sees what touches out there
 _SMALLEST_COLLIDER = 4.0  # [px^2]
@@ -95,24 +102,59 @@ def spacing_of(bodies: Sequence[Body]) -> float:
     return max(float(np.median(np.concatenate(lengths))), LEAST_SPACING)
 
 
-def count_outlines(scene: Scene, spacing: float) -> tuple[int, int]:
-    """About how many points the outlines of all colliders have, and how many pixel edges masks have between them.
+class OutlineCounts(NamedTuple):
+    """How much the outlines of all colliders are, about.
+
+    Attributes:
+        points: points of all outlines, where bodies can come.
+        crossings: pixel edges that the outlines of masks follow.
+        crowding: pairs of points that lie in the same small square: a search meets every one of them.
+    """
+
+    points: int
+    crossings: int
+    crowding: int
+
+
+def count_outlines(scene: Scene, spacing: float) -> OutlineCounts:
+    """Measure the outlines of a scene's colliders without preparing them.
 
     Args:
         scene: the scene.
         spacing: between points [px].
     """
     window, points, crossings = window_of(scene), 0.0, 0
+    crowd: dict[tuple[int, int], float] = {}
     for collider in scene.colliders:
         checkpoint()
         if isinstance(collider.region, MaskRegion):
             mask = collider.region.mask
-            found, size = _crossings(mask), max(scene.width / mask.shape[1], scene.height / mask.shape[0])
+            scale = np.array([scene.width / mask.shape[1], scene.height / mask.shape[0]])
+            found = _crossings(mask)
             crossings += found
-            points += min(found, found * size / spacing)
-        else:
-            points += sum(_points_of(loop, spacing) for loop in _polygon(collider, window))
-    return math.ceil(points), crossings
+            points += min(found, found * scale.max() / spacing)
+            if crossings <= MAX_OUTLINE_CROSSINGS:
+                share = min(1.0, float(scale.max()) / spacing)
+                _add_to(crowd, _crossing_places(mask) * scale, share, spacing)
+            continue
+        for loop in _polygon(collider, window):
+            points += _points_of(loop, spacing)
+            if points <= MAX_OUTLINE_POINTS:
+                _add_to(crowd, _sampled(loop, spacing), 1.0, spacing)
+    return OutlineCounts(math.ceil(points), crossings, math.ceil(sum(count * count for count in crowd.values())))
+
+
+def _add_to(crowd: dict[tuple[int, int], float], places: FloatArray, share: float, spacing: float) -> None:
+    """Count places by the small squares in which they lie, each as a share of a point."""
+    squares, counts = np.unique(np.floor(places / (_CROWD * spacing)).astype(np.int64), axis=0, return_counts=True)
+    for (x, y), count in zip(squares.tolist(), counts.tolist(), strict=True):
+        crowd[x, y] = crowd.get((x, y), 0.0) + share * count
+
+
+def _crossing_places(mask: NDArray[np.bool_]) -> FloatArray:
+    """Where the outline of a mask passes between two pixels, in its pixels, shape [n, 2]."""
+    right, below = np.nonzero(mask[:, 1:] != mask[:, :-1]), np.nonzero(mask[1:] != mask[:-1])
+    return np.concatenate([np.column_stack(each[::-1]) for each in (right, below)]).astype(np.float64)
 
 
 def _crossings(mask: NDArray[np.bool_]) -> int:

@@ -10,7 +10,7 @@ import numpy as np
 from .contact_surface import outline_spacing
 from .errors import SimulationError, require
 from .limits import DEFAULT_MINUTES, MAX_OUTLINE_POINTS, MOST_MINUTES
-from .outlines import count_outlines
+from .outlines import MAX_OUTLINE_CROSSINGS, OutlineCounts, count_outlines
 from .particles import most_alive
 from .scene import Scene
 from .schedule import schedule
@@ -32,8 +32,8 @@ OUTLINE_WORK = 20.0
 CROSSING_WORK = 200.0
 """Work of following a mask's outline from one pixel to the next, once, in triangle updates."""
 
-MAX_CROSSINGS = 2**23
-"""Pixel edges between painted and empty, of all colliders' masks together: beyond, masks are noise."""
+CROWDING_WORK = 10.0
+"""Work of two points of outlines in the same small square in a tick, in triangle updates."""
 
 PARTICLE_WORK = 0.2
 """Work of one flow particle on one vertex in triangle updates."""
@@ -41,6 +41,9 @@ PARTICLE_WORK = 0.2
 
 CONTACT_WORK = 1.3
 """Factor on the work of bodies that touch."""
+
+
+NO_OUTLINES = OutlineCounts(0, 0, 0)
 
 
 @dataclass(frozen=True)
@@ -112,8 +115,9 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
     factor = 1.0 if scene.contact is None else CONTACT_WORK
     elastic = factor * system.substeps * triangles
     chosen = schedule(triangles, system.substeps, threads=None if scene.contact is None else 1)
-    points, crossings = (0, 0) if scene.contact is None else count_outlines(scene, outline_spacing(scene, system))
-    in_a_tick = float(elastic.sum()) + PARTICLE_WORK * alive * int(system.free.sum()) + OUTLINE_WORK * points
+    counts = NO_OUTLINES if scene.contact is None else count_outlines(scene, outline_spacing(scene, system))
+    outline_work = OUTLINE_WORK * counts.points + CROWDING_WORK * counts.crowding
+    in_a_tick = float(elastic.sum()) + PARTICLE_WORK * alive * int(system.free.sum()) + outline_work
     work = math.ceil(duration / TICK) * in_a_tick
     return SimulationPlan(
         frames=frames,
@@ -121,10 +125,10 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
         substeps=int(system.substeps.max()),
         triangles=int(system.active.sum()),
         particles=alive,
-        outline_points=points,
-        crossings=crossings,
+        outline_points=counts.points,
+        crossings=counts.crossings,
         work=work,
-        estimated_seconds=(work + CROSSING_WORK * crossings) / UPDATES_PER_SECOND,
+        estimated_seconds=(work + CROSSING_WORK * counts.crossings) / UPDATES_PER_SECOND,
         costliest_body=int(system.bodies[system.starts[elastic.argmax(), 0]]),
         sway=system.sway,
         alone=len(chosen.alone),
@@ -187,10 +191,10 @@ def _check_outlines(planned: SimulationPlan) -> None:
             f"The outlines of all colliders must have at most {MAX_OUTLINE_POINTS:,} points together; {remedy}."
             f" Got: {planned.outline_points:,}"
         )
-    if planned.crossings > MAX_CROSSINGS:
+    if planned.crossings > MAX_OUTLINE_CROSSINGS:
         raise SimulationError(
-            f"The outlines of all colliders' masks must pass at most {MAX_CROSSINGS:,} pixels together; paint them"
-            f" without specks, or smaller. Got: {planned.crossings:,}"
+            f"The outlines of all colliders' masks must pass at most {MAX_OUTLINE_CROSSINGS:,} pixels together; paint"
+            f" them without specks, or smaller. Got: {planned.crossings:,}"
         )
 
 

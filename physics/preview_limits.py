@@ -11,6 +11,7 @@ __all__ = [
     "MAX_OBJECTS",
     "MAX_PREPARED_BYTES",
     "MAX_PREVIEW_CROSSINGS",
+    "MAX_PREVIEW_CROWDING",
     "MAX_PREVIEW_MASK_PIXELS",
     "MAX_PREVIEW_OUTLINE_POINTS",
     "MAX_PREVIEW_PAINT_WORK",
@@ -54,6 +55,9 @@ MAX_PREVIEW_MASK_PIXELS = 2**25
 
 MAX_PREVIEW_OUTLINE_POINTS = 20_000
 """Points of the outlines of all colliders together, where bodies can come."""
+
+MAX_PREVIEW_CROWDING = 400_000
+"""Pairs of points of outlines that lie in the same small square; of an ordinary outline some ten a point."""
 
 MAX_PREVIEW_CROSSINGS = 2**19
 """Pixel edges that the outlines of all colliders' masks follow."""

@@ -19,6 +19,7 @@ from .preview_limits import (
     MAX_NESTING,
     MAX_OBJECTS,
     MAX_PREVIEW_CROSSINGS,
+    MAX_PREVIEW_CROWDING,
     MAX_PREVIEW_MASK_PIXELS,
     MAX_PREVIEW_OUTLINE_POINTS,
     MAX_PREVIEW_PAINT_WORK,
@@ -131,10 +132,12 @@ def _require_short_outlines(scene: Scene) -> None:
         return
     from .outlines import count_outlines, spacing_of
 
-    points, crossings = count_outlines(scene, spacing_of(scene.bodies))
+    points, crossings, crowding = count_outlines(scene, spacing_of(scene.bodies))
     remedy = "draw the colliders with fewer corners, or mesh more coarsely"
     _require_preview("points of colliders' outlines", points, MAX_PREVIEW_OUTLINE_POINTS, remedy)
     _require_preview("pixels along the edges of colliders' masks", crossings, MAX_PREVIEW_CROSSINGS, "paint no specks")
+    name = "pairs of points of colliders' outlines that lie close upon each other"
+    _require_preview(name, crowding, MAX_PREVIEW_CROWDING, remedy)
 
 
 def _require_preview(name: str, count: int, most: int, remedy: str) -> None:
