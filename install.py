@@ -1,8 +1,8 @@
 """Installs OpenCV for a ComfyUI host, where there is none; ComfyUI-Manager runs this after requirements.txt.
 
-The distributions of OpenCV (opencv-python, opencv-contrib-python, and either of them -headless) put their files into the
-same folder. So a cv2 that works is left alone, whatever its distribution and version: another extension may need what
-only that one has.
+The distributions of OpenCV (opencv-python, opencv-contrib-python, and either of them -headless) put their files into
+the same folder. So a cv2 that works is left alone, whatever its distribution and version: another extension may need
+what only that one has.
 """
 
 from __future__ import annotations
