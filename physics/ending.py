@@ -10,6 +10,7 @@ from __future__ import annotations
 import atexit
 import os
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -18,6 +19,7 @@ from .errors import Cancelled
 __all__ = ["stop_at_end", "working"]
 
 _LAST_SECONDS = 30.0  # that the end of the process waits: no stage is longer between two checkpoints, or few are
+_GRACE_SECONDS = 0.5  # and then for those threads themselves: they may be somebody's, which do not end
 
 _changed = threading.Condition()
 _at_work: dict[int, int] = {}  # sections by thread
@@ -62,7 +64,11 @@ def stop_at_end() -> None:
 def _finish() -> None:
     if _state["process"] != os.getpid():
         return
-    _state["ending"] = True
     this = threading.get_ident()
     with _changed:
+        _state["ending"] = True
+        stopped = [thread for thread in threading.enumerate() if thread.ident in set(_at_work) - {this}]
         _changed.wait_for(lambda: not set(_at_work) - {this}, _LAST_SECONDS)
+    until = time.monotonic() + _GRACE_SECONDS
+    for thread in stopped:  # which may still write that it was stopped
+        thread.join(max(0.0, until - time.monotonic()))

@@ -47,7 +47,7 @@ def receive(pipe: IO[bytes]) -> Any:
 
 
 def _exactly(pipe: IO[bytes], size: int) -> memoryview:
-    room = memoryview(aligned((size,), np.uint8))
+    room = memoryview(aligned((size,), np.uint8))  # type: ignore[arg-type]
     done = 0
     while done < size:
         got = pipe.readinto(room[done:])  # type: ignore[attr-defined]

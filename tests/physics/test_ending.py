@@ -1,0 +1,80 @@
+"""A process ends well although a thread of it still simulates: nobody is torn out of a compiled library."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+START = f"""\
+import sys, threading, time
+sys.path.insert(0, {str(Path(__file__).resolve().parents[1])!r})
+import conftest
+from physanimator.physics import ending
+from physanimator.physics.errors import Cancelled
+"""
+
+
+def ended(code: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-c", START + code], capture_output=True, text=True, timeout=60, check=False)
+
+
+def test_the_end_waits_for_work_and_tells_it_to_stop() -> None:
+    done = ended("""\
+def work():
+    try:
+        with ending.working():
+            begun.set()
+            for _ in range(1000):
+                time.sleep(0.02)
+                ending.stop_at_end()
+    except Cancelled as error:
+        print(error, flush=True)
+begun = threading.Event()
+threading.Thread(target=work, daemon=True).start()
+begun.wait()
+""")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "the process is ending\n", "")
+
+
+def test_whoever_ends_the_process_does_not_wait_for_itself_and_nothing_begins_any_more() -> None:
+    done = ended("""\
+import atexit
+def late():
+    try:
+        with ending.working():
+            pass
+    except Cancelled as error:
+        print(error)
+atexit.register(late)
+section = ending.working()
+section.__enter__()
+""")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "the process is ending\n", "")
+
+
+@pytest.mark.parametrize("seconds", [0.0, 0.15, 0.4])
+def test_a_simulation_in_a_daemon_thread_stops_at_the_end(seconds: float) -> None:
+    done = ended(f"""\
+import numpy as np
+from physanimator.physics.automatic import automatic_scene
+from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.scene import Body
+from physanimator.physics.simulation import simulate
+def work():
+    mask = np.zeros((96, 96), bool)
+    mask[10:80, 40:50] = True
+    try:
+        while True:
+            simulate(automatic_scene([Body(mesh_from_mask(mask))]), frames=30, progress=lambda *_: begun.set())
+    except Exception as error:
+        print(error, flush=True)
+begun = threading.Event()
+threading.Thread(target=work, daemon=True).start()
+begun.wait()
+time.sleep({seconds})
+""")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "the process is ending" in done.stdout
