@@ -21,6 +21,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from physanimator.nodes import preview_guard, preview_routes
 from physanimator.nodes.preview_routes import PreviewRoutes
+from physanimator.physics.interruption import checkpoint
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.preview_limits import MAX_EDITORS, MAX_REQUEST_BYTES
@@ -448,5 +449,56 @@ def test_whatever_comes_at_once_is_answered_and_leaves_nothing_behind(
         await asyncio.wait_for(asyncio.gather(*(one(server, changes) for changes in requests)), PATIENCE)
         await server.idle()
         assert len(server.routes.store) == 1
+
+    in_a_server(test)
+
+
+def test_colliders_far_out_leave_the_preview_to_others() -> None:
+    far = {"region": {"type": "polygon", "points": [[0, 0], [1e6, 1], [1e6, 60]]}}
+
+    async def test(server: Served) -> None:
+        scene = {**SCENE, "contact": {}, "colliders": [far, far]}
+        answers = [await server.ask(editor=str(number % 3), scene=scene, frames=2) for number in range(10)]
+        for answer in answers:
+            answer.close()
+        await server.idle()
+        assert (await server.stream(editor="other"))[-1][0] == END
+
+    in_a_server(test)
+
+
+def test_what_is_prepared_for_nobody_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    begun, ended = threading.Event(), threading.Event()
+
+    def endless(request: Any, of: Any) -> Any:
+        begun.set()
+        try:
+            while True:
+                checkpoint()
+                time.sleep(0.01)
+        finally:
+            ended.set()
+
+    monkeypatch.setattr(preview_routes, "preview_scene", endless)
+
+    async def test(server: Served) -> None:
+        asking = asyncio.ensure_future(server.ask())
+        while not begun.is_set():
+            await asyncio.sleep(0.01)
+        asking.cancel()
+        await server.idle()
+        assert ended.is_set()
+
+    in_a_server(test)
+
+
+def test_sizes_written_as_floats_are_counted() -> None:
+    mask = {"type": "mask", "width": 16384.0, "height": 16384.0, "runs": [16384**2]}
+
+    async def test(server: Served) -> None:
+        for scene in ({"rig_points": [{"position": [0, 0], "region": mask}]}, {"paint": [{"region": mask}]}):
+            answer = await server.ask(scene={**SCENE, **scene})
+            assert answer.status == 422
+            assert "at most 33,554,432 pixels" in (await answer.json())["error"]
 
     in_a_server(test)
