@@ -21,6 +21,7 @@ EXAMPLE = Path(__file__).resolve().parent / "workflows" / "example"
 FAILED = 1
 BAD_INPUT = 2
 INTERRUPTED = 130
+NOBODY_READS = 141
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -30,33 +31,56 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: what follows the program's name; the process's own when None.
 
     Returns:
-        The exit status: 0, 1 when the disk is full or the like, 2 for bad input, 130 when interrupted.
+        The exit status: 0, 1 when the disk is full or the like, 2 for bad input, 128 and the number of the signal that
+        ended it, which is 130 for Ctrl+C and 141 where nobody reads what is printed.
     """
-    options = _parser().parse_args(arguments)
-    from .physics.errors import PhysAnimatorError
+    from .rendering.command_messages import printable_streams, warn
+    from .rendering.ending import ending_signals, ignore_signals
+    from .rendering.unfinished import remove_unfinished
 
+    with printable_streams(), ending_signals():
+        try:
+            return _status(arguments)
+        except KeyboardInterrupt as ended:
+            ignore_signals()
+            status = getattr(ended, "status", INTERRUPTED)
+            warn("physanimator: interrupted" if status == INTERRUPTED else f"physanimator: ended by {ended}")
+            return status
+        finally:
+            remove_unfinished()
+
+
+def _status(arguments: Sequence[str] | None) -> int:
+    """Run a command, and say what went wrong."""
+    from .physics.errors import PhysAnimatorError
+    from .rendering.command_messages import warn
+
+    options = _parser().parse_args(arguments)
     try:
         options.run(options)
     except PhysAnimatorError as error:
-        print(f"physanimator: {error}", file=sys.stderr)
+        warn(f"physanimator: {error}")
         return BAD_INPUT
+    except BrokenPipeError:
+        return NOBODY_READS
     except OSError as error:
-        print(f"physanimator: {error}", file=sys.stderr)
+        warn(f"physanimator: {error}")
         return FAILED
-    except KeyboardInterrupt:
-        print("physanimator: interrupted", file=sys.stderr)
-        return INTERRUPTED
+    except MemoryError:
+        warn("physanimator: the memory does not suffice for a picture of this size")
+        return FAILED
     return 0
 
 
 def _parser() -> argparse.ArgumentParser:
     from .rendering.command_options import add_animate, add_demo, add_figure, add_measure
+    from .rendering.command_parsing import CommandParser, PictureParser
 
-    parser = argparse.ArgumentParser(
+    parser = CommandParser(
         prog="physanimator", description="Set parts of a still illustration in motion.", allow_abbrev=False
     )
     parser.add_argument("--version", action="version", version=f"physanimator {__version__}")
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=PictureParser)
     for name, run, add_options, summary in (
         ("animate", _animate, add_animate, "animate an illustration"),
         ("demo", _demo, add_demo, "animate the bundled example"),
@@ -75,16 +99,23 @@ def _schema(options: argparse.Namespace) -> None:
     import json
 
     from .physics.scene_json import scene_schema
+    from .rendering.command_messages import show
 
-    print(json.dumps(scene_schema(), indent=2))
+    show(json.dumps(scene_schema(), indent=2))
 
 
 def _demo(options: argparse.Namespace) -> None:
-    from .rendering.command_outputs import check_outputs
+    from .rendering.command_outputs import check_outputs, check_sizes
 
-    check_outputs(options)
+    check_outputs(options, bundled=_bundled())
     image, masks, scene = _example()
+    check_sizes(options, image)
     _run(options, image, masks=masks, scene=scene)
+
+
+def _bundled() -> list[Path]:
+    """What is read of the bundled example."""
+    return sorted(path for path in EXAMPLE.iterdir() if path.suffix in (".json", ".png"))
 
 
 def _example() -> tuple[Any, list[Any], Any]:
@@ -101,14 +132,20 @@ def _example() -> tuple[Any, list[Any], Any]:
 
 def _figure(options: argparse.Namespace) -> None:
     from .rendering.collision_figure import collision_figure
+    from .rendering.command_files import check_apart
+    from .rendering.command_messages import say
     from .rendering.figures import stiffness_figure, strokes_figure
     from .rendering.images import check_image_output, load_image, save_image
     from .rendering.preset_figure import presets_figure
 
+    check_apart(options, bundled=_bundled())
     check_image_output(options.output)
     with ExitStack() as bars:
-        stages = None if options.quiet else _progress_bars(bars)
-        progress = None if stages is None else lambda done, total: stages("simulate", done, total)
+        stages = _progress(options, bars)
+
+        def progress(done: int, total: int) -> None:
+            stages("simulate", done, total)
+
         if options.name == "stiffness":
             figure = stiffness_figure(progress=progress)
         elif options.name == "collision":
@@ -124,43 +161,48 @@ def _figure(options: argparse.Namespace) -> None:
             figure = strokes_figure(image, masks, scene, load_image(EXAMPLE / "clean_plate.png"), progress=progress)
     save_image(options.output, figure)
     if not options.quiet:
-        print(f"{options.output}: {figure.shape[1]} x {figure.shape[0]} px")
+        say(f"{options.output}: {figure.shape[1]} x {figure.shape[0]} px")
 
 
 def _animate(options: argparse.Namespace) -> None:
-    from .rendering.command_inputs import check_inputs, read_inputs
-    from .rendering.command_outputs import check_outputs
+    from .rendering.command_inputs import check_inputs, check_taken, read_inputs
+    from .rendering.command_outputs import check_outputs, check_sizes
 
     check_inputs(options)
     check_outputs(options)
     image, inputs = read_inputs(options)
+    check_taken(options, image)
+    check_sizes(options, image)
     _run(options, image, **inputs)
 
 
 def _measure(options: argparse.Namespace) -> None:
     from .pipeline import animate
     from .rendering.background import over
-    from .rendering.command_inputs import check_inputs, read_inputs
+    from .rendering.command_inputs import check_inputs, check_taken, read_inputs
     from .rendering.command_measures import check_measures, measured, table
+    from .rendering.command_messages import show
     from .rendering.images import load_image
 
     check_inputs(options)
     check_measures(options)
     image, inputs = read_inputs(options)
+    check_taken(options, image)
     image = over(image)  # clips are compared by their colours
     plate = load_image(options.plate) if options.plate else None
     timing = {"frames": options.frames, "loop": options.loop, "skip": options.skip, "frame_rate": options.fps}
     with ExitStack() as bars:
-        progress = None if options.quiet else _progress_bars(bars)
+        progress = _progress(options, bars)
         animation = animate(image, plate=plate, progress=progress, **timing, **inputs)
         found = measured(options, animation, progress)
-    print(table(found, as_json=options.json))
+    show(table(found, as_json=options.json))
 
 
 def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     """Animate, write everything that was asked for, and report."""
     from .physics.advice import advice
     from .pipeline import animate
+    from .rendering.command_messages import say, warn
     from .rendering.command_outputs import background_for, report, write_outputs
     from .rendering.images import load_image
     from .rendering.pixel_art import pixel_art_hint
@@ -169,9 +211,9 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     background_for(options, image)
     if not (options.pixel_art or options.quiet):
         for sentence in pixel_art_hint(image, option="--pixel-art"):
-            print(f"physanimator: hint: {sentence}", file=sys.stderr)
+            warn(f"physanimator: hint: {sentence}")
     with ExitStack() as bars:
-        progress = None if options.quiet else _progress_bars(bars)
+        progress = _progress(options, bars)
         animation = animate(
             image,
             frames=options.frames,
@@ -184,28 +226,32 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             **inputs,
         )
         for sentence in advice(animation.scene):
-            print(f"physanimator: warning: {sentence}", file=sys.stderr)
+            warn(f"physanimator: warning: {sentence}")
         write_outputs(options, animation, progress)
     if options.verbose:
         report(animation)
     if not options.quiet:
-        print(f"{options.output}: {len(animation)} frames at {animation.motion.frame_rate:g} frames a second")
+        say(f"{options.output}: {len(animation)} frames at {animation.motion.frame_rate:g} frames a second")
 
 
-def _progress_bars(stack: ExitStack) -> StageProgress:
-    """A bar on standard error for each stage, which appears with its first step."""
-    from tqdm import tqdm
+def _progress(options: argparse.Namespace, stack: ExitStack) -> StageProgress:
+    """What is called with every step: it draws bars, unless the user wants none, and hears signals."""
+    from .rendering.ending import hear_signals
 
-    bars: dict[str, Any] = {}
+    bars = None if options.quiet else _progress_bars(stack)
 
     def advance(stage: str, done: int, total: int) -> None:
-        if stage not in bars:
-            bars[stage] = stack.enter_context(tqdm(total=total, desc=f"{stage:<8}", unit="frame", file=sys.stderr))
-        bars[stage].update(done - bars[stage].n)
-        if done == total:
-            bars[stage].close()
+        hear_signals()
+        if bars is not None:
+            bars(stage, done, total)
 
     return advance
+
+
+def _progress_bars(stack: ExitStack) -> StageProgress | None:
+    from .rendering.command_messages import progress_bars
+
+    return progress_bars(stack)
 
 
 if __name__ == "__main__":

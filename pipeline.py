@@ -28,6 +28,9 @@ from .physics.scene import Body, Scene
 from .physics.simulation import simulate
 from .rendering.animation import Animation, StageProgress, timed
 from .rendering.background import over, renderer_of
+from .rendering.drawing_checks import check_count
+from .rendering.pixels import check_picture
+from .rendering.video import check_frame_rate
 
 __all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "Animation", "StageProgress", "animate"]
 
@@ -97,14 +100,18 @@ def animate(
     image = np.asarray(image)
     pictured = image.ndim == 3 and image.shape[2] in (3, 4)
     require("image", f"shape {image.shape}", pictured, "an RGB picture [h, w, 3] or an RGBA picture [h, w, 4]")
+    check_picture(image[..., :3])
+    plate = _checked_plate(plate, image)
     _check_frames(frames, skip)
+    if frame_rate is not None:
+        check_frame_rate(frame_rate)
     if isinstance(scene, Mapping):
         from .physics.scene_checking import check_document
 
         check_document(scene)
     with timed(seconds, "segment"):
         parts = (*(masks or ()), *_segmented(over(image), points or ()))
-    _check_parts(image, parts, plate)
+    _check_parts(image, parts)
     with timed(seconds, "mesh"):
         meshes = [mesh_from_mask(each, spacing=spacing) for each in parts]
     with timed(seconds, "scene"):
@@ -132,9 +139,22 @@ def animate(
     return Animation(image, parts, whole, motion, renderer, skip, seconds)
 
 
+def _checked_plate(plate: Image | None, image: Image) -> Image | None:
+    """The plate as an array, which suits the picture: the renderer, which needs it, comes after the simulation."""
+    if plate is None:
+        return None
+    plate = np.asarray(plate)
+    if plate.shape not in ((*image.shape[:2], 3), (*image.shape[:2], 4)):
+        raise InvalidInputError(f"plate must have the picture's shape, {image.shape}. Got: {plate.shape}")
+    check_picture(plate[..., :3])
+    require("plate", plate.dtype, plate.dtype == image.dtype, f"of the picture's type, {image.dtype}")
+    return plate
+
+
 def _check_frames(frames: int | None, skip: int) -> None:
+    check_count("skip", skip, least=0)
     if frames is not None:
-        require("frames", frames, frames >= 1, "at least 1")
+        check_count("frames", frames)
         require("skip", skip, 0 <= skip < frames, f"at least 0 and below the number of frames ({frames})")
 
 
@@ -150,7 +170,7 @@ def _segmented(image: Image, points: Sequence[Any]) -> Iterator[Mask]:
         yield segment(image, [(p.x, p.y) for p in clicked], [int(p.positive) for p in clicked])
 
 
-def _check_parts(image: Image, parts: Sequence[Mask], plate: Image | None) -> None:
+def _check_parts(image: Image, parts: Sequence[Mask]) -> None:
     height, width = image.shape[:2]
     if not parts:
         raise InvalidInputError("an animation needs at least one mask, or points on a part. Got: neither")
@@ -159,8 +179,6 @@ def _check_parts(image: Image, parts: Sequence[Mask], plate: Image | None) -> No
             raise InvalidInputError(
                 f"masks[{number}] must have the picture's shape, [{height}, {width}]. Got: {list(np.shape(mask))}"
             )
-    if plate is not None and np.shape(plate) not in ((height, width, 3), (height, width, 4)):
-        raise InvalidInputError(f"plate must have the picture's shape, {image.shape}. Got: {np.shape(plate)}")
 
 
 def _layered(meshes: Sequence[TriangleMesh], materials: Sequence[Material]) -> list[Body]:

@@ -9,6 +9,7 @@ import threading
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
 
+from ..physics.errors import InvalidInputError
 from ..physics.preview_store import PreviewBodies
 
 __all__ = ["Plates"]
@@ -57,7 +58,7 @@ def _png_of(stored: PreviewBodies) -> bytes:
 
     from ..rendering.clean_plate import clean_plate
 
-    assert stored.picture is not None
-    assert stored.hole is not None
+    if stored.picture is None or stored.hole is None:
+        raise InvalidInputError("the illustration must be connected to image. Got: none")
     plate = clean_plate(stored.picture, stored.hole)
     return bytes(cv2.imencode(".png", plate[..., ::-1], [cv2.IMWRITE_PNG_COMPRESSION, 1])[1])

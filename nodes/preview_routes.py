@@ -10,6 +10,7 @@ import asyncio
 import functools
 import itertools
 import logging
+import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -17,6 +18,8 @@ from typing import Any
 
 from aiohttp import web
 
+from ..physics.errors import Cancelled, SimulationError
+from ..physics.interruption import interruptible
 from ..physics.preview_limits import MAX_EDITORS, MAX_REQUEST_BYTES
 from ..physics.preview_queue import RecordQueue
 from ..physics.preview_records import encode_mesh
@@ -32,6 +35,7 @@ _FORGOTTEN = "The server does not hold these bodies any more: run the graph once
 _EXAMPLE = Path(__file__).resolve().parents[1] / "workflows" / "example" / "illustration.png"
 _WRITE_SECONDS = 60.0
 _POLL_SECONDS = 0.25
+_CHECK_SECONDS = 20.0
 
 
 class PreviewRoutes:
@@ -85,7 +89,7 @@ class PreviewRoutes:
         stored = self._stored(request)
         if stored is None:
             return refused(404, _FORGOTTEN)
-        body = await self._on_a_thread(encode_mesh, stored)
+        body = await self._on_a_thread(_Patience(request), encode_mesh, stored)
         return web.Response(body=body, content_type="application/octet-stream", headers=KEEP_NOTHING)
 
     async def plate(self, request: web.Request) -> web.StreamResponse:
@@ -105,12 +109,13 @@ class PreviewRoutes:
         body = await body_of(request)
         if body is None:
             return refused(413, f"The scene must be at most {MAX_REQUEST_BYTES >> 20} MB of text.")
-        wanted: PreviewRequest = await self._on_a_thread(read_request, body)
+        check = _Patience(request)
+        wanted: PreviewRequest = await self._on_a_thread(check, read_request, body)
         stored = self.store.get(wanted.key)
         if stored is None:
             return refused(404, _FORGOTTEN)
-        scene, frames = await self._on_a_thread(preview_scene, wanted, stored.bodies)
-        prepared = await self._on_a_thread(self.runs.prepare, scene)
+        scene, frames = await self._on_a_thread(check, preview_scene, wanted, stored.bodies)
+        prepared = await self._on_a_thread(check, self.runs.prepare, scene)
         run = self.runs.enter(wanted.editor, order, prepared)
         if run is None:
             return refused(429, BUSY)
@@ -146,8 +151,35 @@ class PreviewRoutes:
             await response.write_eof()
         return response
 
-    async def _on_a_thread(self, call: Callable[..., Any], *arguments: Any) -> Any:
-        return await asyncio.get_running_loop().run_in_executor(self.threads, functools.partial(call, *arguments))
+    async def _on_a_thread(self, check: Callable[[], None], call: Callable[..., Any], *arguments: Any) -> Any:
+        """The result of a call, which is given up at its next checkpoint once ``check`` raises."""
+
+        def checked() -> Any:
+            check()
+            with interruptible(check):
+                return call(*arguments)
+
+        return await asyncio.get_running_loop().run_in_executor(self.threads, checked)
+
+
+class _Patience:
+    """Ends what is prepared for a request when nobody waits for it any more, or when it takes too long."""
+
+    def __init__(self, request: web.Request) -> None:
+        self._request, self._end = request, time.monotonic() + _CHECK_SECONDS
+
+    def __call__(self) -> None:
+        """
+        Raises:
+            Cancelled: the client is gone.
+            SimulationError: the time is over.
+        """
+        if _is_gone(self._request):
+            raise Cancelled("The editor is gone.")
+        if time.monotonic() > self._end:
+            raise SimulationError(
+                "This takes too long to prepare for a live preview; draw with fewer points, or queue the graph."
+            )
 
 
 async def _ended(simulating: asyncio.Future[None]) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .checks import within
 from .errors import require
 from .points import Scale
 from .rig import MaskRegion, Polygon
@@ -30,8 +31,10 @@ class Contact:
     self_contact: bool = False
 
     def __post_init__(self) -> None:
-        require("friction", self.friction, 0 <= self.friction <= 1, "0 to 1")
-        require("thickness", self.thickness, 0 < self.thickness <= 100, "above 0 and at most 100 px")
+        require("friction", self.friction, within(self.friction, 0, 1), "0 to 1")
+        require("thickness", self.thickness, within(self.thickness, 0, 100, above=True), "above 0 and at most 100 px")
+        given = isinstance(self.self_contact, bool)
+        require("self_contact", self.self_contact, given, "True or False")
 
     def rescaled(self, scale: Scale) -> Contact:
         """The same contact over the picture at another size."""

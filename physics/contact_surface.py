@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .collision import Collider, Contact
-from .contours import area_of, contours_at_half, resampled
-from .rig import MaskRegion
+from .collision import Contact
+from .interruption import checkpoint
+from .outlines import LEAST_SPACING, crossed, outlines, segment_distances, window_of, within_reach
 from .scene import Scene
 from .system import System
 
@@ -37,6 +37,7 @@ __all__ = [
     "WALKED",
     "ContactSurface",
     "contact_surface",
+    "outline_spacing",
     "signed_distances",
 ]
 
@@ -77,8 +78,6 @@ SPACING, SPEED = range(2)
 TOUCHING, STEPS = range(2)
 """Places of the numbers in ``ContactSurface.activity``."""
 
-_LEAST_SPACING = 2.0  # [px] between the points of a collider's outline
-_SMALLEST_COLLIDER = 4.0  # [px^2]
 _PAIRS_AT_ONCE = 1 << 17  # of a point and an edge, each some 100 bytes
 
 
@@ -152,12 +151,11 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
     """The surfaces of a scene, and the vertices of its colliders [side], shape [c, 2]."""
     side = scene.bodies[0].mesh.longest_side
     body_edges = _boundary_edges(system.rest.triangles)
-    lengths = np.linalg.norm(np.diff(system.rest.positions[body_edges], axis=1)[:, 0], axis=1)
-    spacing = max(float(np.median(lengths)) * side, _LEAST_SPACING)
+    spacing, window = outline_spacing(scene, system), window_of(scene)
     count, parts = len(system.parts), int(system.parts[-1]) + 1
     positions, edges, edge_parts = [], [body_edges], [system.parts[body_edges[:, 0]]]
     for number, collider in enumerate(scene.colliders):
-        for loop in _outlines(collider, scene.width, scene.height, spacing):
+        for loop in outlines(collider, scene.width, scene.height, spacing, window):
             along = np.arange(len(loop))
             edges.append((np.column_stack([along, (along + 1) % len(loop)]) + count).astype(np.int32))
             edge_parts.append(np.full(len(loop), parts + number, dtype=np.int32))
@@ -215,14 +213,15 @@ def signed_distances(points: FloatArray, starts: FloatArray, ends: FloatArray) -
 
 def _signed_distances(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
     """The same with every edge beside every point in memory."""
-    edge_x, edge_y = (ends - starts).T
-    x, y = points[:, :1] - starts[:, 0], points[:, 1:] - starts[:, 1]  # from the edges' starts, shape [n, e]
-    t = np.clip((x * edge_x + y * edge_y) / np.maximum(edge_x**2 + edge_y**2, 1e-30), 0.0, 1.0)
-    square = (x - t * edge_x) ** 2 + (y - t * edge_y) ** 2
-    spans = (y < 0) != (points[:, 1:] < ends[:, 1])
-    crossed = spans & (x < edge_x * (y / np.where(edge_y == 0.0, 1.0, edge_y)))
-    distance = np.sqrt(square.min(axis=1, initial=np.inf))
-    return np.where(crossed.sum(axis=1) % 2 == 1, -distance, distance)
+    distance = segment_distances(points, starts, ends)
+    return np.where(crossed(points, starts, ends) % 2 == 1, -distance, distance)
+
+
+def outline_spacing(scene: Scene, system: System) -> float:
+    """Distance of the points of colliders' outlines [px]: that of the bodies' boundary vertices."""
+    edges = _boundary_edges(system.rest.triangles)
+    lengths = np.linalg.norm(np.diff(system.rest.positions[edges], axis=1)[:, 0], axis=1)
+    return max(float(np.median(lengths)) * scene.bodies[0].mesh.longest_side, LEAST_SPACING)
 
 
 def _boundary_edges(triangles: Int32Array) -> Int32Array:
@@ -241,32 +240,6 @@ def _neighbours(edges: Int32Array) -> Int32Array:
     return np.column_stack([ending[edges[:, 0]], beginning[edges[:, 1]]])
 
 
-def _outlines(collider: Collider, width: int, height: int, spacing: float) -> list[FloatArray]:
-    """Closed outlines wound as mesh boundaries are, their points a spacing apart [px], each of shape [n, 2]."""
-    if isinstance(collider.region, MaskRegion):
-        mask = collider.region.mask
-        scale = np.array([width, height]) / mask.shape[::-1]
-        found = contours_at_half(np.pad(mask.astype(np.float32), 1))
-        loops = [(loop - 1.0) * scale for loop in found if abs(area_of(loop)) >= _SMALLEST_COLLIDER]
-    else:
-        loop = np.array(collider.region.points)
-        loops = [loop if area_of(loop) < 0 else loop[::-1]]
-    return [_sampled(loop, spacing) for loop in loops]
-
-
-def _sampled(loop: FloatArray, spacing: float) -> FloatArray:
-    """A polygon with its corners kept and long edges divided, or a dense one thinned out."""
-    lengths = np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1)
-    if np.median(lengths) < spacing / 2:
-        return resampled(loop, lambda points: np.full(len(points), spacing))
-    pieces = [
-        a + (b - a) * (np.arange(n) / n)[:, None]
-        for a, b, n in zip(loop, np.roll(loop, -1, axis=0), np.ceil(lengths / spacing).astype(int), strict=True)
-        if n
-    ]
-    return np.concatenate(pieces)
-
-
 def _overlaps(
     rest: FloatArray,
     points: Int32Array,
@@ -277,8 +250,9 @@ def _overlaps(
     thickness: float,
 ) -> tuple[Int32Array, Int32Array, Float32Array]:
     """Which points are inside or nearly touch which other part at rest, and the distance that they keep from it."""
-    found: list[tuple[int, int, float]] = []
+    numbers, others, distances = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)], [np.zeros(0)]
     for part in range(parts):
+        checkpoint()
         own = edges[edge_parts == part]
         if not len(own):
             continue
@@ -286,14 +260,14 @@ def _overlaps(
         low, high = corners.min(axis=0) - thickness, corners.max(axis=0) + thickness
         around = ((rest[points] > low) & (rest[points] < high)).all(axis=1) & (point_parts != part)
         near = np.flatnonzero(around)
-        distance = signed_distances(rest[points[near]], corners, rest[own[:, 1]])
-        found += [(int(n), part, float(d)) for n, d in zip(near, distance, strict=True) if d < thickness]
-    found.sort()
-    counts = np.bincount([n for n, _, _ in found] or [0], minlength=len(points)) if found else np.zeros(len(points))
-    first = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
-    kept = found or [(0, -1, 0.0)]
-    return (
-        first,
-        np.array([part for _, part, _ in kept], dtype=np.int32),
-        np.array([distance for _, _, distance in kept], dtype=np.float32),
-    )
+        if len(near):
+            found, distance = within_reach(rest[points[near]], corners, rest[own[:, 1]], thickness)
+            numbers.append(near[found])
+            others.append(np.full(len(found), part))
+            distances.append(distance)
+    number, other, distance = np.concatenate(numbers), np.concatenate(others), np.concatenate(distances)
+    first = np.concatenate([[0], np.cumsum(np.bincount(number, minlength=len(points)))]).astype(np.int32)
+    if not len(number):  # the kernel wants an entry
+        return first, np.array([-1], np.int32), np.zeros(1, np.float32)
+    order = np.lexsort((other, number))
+    return first, other[order].astype(np.int32), distance[order].astype(np.float32)

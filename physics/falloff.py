@@ -17,7 +17,7 @@ from .mesh import TriangleMesh
 from .rig import RigPoint
 from .rigging import distances_of
 
-__all__ = ["FIRMNESS", "grips_of"]
+__all__ = ["FIRMNESS", "grip_at", "grips_of"]
 
 FIRMNESS = 2 * math.pi * 10
 """Angular frequency of the spring at the region's edge [1/s]: well above any sway, so that it follows closely there."""
@@ -43,7 +43,12 @@ def grips_of(
     grips, grippers = np.zeros(len(mesh.vertices)), np.full(len(mesh.vertices), -1, dtype=np.int32)
     for index, rig_point in enumerate(rig_points):
         if rig_point.falloff > 0 and rig_point.body in (None, body):
-            grip = np.clip(1 - distances_of(rig_point, mesh) / max(rig_point.falloff, _NARROWEST), 0.0, 1.0)
+            grip = grip_at(distances_of(rig_point, mesh), rig_point.falloff)
             firmer = (grip > 0) & (grip >= grips)
             grips[firmer], grippers[firmer] = grip[firmer], index
     return grips, grippers
+
+
+def grip_at(distances: NDArray[np.float64], falloff: float) -> NDArray[np.float64]:
+    """Grip g at distances from a region whose pull fades out within a falloff [px], 0..1, shape [n]."""
+    return np.clip(1 - distances / max(falloff, _NARROWEST), 0.0, 1.0)

@@ -36,9 +36,9 @@ def given_scene(
         InvalidInputError: the scene has another number of bodies, or is wrong.
     """
     if not isinstance(scene, Scene):
-        from .scene_json import scene_from_dict
+        from .scene_json import scene_from_checked
 
-        scene = scene_from_dict(scene, meshes=_missing_meshes(scene, meshes))
+        scene = scene_from_checked(scene, meshes=_missing_meshes(scene, meshes))
     if len(scene.bodies) != len(meshes):
         raise InvalidInputError(
             f"scene must have one body for each of the {len(meshes)} masks. Got: {len(scene.bodies)} bodies"

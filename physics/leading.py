@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .easing import eased, eased_rate
-from .rig import Combined, RigMotion
+from .rig import Combined, KeyedPath, RigMotion, RigPoint, Wave
 from .rig_turns import Pulse, Rotation, Squash, Swing
 from .rigging import displacement, velocity
 
-__all__ = ["Lead", "lead", "linear_part"]
+__all__ = ["Lead", "farthest_led", "lead", "linear_part"]
 
 FloatArray = NDArray[np.float64]
 
@@ -47,6 +47,32 @@ def lead(motion: RigMotion, position: tuple[float, float], t: NDArray[np.floatin
         np.column_stack([change.reshape(-1, 4), displacement(motion, t) - change @ centre]),
         np.column_stack([rate.reshape(-1, 4), velocity(motion, t) - rate @ centre]),
     )
+
+
+def farthest_led(rig_point: RigPoint, low: FloatArray, high: FloatArray) -> float:
+    """A bound on how far a rig point leads anything that lies within a box [px].
+
+    Args:
+        rig_point: the rig point.
+        low: corner of the box [px], shape [2].
+        high: the opposite corner.
+    """
+    corner = np.maximum(np.abs(low - rig_point.position), np.abs(high - rig_point.position))
+    arm, way, growth = float(np.hypot(*corner)), 0.0, 1.0
+    motions = rig_point.motion.motions if isinstance(rig_point.motion, Combined) else (rig_point.motion,)
+    turns = False
+    for motion in motions:
+        if isinstance(motion, KeyedPath):
+            way += float(np.hypot(*(np.array(motion.points) - motion.points[0]).T).max())
+        elif isinstance(motion, Wave):
+            way += 2 * abs(motion.amplitude)
+        elif isinstance(motion, Rotation | Swing):
+            turns = True
+        elif isinstance(motion, Pulse):
+            growth *= max(motion.stretch, 1 / motion.stretch) ** 2
+        elif isinstance(motion, Squash):
+            growth *= max(motion.factors) / min(motion.factors)
+    return way + arm * (growth + 1 if turns else growth - 1 if growth > 1 else 0.0)
 
 
 def linear_part(motion: RigMotion, t: ArrayLike) -> tuple[FloatArray, FloatArray]:

@@ -9,6 +9,7 @@ __all__ = [
     "MAX_DOCUMENT_BYTES",
     "MAX_LOOP",
     "MAX_MASK_PIXELS",
+    "MAX_OUTLINE_POINTS",
     "MAX_PAINT",
     "MAX_PARTICLES",
     "MAX_PARTICLES_OF_STROKE",
@@ -20,6 +21,7 @@ __all__ = [
     "MAX_STROKES",
     "MAX_TRIANGLES",
     "MAX_VERTICES",
+    "MOST_MINUTES",
     "STIFFEST",
 ]
 
@@ -28,6 +30,12 @@ LARGEST = 1_000_000
 
 STIFFEST = 1e12
 """Largest Young's modulus [density side^2 / s^2]."""
+
+MOST_MINUTES = 10_000.0
+"""Most minutes of computing that a simulation may be allowed: a week."""
+
+MAX_OUTLINE_POINTS = 200_000
+"""Points of the outlines of all colliders together, where bodies can come."""
 
 MAX_BODIES = 100
 MAX_COLLIDERS = 100

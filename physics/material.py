@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .checks import within
 from .errors import InvalidInputError, require
 from .limits import LARGEST, STIFFEST
 
@@ -56,16 +57,20 @@ class Material:
     wind_response: float = 1.0
 
     def __post_init__(self) -> None:
-        bounded = 0 < self.youngs_modulus <= STIFFEST
+        bounded = within(self.youngs_modulus, 0, STIFFEST, above=True)
         require("youngs_modulus", self.youngs_modulus, bounded, f"above 0 and at most {STIFFEST:g}")
-        require("poisson_ratio", self.poisson_ratio, 0 <= self.poisson_ratio < 0.5, "at least 0 and below 0.5")
-        require("density", self.density, 0 < self.density <= LARGEST, f"above 0 and at most {LARGEST}")
-        require("damping", self.damping, 0 <= self.damping <= LARGEST, f"0 to {LARGEST} per second")
+        narrow = within(self.poisson_ratio, 0, 0.5, below=True)
+        require("poisson_ratio", self.poisson_ratio, narrow, "at least 0 and below 0.5")
+        heavy = within(self.density, 0, LARGEST, above=True)
+        require("density", self.density, heavy, f"above 0 and at most {LARGEST}")
+        require("damping", self.damping, within(self.damping, 0, LARGEST), f"0 to {LARGEST} per second")
         if self.sway_frequency is not None:
-            require("sway_frequency", self.sway_frequency, 0.001 <= self.sway_frequency <= 1_000, "0.001 to 1000 Hz")
+            swaying = within(self.sway_frequency, 0.001, 1_000)
+            require("sway_frequency", self.sway_frequency, swaying, "0.001 to 1000 Hz")
         if self.stretch_limit is not None:
-            require("stretch_limit", self.stretch_limit, 1 <= self.stretch_limit <= LARGEST, f"1 to {LARGEST}")
-        require("wind_response", self.wind_response, 0 <= self.wind_response <= LARGEST, f"0 to {LARGEST}")
+            require("stretch_limit", self.stretch_limit, within(self.stretch_limit, 1, LARGEST), f"1 to {LARGEST}")
+        require("wind_response", self.wind_response, within(self.wind_response, 0, LARGEST), f"0 to {LARGEST}")
+        require("name", self.name, isinstance(self.name, str), "a text")
         for field in SCALES:
             if getattr(self, field) is not None:
                 object.__setattr__(self, field, _checked_scale(field, getattr(self, field)))
@@ -82,9 +87,14 @@ class Material:
 
 
 def _checked_scale(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    scale = np.array(values, dtype=np.float64)
-    if scale.ndim != 1 or not ((scale > 0) & (scale <= LARGEST)).all():
-        raise InvalidInputError(f"{name} must be one factor a triangle, above 0 and at most {LARGEST}. Got: {scale}")
+    expected = f"one factor a triangle, above 0 and at most {LARGEST}"
+    try:
+        scale = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise InvalidInputError(f"{name} must be {expected}. Got: {values!r:.60}") from None
+    require(name, f"shape {scale.shape}", scale.ndim == 1, expected)
+    wrong = scale[~((scale > 0) & (scale <= LARGEST))]
+    require(name, wrong[:1], not len(wrong), expected)
     scale.setflags(write=False)
     return scale
 
@@ -106,12 +116,12 @@ PRESETS: dict[str, Material] = {
 }
 
 
-def preset(name: str, **changes: Any) -> Material:
-    """The preset called ``name`` with fields replaced by ``changes``.
+def preset(preset_name: str, /, **changes: Any) -> Material:
+    """The preset of a name with fields, its ``name`` among them, replaced by ``changes``.
 
     Raises:
         InvalidInputError: there is no such preset.
     """
-    if name not in PRESETS:
-        raise InvalidInputError(f"preset must be one of {', '.join(PRESETS)}. Got: {name!r}")
-    return replace(PRESETS[name], **changes)
+    if not isinstance(preset_name, str) or preset_name not in PRESETS:
+        raise InvalidInputError(f"preset must be one of {', '.join(PRESETS)}. Got: {preset_name!r:.60}")
+    return replace(PRESETS[preset_name], **changes)

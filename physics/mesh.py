@@ -5,16 +5,21 @@ from __future__ import annotations
 import hashlib
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import InvalidInputError
+from .checks import is_whole
+from .errors import InvalidInputError, require
 
 __all__ = ["TriangleMesh"]
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
+
+_FARTHEST = 1e12  # [px]: squares of lengths stay far from what a float can bear
+_LARGEST_SIDE = 2**31 - 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,8 +43,8 @@ class TriangleMesh:
     height: int
 
     def __post_init__(self) -> None:
-        vertices = np.array(self.vertices, dtype=np.float64, order="C")
-        triangles = np.array(self.triangles, dtype=np.int32, order="C")
+        vertices = _array_of("vertices", self.vertices, np.float64, "[v, 2]")
+        triangles = _array_of("triangles", self.triangles, np.int32, "[t, 3]")
         if vertices.ndim != 2 or vertices.shape[1] != 2 or len(vertices) < 3:
             raise InvalidInputError(f"vertices must have shape [v, 2] with v >= 3. Got: {vertices.shape}")
         if triangles.ndim != 2 or triangles.shape[1] != 3 or len(triangles) < 1:
@@ -50,8 +55,14 @@ class TriangleMesh:
             raise InvalidInputError(
                 f"triangles must index the {len(vertices)} vertices. Got: {triangles.min()} to {triangles.max()}"
             )
-        if self.width < 1 or self.height < 1:
-            raise InvalidInputError(f"width and height must be at least 1 px. Got: {self.width} x {self.height}")
+        far = vertices[(np.abs(vertices) > _FARTHEST).any(axis=1)]
+        require("vertices", far[:1], not len(far), f"pixel coordinates from -{_FARTHEST:g} to {_FARTHEST:g}")
+        sides = (self.width, self.height)
+        if not all(is_whole(side, 1, _LARGEST_SIDE) for side in sides):
+            shown = " x ".join(str(side)[:30] for side in sides)
+            raise InvalidInputError(f"width and height must be at least 1 px, and whole numbers. Got: {shown}")
+        object.__setattr__(self, "width", int(self.width))
+        object.__setattr__(self, "height", int(self.height))
         a, b, c = (vertices[triangles[:, k]] for k in range(3))
         signed = _signed_areas(a, b, c)
         if (signed == 0).any():
@@ -121,6 +132,13 @@ class TriangleMesh:
     def _half_edges(self) -> IndexArray:
         t = self.triangles
         return np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]])
+
+
+def _array_of(name: str, values: object, kind: type, shape: str) -> NDArray[Any]:
+    try:
+        return np.array(values, dtype=kind, order="C")
+    except (TypeError, ValueError, OverflowError):
+        raise InvalidInputError(f"{name} must be numbers of shape {shape}. Got: {values!r:.60}") from None
 
 
 def _signed_areas(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import InvalidInputError
+from .checks import require_kind, within
+from .errors import InvalidInputError, require
 from .scene import Body
 
 __all__ = ["LoopReport", "Motion"]
@@ -49,8 +50,15 @@ class Motion:
     loop: LoopReport | None = None
 
     def __post_init__(self) -> None:
+        require_kind("bodies", self.bodies, (tuple, list), "a list of bodies")
+        for number, body in enumerate(self.bodies):
+            require_kind(f"bodies[{number}]", body, Body, "of type Body")
+        require("frame_rate", self.frame_rate, within(self.frame_rate, 0, above=True), "above 0 frames a second")
         count = sum(len(body.mesh.vertices) for body in self.bodies)
-        positions = np.ascontiguousarray(self.positions, dtype=np.float32)
+        try:
+            positions = np.ascontiguousarray(self.positions, dtype=np.float32)
+        except (TypeError, ValueError, OverflowError):
+            raise InvalidInputError(f"positions must be numbers of shape [f, {count}, 2]. Got: other things") from None
         if not self.bodies:
             raise InvalidInputError("a motion needs at least one body. Got: none")
         if positions.ndim != 3 or positions.shape[1:] != (count, 2) or len(positions) < 1:

@@ -10,9 +10,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from .checks import is_whole, within
 from .errors import InvalidInputError, require
+from .interruption import checkpoint
 from .limits import MAX_BODIES
-from .painting import painted
+from .painting import mask_means, painted_by_means
 from .points import Scale
 from .rig import MaskRegion, Polygon
 
@@ -50,13 +52,14 @@ class Paint:
             raise InvalidInputError(f"region must be a polygon or a mask. Got: {type(self.region).__name__}")
         for name in QUANTITIES:
             factor = getattr(self, name)
-            require(name, factor, LEAST_FACTOR <= factor <= MOST_FACTOR, f"{LEAST_FACTOR} to {MOST_FACTOR}")
+            require(name, factor, within(factor, LEAST_FACTOR, MOST_FACTOR), f"{LEAST_FACTOR} to {MOST_FACTOR}")
         require(
             "body",
             self.body,
-            self.body is None or 0 <= self.body <= MAX_BODIES - 1,
+            self.body is None or is_whole(self.body, 0, MAX_BODIES - 1),
             f"a body's number, 0 to {MAX_BODIES - 1}",
         )
+        object.__setattr__(self, "body", None if self.body is None else int(self.body))
 
     def rescaled(self, scale: Scale) -> Paint:
         """The same over the picture at another size."""
@@ -71,16 +74,16 @@ def with_paint(bodies: Sequence[Body], paint: Sequence[Paint]) -> tuple[Body, ..
     """
     result = list(bodies)
     for entry in paint:
-        factors = {name: getattr(entry, name) for name in QUANTITIES if getattr(entry, name) != 1.0}
-        for number, body in enumerate(result):
-            if factors and entry.body in (None, number):
-                mask = _mask(entry.region, body.mesh)
-                for name, factor in factors.items():
-                    layer = {name: mask}
-                    result[number] = replace(
-                        result[number],
-                        material=painted(result[number].material, body.mesh, low=1.0, high=factor, **layer),
-                    )
+        factors = {name: (1.0, getattr(entry, name)) for name in QUANTITIES if getattr(entry, name) != 1.0}
+        numbers = [number for number in range(len(result)) if entry.body in (None, number)]
+        if not factors or not numbers:
+            continue
+        mask = _mask(entry.region, result[0].mesh)  # all bodies are over one picture
+        for number in numbers:
+            checkpoint()
+            body = result[number]
+            material = painted_by_means(body.material, mask_means(mask, body.mesh), factors)
+            result[number] = replace(body, material=material)
     return tuple(result)
 
 
@@ -94,4 +97,4 @@ def _mask(region: Polygon | MaskRegion, mesh: TriangleMesh) -> NDArray[np.bool_]
     corners = np.rint((np.array(region.points) * factors - 0.5) * 16).clip(-(2**27), 2**27).astype(np.int32)
     filled = np.zeros(size, dtype=np.uint8)
     cv2.fillPoly(filled, [corners], 1, shift=4)
-    return filled.astype(bool)
+    return filled.view(bool)

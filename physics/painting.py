@@ -5,19 +5,21 @@ Each triangle takes the mean of the mask over it and with it a factor between tw
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .checks import within
 from .errors import require
 from .limits import LARGEST
 from .masks import coverage_of
 from .material import Material
 from .mesh import TriangleMesh
 
-__all__ = ["mask_means", "painted"]
+__all__ = ["mask_means", "painted", "painted_by_means"]
 
 FloatArray = NDArray[np.float64]
 
@@ -52,17 +54,30 @@ def painted(
             mesh.
     """
     for name, factor in (("low", low), ("high", high)):
-        require(name, factor, 0.001 <= factor <= 1000, "0.001 to 1000")
-    changes: dict[str, Any] = {}
-    for name, mask in (("stiffness", stiffness), ("damping", damping), ("density", density)):
+        require(name, factor, within(factor, 0.001, 1000), "0.001 to 1000")
+    masks = {"stiffness": stiffness, "damping": damping, "density": density}
+    for name, mask in masks.items():
         if mask is not None:
-            before = getattr(material, f"{name}_scale")
-            count = len(mesh.triangles)
+            before, count = getattr(material, f"{name}_scale"), len(mesh.triangles)
             fits = before is None or len(before) == count
             require("mesh", f"{count} triangles", fits, f"the one that {name} has been painted for")
-            means = mask_means(mask, mesh)
-            factors = low ** (1 - means) * high**means * (1.0 if before is None else before)
-            changes[f"{name}_scale"] = np.clip(factors, *_FACTORS)
+            material = painted_by_means(material, mask_means(mask, mesh), {name: (low, high)})
+    return material
+
+
+def painted_by_means(material: Material, means: FloatArray, factors: Mapping[str, tuple[float, float]]) -> Material:
+    """The material with factors for each triangle, multiplied by those that it has.
+
+    Args:
+        material: what is painted on.
+        means: of the mask over each triangle, 0..1, shape [t].
+        factors: for each of "stiffness", "damping" and "density" that is painted, its factor at 0 and at 1.
+    """
+    changes: dict[str, Any] = {}
+    for name, (low, high) in factors.items():
+        before = getattr(material, f"{name}_scale")
+        found = low ** (1 - means) * high**means * (1.0 if before is None else before)
+        changes[f"{name}_scale"] = np.clip(found, *_FACTORS)
     return replace(material, **changes)
 
 
@@ -77,7 +92,10 @@ def mask_means(mask: ArrayLike, mesh: TriangleMesh) -> FloatArray:
     Raises:
         InvalidInputError: the mask is of another shape, not finite, or beyond 0..1.
     """
-    coverage = coverage_of(mask)
+    binary = isinstance(mask, np.ndarray) and mask.dtype == bool and mask.ndim == 2 and mask.size > 0
+    coverage: NDArray[Any] = (
+        np.asarray(mask) if binary else coverage_of(mask)
+    )  # a mask of two values is read as it is, without a copy
     size = np.array([coverage.shape[1], coverage.shape[0]])
     corners = mesh.vertices[mesh.triangles] * (size / [mesh.width, mesh.height])
     sums, weights = np.zeros(len(corners)), _weights()

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .contact_surface import outline_spacing
 from .errors import SimulationError, require
+from .limits import MAX_OUTLINE_POINTS, MOST_MINUTES
+from .outlines import count_outlines
 from .particles import most_alive
 from .scene import Scene
 from .schedule import schedule
@@ -15,16 +18,28 @@ from .stepping import TICK
 from .sway import SwayPart
 from .system import System, assemble
 
-__all__ = ["MAX_WORK", "SimulationPlan", "check_work", "plan", "plan_system"]
+__all__ = ["DEFAULT_MINUTES", "MAX_WORK", "SimulationPlan", "check_work", "plan", "plan_system", "work_of_minutes"]
 
-MAX_WORK = 2e10
-"""Most triangle updates (one triangle in one substep) that are accepted: some minutes on one core.
+UPDATES_PER_SECOND = 1.5e8
+"""Triangle updates (one triangle in one substep) a second on one core of an ordinary machine; for estimates only."""
+
+DEFAULT_MINUTES = 5.0
+"""Minutes of computing, by that estimate, that a simulation may take unless more are allowed.
 
 A clip of less than a second may not take more than its share of them: a single tick must not take seconds.
 """
 
-UPDATES_PER_SECOND = 1.5e8
-"""Triangle updates a second on one core of an ordinary machine; for estimates only."""
+MAX_WORK = DEFAULT_MINUTES * 60 * UPDATES_PER_SECOND
+"""The same in triangle updates."""
+
+OUTLINE_WORK = 20.0
+"""Work of one point of a collider's outline in a tick, in triangle updates."""
+
+CROSSING_WORK = 200.0
+"""Work of following a mask's outline from one pixel to the next, once, in triangle updates."""
+
+MAX_CROSSINGS = 2**23
+"""Pixel edges between painted and empty, of all colliders' masks together: beyond, masks are noise."""
 
 PARTICLE_WORK = 0.2
 """Work of one flow particle on one vertex in triangle updates."""
@@ -45,6 +60,8 @@ class SimulationPlan:
             deformation may take up to four times as many.
         triangles: triangles that are simulated.
         particles: most flow particles at any one time.
+        outline_points: points of the outlines of colliders, where bodies can come, about.
+        crossings: pixel edges that the outlines of colliders' masks follow.
         work: triangle updates in all; flow particles count for some.
         estimated_seconds: of computing, on one core of an ordinary machine.
         costliest_body: number of the body with the connected part that takes the most work.
@@ -58,6 +75,8 @@ class SimulationPlan:
     substeps: int
     triangles: int
     particles: int
+    outline_points: int
+    crossings: int
     work: float
     estimated_seconds: float
     costliest_body: int
@@ -85,6 +104,7 @@ def plan(scene: Scene, *, frames: int) -> SimulationPlan:
 
     Raises:
         InvalidInputError: ``frames`` is below 1.
+        SimulationError: a part is so stiff for its weight and its triangles so small that there is no time step.
     """
     return plan_system(scene, assemble(scene), frames=frames)
 
@@ -98,15 +118,19 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
     factor = 1.0 if scene.contact is None else CONTACT_WORK
     elastic = factor * system.substeps * triangles
     chosen = schedule(triangles, system.substeps, threads=None if scene.contact is None else 1)
-    work = math.ceil(duration / TICK) * (float(elastic.sum()) + PARTICLE_WORK * alive * int(system.free.sum()))
+    points, crossings = (0, 0) if scene.contact is None else count_outlines(scene, outline_spacing(scene, system))
+    in_a_tick = float(elastic.sum()) + PARTICLE_WORK * alive * int(system.free.sum()) + OUTLINE_WORK * points
+    work = math.ceil(duration / TICK) * in_a_tick
     return SimulationPlan(
         frames=frames,
         frame_rate=scene.frame_rate,
         substeps=int(system.substeps.max()),
         triangles=int(system.active.sum()),
         particles=alive,
+        outline_points=points,
+        crossings=crossings,
         work=work,
-        estimated_seconds=work / UPDATES_PER_SECOND,
+        estimated_seconds=(work + CROSSING_WORK * crossings) / UPDATES_PER_SECOND,
         costliest_body=int(system.bodies[system.starts[elastic.argmax(), 0]]),
         sway=system.sway,
         alone=len(chosen.alone),
@@ -114,23 +138,66 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
     )
 
 
-def check_work(scene: Scene, planned: SimulationPlan, *, max_work: float = MAX_WORK) -> None:
-    """Refuse what is too much work.
+def work_of_minutes(minutes: float) -> float:
+    """Triangle updates that an ordinary machine does in so many minutes.
 
     Raises:
-        SimulationError: the work is above ``max_work``; the message tells how long it would take, and what helps.
+        InvalidInputError: ``minutes`` is no number above 0, or more than a week.
     """
+    number = isinstance(minutes, int | float) and not isinstance(minutes, bool)
+    require("max_minutes", minutes, number and 0 < minutes <= MOST_MINUTES, f"above 0 and at most {MOST_MINUTES:g}")
+    return minutes * 60 * UPDATES_PER_SECOND
+
+
+def check_work(
+    scene: Scene, planned: SimulationPlan, *, max_minutes: float = DEFAULT_MINUTES, max_work: float | None = None
+) -> None:
+    """Refuse what is too much work.
+
+    Args:
+        scene: what is simulated.
+        planned: its plan.
+        max_minutes: of computing that are allowed.
+        max_work: triangle updates that are allowed, instead of ``max_minutes``.
+
+    Raises:
+        SimulationError: the work is above what is allowed; the message tells how long it would take, and what helps.
+    """
+    _check_outlines(planned)
     duration = (planned.frames - 1) / planned.frame_rate
-    allowed = max_work * min(1.0, duration)
+    share = min(1.0, duration)
+    allowed = share * (work_of_minutes(max_minutes) if max_work is None else max_work)
     if planned.work <= allowed:
         return
     reason = f"{planned.substeps_per_frame:,.0f} substeps a frame for {planned.triangles:,} triangles"
     if planned.particles:
         reason += f" under up to {planned.particles:,} flow particles"
+    if planned.outline_points:
+        reason += f" beside {planned.outline_points:,} points of colliders"
+    minutes = planned.work / share / 60 / UPDATES_PER_SECOND if share else math.inf
+    longer = ""
+    if max_work is None and minutes <= MOST_MINUTES / 1.1:
+        needed = f"{1.1 * minutes:.2g}" if minutes < 10 else f"{1.1 * minutes:.0f}"
+        longer = f" To wait for it, set max_minutes to {needed} (now {max_minutes:g})."
     raise SimulationError(
         f"The simulation of {planned.frames} frames needs {reason}, about {_duration(planned.estimated_seconds)} of"
-        f" computing; at most {_duration(allowed / UPDATES_PER_SECOND)} are allowed. {_remedies(scene, planned)}"
+        f" computing; at most {_duration(allowed / UPDATES_PER_SECOND)} are allowed.{longer}"
+        f" {_remedies(scene, planned)}"
     )
+
+
+def _check_outlines(planned: SimulationPlan) -> None:
+    remedy = "draw the colliders with fewer corners, or mesh the bodies with a larger spacing"
+    if planned.outline_points > MAX_OUTLINE_POINTS:
+        raise SimulationError(
+            f"The outlines of all colliders must have at most {MAX_OUTLINE_POINTS:,} points together; {remedy}."
+            f" Got: {planned.outline_points:,}"
+        )
+    if planned.crossings > MAX_CROSSINGS:
+        raise SimulationError(
+            f"The outlines of all colliders' masks must pass at most {MAX_CROSSINGS:,} pixels together; paint them"
+            f" without specks, or smaller. Got: {planned.crossings:,}"
+        )
 
 
 def _remedies(scene: Scene, planned: SimulationPlan) -> str:
@@ -147,6 +214,8 @@ def _remedies(scene: Scene, planned: SimulationPlan) -> str:
     remedies = [f"mesh body {name} with a larger spacing (now about {spacing:.3g} px)", f"give it {softer}"]
     if body.material.poisson_ratio > 0.45:
         remedies.append(f"a poisson_ratio further below 0.5 (now {body.material.poisson_ratio:g})")
+    if planned.outline_points * OUTLINE_WORK > planned.substeps * planned.triangles:
+        remedies.append("draw the colliders with fewer corners")
     if planned.particles * PARTICLE_WORK > planned.substeps:
         remedies.append("emit fewer flow particles (a larger interval or a higher speed)")
     remedies.append("make fewer frames")

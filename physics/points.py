@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from .errors import require
+from .checks import numbers_of
+from .errors import InvalidInputError, require
 from .limits import LARGEST, MAX_POINTS
 
-__all__ = ["Point", "Scale", "checked_points", "scaled_points"]
+__all__ = ["Point", "Scale", "checked_pair", "checked_points", "scaled_points"]
 
 Point = tuple[float, float]
 """x and y [px]."""
@@ -27,12 +28,29 @@ def checked_points(name: str, points: Iterable[Point], *, least: int) -> tuple[P
     Raises:
         InvalidInputError: they are too few or too many, not finite or very far away.
     """
-    points = tuple((float(x), float(y)) for x, y in points)
+    if not isinstance(points, Iterable) or isinstance(points, str | bytes | dict):
+        raise InvalidInputError(f"{name} must be points, each an x and a y [px]. Got: {points!r:.60}")
+    points = tuple(checked_pair(name, point) for point in points)
     require(name, f"{len(points)}", len(points) >= least, f"at least {least} point{'s' * (least > 1)}")
     require(name, f"{len(points)}", len(points) <= MAX_POINTS, f"at most {MAX_POINTS} points")
     far = [point for point in points if not (abs(point[0]) <= LARGEST and abs(point[1]) <= LARGEST)]
     require(name, far[:1], not far, f"pixel coordinates from -{LARGEST} to {LARGEST}")
     return points
+
+
+def checked_pair(name: str, pair: object) -> Point:
+    """Two numbers as floats.
+
+    Args:
+        name: what the user calls them.
+        pair: the numbers.
+
+    Raises:
+        InvalidInputError: they are no two numbers.
+    """
+    found = numbers_of(name, pair, "two numbers, x and y")
+    require(name, f"{len(found)} numbers", len(found) == 2, "two numbers, x and y")
+    return found[0], found[1]
 
 
 def scaled_points(points: Iterable[Point], scale: Scale) -> tuple[Point, ...]:

@@ -13,15 +13,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .elasticity import RestShape
-from .falloff import grips_of
+from .holds import Holds, holds_of
+from .interruption import checkpoint
 from .paint import Paint
 from .prestress import unsagged
-from .rig import MaskRegion
-from .rigging import leaders_of
+from .preview_limits import MAX_PREPARED_BYTES
+from .rig import MaskRegion, RigRegion
 from .scene import Body, Scene
 from .system import System, assemble
 
 __all__ = ["AtRest", "Preparations", "Prepare", "Prepared"]
+
+
+_BYTES_OF_A_TRIANGLE = 700  # what is kept of one in an assembled system
+_BYTES_OF_A_VERTEX = 300
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,14 +50,16 @@ class Prepared:
 
     Attributes:
         scene: the scene.
+        holds: what its rig points hold, where that is known already: they themselves are then not read.
     """
 
     scene: Scene
+    holds: Holds | None = None
 
     @cached_property
     def system(self) -> System:
         """The assembled bodies, their rest shape being the drawing."""
-        return assemble(self.scene)
+        return assemble(self.scene, self.holds)
 
     @cached_property
     def at_rest(self) -> AtRest:
@@ -70,6 +77,14 @@ class Prepared:
         rest = RestShape(system.rest.positions - offset, system.rest.triangles)
         return AtRest(drawn - offset * side, replace(system, rest=rest), start)
 
+    @property
+    def size(self) -> int:
+        """Bytes of memory that it comes to hold on to, about."""
+        meshes = [body.mesh for body in self.scene.bodies]
+        triangles, vertices = sum(len(mesh.triangles) for mesh in meshes), sum(len(mesh.vertices) for mesh in meshes)
+        masks = sum(region.mask.nbytes for region in _regions(self.scene) if isinstance(region, MaskRegion))
+        return _BYTES_OF_A_TRIANGLE * triangles + _BYTES_OF_A_VERTEX * vertices + masks
+
 
 Prepare = Callable[[Scene], Prepared]
 """Makes or finds what a scene needs before its first step."""
@@ -78,36 +93,60 @@ Prepare = Callable[[Scene], Prepared]
 class Preparations:
     """Keeps the last preparations by their content; safe to use from any thread."""
 
-    def __init__(self, *, most: int) -> None:
+    def __init__(self, *, most: int, max_bytes: int = MAX_PREPARED_BYTES) -> None:
         """
         Args:
             most: how many to keep.
+            max_bytes: memory that they may take together; the last one is kept however large it is.
         """
-        self._most = most
+        self._most, self._max_bytes = most, max_bytes
         self._made: OrderedDict[str, Prepared] = OrderedDict()
         self._lock = threading.Lock()
 
     def __call__(self, scene: Scene) -> Prepared:
         """The preparation of a scene, or of an earlier one from which it does not differ in what matters here."""
-        key = _key(scene)
+        holds = holds_of(scene)
+        key, kept = _key(scene, holds), _without_what_acts(scene)
         with self._lock:
-            prepared = self._made.setdefault(key, Prepared(scene))
+            prepared = self._made.setdefault(key, Prepared(kept, holds))
             self._made.move_to_end(key)
-            while len(self._made) > self._most:
+            while len(self._made) > self._most or (len(self._made) > 1 and self._bytes() > self._max_bytes):
                 self._made.popitem(last=False)
         return prepared
 
+    @property
+    def size(self) -> int:
+        """Bytes that all of them come to hold on to, about."""
+        with self._lock:
+            return self._bytes()
 
-def _key(scene: Scene) -> str:
+    def _bytes(self) -> int:
+        return sum(prepared.size for prepared in self._made.values())
+
+
+def _without_what_acts(scene: Scene) -> Scene:
+    """The scene without large masks that are not read any more once it is known what rig points hold."""
+    if not any(isinstance(region, MaskRegion) for region in _regions(replace(scene, paint=()))):
+        return scene
+    return replace(scene, strokes=(), rig_points=(), colliders=(), query_points=(), wind=None, contact=None, loop=None)
+
+
+def _regions(scene: Scene) -> list[RigRegion]:
+    """The regions of everything that has one."""
+    entries = (scene.rig_points, scene.colliders, scene.paint)
+    return [entry.region for group in entries for entry in group]  # type: ignore[attr-defined]
+
+
+def _key(scene: Scene, holds: Holds) -> str:
     """A digest of everything that ``Prepared`` reads of a scene."""
     digest = hashlib.sha256(repr((scene.gravity, scene.sag, len(scene.paint))).encode())
     for number, body in enumerate(scene.bodies):
         digest.update(repr(body.name).encode() + body.mesh.content_hash.encode())
         _add_fields(digest, body)
-        digest.update(leaders_of(scene.rig_points, body.mesh, body=number).tobytes())
-        for values in grips_of(scene.rig_points, body.mesh, body=number):
+        for values in (holds.leaders[number], holds.grips[number], holds.grippers[number]):
             digest.update(values.tobytes())
     for entry in scene.paint:
+        checkpoint()
         _add_fields(digest, entry)
     return digest.hexdigest()
 
@@ -121,4 +160,4 @@ def _add_fields(digest: hashlib._Hash, part: Body | Paint) -> None:
         shown = value.shape if isinstance(value, np.ndarray) else value
         digest.update(f"{field.name}={shown!r};".encode())
         if isinstance(value, np.ndarray):
-            digest.update(value.tobytes())
+            digest.update(np.ascontiguousarray(value).data)

@@ -9,7 +9,11 @@ __all__ = [
     "MAX_FRAMES",
     "MAX_NESTING",
     "MAX_OBJECTS",
+    "MAX_PREPARED_BYTES",
+    "MAX_PREVIEW_CROSSINGS",
     "MAX_PREVIEW_MASK_PIXELS",
+    "MAX_PREVIEW_OUTLINE_POINTS",
+    "MAX_PREVIEW_PAINT_WORK",
     "MAX_PREVIEW_POINTS",
     "MAX_PREVIEW_REGION_WORK",
     "MAX_PREVIEW_RIG_POINTS",
@@ -48,7 +52,13 @@ MAX_PREVIEW_POINTS = 40_000
 MAX_PREVIEW_MASK_PIXELS = 2**25
 """Pixels of all painted masks together."""
 
-MAX_PREVIEW_REGION_WORK = 2e8
+MAX_PREVIEW_OUTLINE_POINTS = 20_000
+"""Points of the outlines of all colliders together, where bodies can come."""
+
+MAX_PREVIEW_CROSSINGS = 2**19
+"""Pixel edges that the outlines of all colliders' masks follow."""
+
+MAX_PREVIEW_REGION_WORK = 4e7
 """Corners of all polygons times vertices: each vertex is compared with each."""
 
 MAX_PREVIEW_TRIANGLES = 60_000
@@ -56,6 +66,12 @@ MAX_FRAMES = 1_200
 
 MAX_PREVIEW_WORK = 3e9
 """Triangle updates of a preview: half a minute on one core."""
+
+MAX_PREVIEW_PAINT_WORK = 1_500_000
+"""Entries of paint times triangles."""
+
+MAX_PREPARED_BYTES = 256 * 2**20
+"""Memory for what simulations need before their first step; beyond, what was not used for longest is forgotten."""
 
 MAX_ANSWER_BYTES = 64 * 2**20
 """Size of all frames of one cycle."""

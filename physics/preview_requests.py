@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from .checks import is_whole
 from .errors import InvalidInputError, require
 from .json_text import read_json
+from .limits import MAX_SIDE
 from .loop import loop_frames
 from .preview_limits import (
     MAX_ANSWER_BYTES,
@@ -16,7 +18,10 @@ from .preview_limits import (
     MAX_FRAMES,
     MAX_NESTING,
     MAX_OBJECTS,
+    MAX_PREVIEW_CROSSINGS,
     MAX_PREVIEW_MASK_PIXELS,
+    MAX_PREVIEW_OUTLINE_POINTS,
+    MAX_PREVIEW_PAINT_WORK,
     MAX_PREVIEW_POINTS,
     MAX_PREVIEW_REGION_WORK,
     MAX_PREVIEW_RIG_POINTS,
@@ -25,11 +30,11 @@ from .preview_limits import (
     MAX_REQUEST_BYTES,
     MAX_VALUES,
 )
-from .rig import Polygon
 from .scene import Body, Scene
 
 __all__ = ["PreviewRequest", "is_key", "preview_scene", "read_request"]
 
+_COARSER = "paint on a coarser mask"
 _FIELDS = {"editor", "key", "scene", "frames"}
 _KEY = re.compile(r"[0-9a-f]{64}")
 _POINT_LISTS = ("path", "points", "times", "strength_keys", "speed_keys", "angles", "factors")
@@ -79,7 +84,7 @@ def read_request(body: bytes) -> PreviewRequest:
     _require_few(document, "rig_points", MAX_PREVIEW_RIG_POINTS)
     points, pixels = _count_points(document)
     _require_preview("points", points, MAX_PREVIEW_POINTS, "draw with fewer of them")
-    _require_preview("pixels of painted masks", pixels, MAX_PREVIEW_MASK_PIXELS, "paint on a coarser mask")
+    _require_preview("pixels of painted masks", pixels, MAX_PREVIEW_MASK_PIXELS, _COARSER)
     return PreviewRequest(editor, key, document, frames)
 
 
@@ -90,22 +95,46 @@ def preview_scene(request: PreviewRequest, bodies: Sequence[Body]) -> tuple[Scen
         SceneError: a value of the scene is wrong.
         InvalidInputError: it is more than a preview shows.
     """
-    from .scene_over import scene_over
+    from .holds import region_work
+    from .scene_checking import check_document
+    from .scene_json import mask_pixels
+    from .scene_over import checked_scene_over
 
     triangles = sum(len(body.mesh.triangles) for body in bodies)
     _require_preview("triangles", triangles, MAX_PREVIEW_TRIANGLES, "mesh the bodies with a larger spacing")
-    scene = scene_over(request.document, bodies)
+    document = check_document(request.document)
+    _require_preview("pixels of painted masks", mask_pixels(document), MAX_PREVIEW_MASK_PIXELS, _COARSER)
+    scene = checked_scene_over(document, bodies)
     frames = request.frames if scene.loop is None else loop_frames(scene)
     _require_preview("frames", frames, MAX_FRAMES, "shorten the loop")
     vertices = sum(len(body.mesh.vertices) for body in bodies)
     _require_preview("bytes", 4 * vertices * frames, MAX_ANSWER_BYTES, "show fewer frames, or mesh more coarsely")
-    corners = sum(len(point.region.points) for point in scene.rig_points if isinstance(point.region, Polygon))
-    if corners * vertices > MAX_PREVIEW_REGION_WORK:
+    comparisons = region_work(scene.rig_points, bodies)
+    if comparisons > MAX_PREVIEW_REGION_WORK:
         raise InvalidInputError(
             f"The polygons of all rig points have too many corners for a live preview of {vertices:,} vertices; draw"
-            f" them with fewer, or mesh more coarsely. Got: {corners:,}"
+            f" them with fewer, or mesh more coarsely. Got: {comparisons:,} corners times vertices, at most"
+            f" {MAX_PREVIEW_REGION_WORK:,.0f} are allowed"
         )
+    if len(scene.paint) * triangles > MAX_PREVIEW_PAINT_WORK:
+        raise InvalidInputError(
+            f"There are too many entries of paint for a live preview of {triangles:,} triangles; draw fewer, or mesh"
+            f" more coarsely. Got: {len(scene.paint)}"
+        )
+    _require_short_outlines(scene)
     return scene, frames
+
+
+def _require_short_outlines(scene: Scene) -> None:
+    """Refuse colliders whose outlines are so long or so ragged that to prepare them would take seconds."""
+    if scene.contact is None or not scene.colliders:
+        return
+    from .outlines import count_outlines, spacing_of
+
+    points, crossings = count_outlines(scene, spacing_of(scene.bodies))
+    remedy = "draw the colliders with fewer corners, or mesh more coarsely"
+    _require_preview("points of colliders' outlines", points, MAX_PREVIEW_OUTLINE_POINTS, remedy)
+    _require_preview("pixels along the edges of colliders' masks", crossings, MAX_PREVIEW_CROSSINGS, "paint no specks")
 
 
 def _require_preview(name: str, count: int, most: int, remedy: str) -> None:
@@ -139,8 +168,8 @@ def _count_points(data: object) -> tuple[int, int]:
         entry = pending.pop()
         if isinstance(entry, dict):
             count += sum(len(entry[name]) for name in _POINT_LISTS if isinstance(entry.get(name), list))
-            if "runs" in entry and type(entry.get("width")) is type(entry.get("height")) is int:
-                pixels += entry["width"] * entry["height"]
+            if "runs" in entry and all(is_whole(entry.get(side), 0, MAX_SIDE) for side in ("width", "height")):
+                pixels += int(entry["width"]) * int(entry["height"])
             pending += [each for each in entry.values() if isinstance(each, dict | list)]
         elif isinstance(entry, list):
             pending += [each for each in entry if isinstance(each, dict)]

@@ -173,6 +173,7 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) ->
     from .simulation import simulate
 
     begun, largest = time.perf_counter(), 0.0
+    prepared = run.wants
     acting = scene if scene.loop is None else periodic(scene)
     encoder = FrameEncoder(acting, frames=frames, first_frame=0 if scene.loop is None else first_frame(acting))
     queue.put(record(HEADER, encoder.header(frames=frames)), run.check)
@@ -185,13 +186,15 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) ->
         run.check()
 
     with interruptible(run.check_preparing):
+        if prepared is None:
+            prepared = run.prepare(scene)
         simulate(
             scene,
             frames=None if scene.loop else frames,
             on_frame=send,
             progress=_checking(run),
             max_work=MAX_PREVIEW_WORK,
-            prepare=run.prepare,
+            prepare=lambda _: prepared,  # what is prepared is the same for the scene and for its periodic form
         )
     seconds = time.perf_counter() - begun
     return record(END, {"frames": frames, "seconds": seconds, "largest_displacement": largest})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from .checks import is_whole, within
 from .errors import require
 from .limits import LARGEST, MAX_PARTS
 from .points import Scale
@@ -30,8 +31,9 @@ class QueryPoint:
     def __post_init__(self) -> None:
         for name in ("x", "y"):
             value = getattr(self, name)
-            require(name, value, -LARGEST <= value <= LARGEST, f"-{LARGEST} to {LARGEST} px")
-        require("part", self.part, 0 <= self.part <= MAX_PARTS - 1, f"0 to {MAX_PARTS - 1}")
+            require(name, value, within(value, -LARGEST, LARGEST), f"-{LARGEST} to {LARGEST} px")
+        require("part", self.part, is_whole(self.part, 0, MAX_PARTS - 1), f"0 to {MAX_PARTS - 1}")
+        object.__setattr__(self, "part", int(self.part))
 
     def rescaled(self, scale: Scale) -> QueryPoint:
         """The same point over the picture at another size."""

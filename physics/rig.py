@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from .checks import is_whole, require_kind, within
 from .errors import InvalidInputError, require
-from .limits import LARGEST
-from .points import Point, Scale, checked_points, scaled_points
+from .limits import LARGEST, MAX_BODIES
+from .points import Point, Scale, checked_pair, checked_points, scaled_points
 from .rig_turns import Easing, Pulse, Rotation, Squash, Swing, checked_easing, checked_phase, checked_times
 
 __all__ = [
@@ -42,7 +43,7 @@ class Circle:
     radius: float
 
     def __post_init__(self) -> None:
-        require("radius", self.radius, 0 < self.radius <= LARGEST, f"above 0 and at most {LARGEST} px")
+        require("radius", self.radius, within(self.radius, 0, LARGEST, above=True), f"above 0 and at most {LARGEST} px")
 
     def rescaled(self, scale: Scale) -> Circle:
         """The same disc over the picture at another size."""
@@ -78,8 +79,13 @@ class MaskRegion:
     mask: NDArray[np.bool_]
 
     def __post_init__(self) -> None:
-        mask = np.array(self.mask, dtype=bool)
-        require("mask", mask.shape, mask.ndim == 2 and mask.size > 0, "an array of shape [h, w]")
+        mask = self.mask
+        if not (isinstance(mask, np.ndarray) and mask.dtype == bool and not mask.flags.writeable):
+            try:
+                mask = np.array(mask, dtype=bool)
+            except (TypeError, ValueError):
+                raise InvalidInputError(f"mask must be an array of shape [h, w]. Got: {type(mask).__name__}") from None
+        require("mask", f"shape {mask.shape}", mask.ndim == 2 and mask.size > 0, "an array of shape [h, w]")
         mask.setflags(write=False)
         object.__setattr__(self, "mask", mask)
 
@@ -142,10 +148,11 @@ class Wave:
     phase: float = 0.0
 
     def __post_init__(self) -> None:
-        x, y = (float(value) for value in self.direction)
+        x, y = checked_pair("direction", self.direction)
         length = math.hypot(x, y)
-        require("amplitude", self.amplitude, -LARGEST <= self.amplitude <= LARGEST, f"-{LARGEST} to {LARGEST} px")
-        require("period", self.period, 0.01 <= self.period <= LARGEST, f"0.01 to {LARGEST} s")
+        bounded = within(self.amplitude, -LARGEST, LARGEST)
+        require("amplitude", self.amplitude, bounded, f"-{LARGEST} to {LARGEST} px")
+        require("period", self.period, within(self.period, 0.01, LARGEST), f"0.01 to {LARGEST} s")
         require("direction", (x, y), 1e-9 <= length < math.inf, "a direction other than (0, 0)")
         if abs(length - 1) > _UNIT:
             x, y = x / length, y / length
@@ -171,10 +178,13 @@ class Combined:
     motions: tuple[Pinned | KeyedPath | Wave | Rotation | Swing | Squash | Pulse, ...]
 
     def __post_init__(self) -> None:
+        require_kind("motions", self.motions, (tuple, list), "a list of motions")
         motions = tuple(self.motions)
         require("motions", f"{len(motions)} motions", 1 <= len(motions) <= MOST_COMBINED, f"1 to {MOST_COMBINED}")
         if any(isinstance(motion, Combined) for motion in motions):
             raise InvalidInputError("motions must not be combined themselves. Got: a combined motion among them")
+        for motion in motions:
+            require_kind("motions", motion, MOTIONS, _EXPECTED_MOTION)
         object.__setattr__(self, "motions", motions)
 
     def rescaled(self, scale: Scale) -> Combined:
@@ -184,6 +194,10 @@ class Combined:
 
 RigRegion = Circle | Polygon | MaskRegion
 RigMotion = Pinned | KeyedPath | Wave | Rotation | Swing | Squash | Pulse | Combined
+
+REGIONS = (Circle, Polygon, MaskRegion)
+MOTIONS = (Pinned, KeyedPath, Wave, Rotation, Swing, Squash, Pulse, Combined)
+_EXPECTED_MOTION = f"a motion: {', '.join(kind.__name__ for kind in MOTIONS)}"
 
 
 @dataclass(frozen=True)
@@ -208,9 +222,13 @@ class RigPoint:
         object.__setattr__(self, "position", checked_points("position", (self.position,), least=1)[0])
         if isinstance(self.motion, tuple | list):
             object.__setattr__(self, "motion", Combined(tuple(self.motion)))
+        require_kind("region", self.region, REGIONS, "a region: Circle, Polygon or MaskRegion")
+        require_kind("motion", self.motion, MOTIONS, _EXPECTED_MOTION)
         if self.body is not None:
-            require("body", self.body, self.body >= 0, "a body's number from 0")
-        require("falloff", self.falloff, 0 <= self.falloff <= LARGEST, f"0 to {LARGEST} px")
+            most = MAX_BODIES - 1
+            require("body", self.body, is_whole(self.body, 0, most), f"a body's number, 0 to {most}")
+            object.__setattr__(self, "body", int(self.body))
+        require("falloff", self.falloff, within(self.falloff, 0, LARGEST), f"0 to {LARGEST} px")
 
     def rescaled(self, scale: Scale) -> RigPoint:
         """The same rig point over the picture at another size."""

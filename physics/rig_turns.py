@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal, TypeVar, get_args
 
+from .checks import numbers_of, within
 from .errors import require
 from .limits import LARGEST
 from .points import Scale
@@ -47,7 +48,7 @@ def checked_times(times: Sequence[float], count: int, what: str) -> tuple[float,
     Raises:
         InvalidInputError: they are not.
     """
-    checked = tuple(float(t) for t in times)
+    checked = numbers_of("times", times, "a list of numbers [s]")
     require("times", f"{len(checked)} times", len(checked) == count, f"one per {what} ({count})")
     bounded = checked[0] >= 0 and all(t <= LARGEST for t in checked)
     require("times", checked[:8], bounded, f"from 0 to {LARGEST} s")
@@ -58,24 +59,24 @@ def checked_times(times: Sequence[float], count: int, what: str) -> tuple[float,
 
 def checked_easing(easing: str) -> None:
     """Refuse an unknown easing."""
-    require("easing", easing, easing in EASINGS, f"one of {', '.join(EASINGS)}")
+    require("easing", easing, isinstance(easing, str) and easing in EASINGS, f"one of {', '.join(EASINGS)}")
 
 
 def checked_phase(phase: float) -> None:
     """Refuse a phase that is no angle."""
-    require("phase", phase, -MOST_DEGREES <= phase <= MOST_DEGREES, f"-{MOST_DEGREES} to {MOST_DEGREES} degrees")
+    require("phase", phase, within(phase, -MOST_DEGREES, MOST_DEGREES), f"-{MOST_DEGREES} to {MOST_DEGREES} degrees")
 
 
 def _checked_angle(angle: float) -> None:
-    require("angle", angle, -MOST_DEGREES <= angle <= MOST_DEGREES, f"-{MOST_DEGREES} to {MOST_DEGREES} degrees")
+    require("angle", angle, within(angle, -MOST_DEGREES, MOST_DEGREES), f"-{MOST_DEGREES} to {MOST_DEGREES} degrees")
 
 
 def _checked_period(period: float) -> None:
-    require("period", period, 0.01 <= period <= LARGEST, f"0.01 to {LARGEST} s")
+    require("period", period, within(period, 0.01, LARGEST), f"0.01 to {LARGEST} s")
 
 
 def _checked_values(name: str, values: Sequence[float], low: float, high: float, unit: str) -> tuple[float, ...]:
-    checked = tuple(float(value) for value in values)
+    checked = numbers_of(name, values, "a list of numbers")
     require(name, f"{len(checked)} values", len(checked) >= 2, "at least 2 values")
     require(name, checked[:8], all(low <= value <= high for value in checked), f"{low:g} to {high:g}{unit}")
     return checked
@@ -125,7 +126,7 @@ class Swing(_SameAtAnySize):
     phase: float = 0.0
 
     def __post_init__(self) -> None:
-        bounded = -MOST_DEGREES <= self.amplitude <= MOST_DEGREES
+        bounded = within(self.amplitude, -MOST_DEGREES, MOST_DEGREES)
         require("amplitude", self.amplitude, bounded, f"-{MOST_DEGREES} to {MOST_DEGREES} degrees")
         _checked_period(self.period)
         checked_phase(self.phase)
@@ -179,7 +180,7 @@ class Pulse(_SameAtAnySize):
     keep_area: bool = True
 
     def __post_init__(self) -> None:
-        bounded = 1 / MOST_STRETCH <= self.stretch <= MOST_STRETCH
+        bounded = within(self.stretch, 1 / MOST_STRETCH, MOST_STRETCH)
         require("stretch", self.stretch, bounded, f"{1 / MOST_STRETCH:g} to {MOST_STRETCH:g}")
         _checked_period(self.period)
         checked_phase(self.phase)

@@ -8,23 +8,57 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .easing import eased, eased_rate
+from .interruption import checkpoint
 from .mesh import TriangleMesh
 from .rig import Circle, Combined, KeyedPath, MaskRegion, Polygon, RigMotion, RigPoint, Wave
 from .scene import Scene
 
-__all__ = ["displacement", "distances_of", "leaders_of", "unused_rig_points", "velocity", "vertices_of"]
+__all__ = [
+    "EDGE",
+    "Points",
+    "displacement",
+    "distances_of",
+    "leaders_of",
+    "unused_rig_points",
+    "velocity",
+    "vertices_of",
+]
 
 FloatArray = NDArray[np.float64]
 
-_EDGE = 1e-6  # [px]: vertices that rounding puts this far outside a region still lie on its edge
+EDGE = 1e-6
+"""Vertices that rounding puts this far outside a region still lie on its edge [px]."""
 
 
-def vertices_of(rig_point: RigPoint, mesh: TriangleMesh) -> NDArray[np.bool_]:
+_CORNERS_AT_ONCE = 64
+
+
+class Points(NamedTuple):
+    """Points over a picture, such as the vertices of several meshes.
+
+    Attributes:
+        vertices: [px], shape [v, 2].
+        width: of the picture [px].
+        height: of the picture [px].
+    """
+
+    vertices: FloatArray
+    width: int
+    height: int
+
+    @property
+    def longest_side(self) -> float:
+        """Length of the picture's longer side [px]."""
+        return float(max(self.width, self.height))
+
+
+def vertices_of(rig_point: RigPoint, mesh: TriangleMesh | Points) -> NDArray[np.bool_]:
     """Whether each vertex of a mesh lies in a rig point's region, the region's edge included.
 
     A polygon is filled by the even-odd rule. A mask of another size than the mesh's picture is stretched over it;
@@ -35,13 +69,13 @@ def vertices_of(rig_point: RigPoint, mesh: TriangleMesh) -> NDArray[np.bool_]:
     """
     region = rig_point.region
     if isinstance(region, Circle):
-        return _outside_circle(rig_point.position, region.radius, mesh.vertices) <= _EDGE
+        return _outside_circle(rig_point.position, region.radius, mesh.vertices) <= EDGE
     if isinstance(region, Polygon):
-        return _outside_polygon(region.points, mesh.vertices) <= _EDGE
+        return _outside_polygon(region.points, mesh.vertices) <= EDGE
     return _in_mask(region.mask, mesh)
 
 
-def distances_of(rig_point: RigPoint, mesh: TriangleMesh) -> FloatArray:
+def distances_of(rig_point: RigPoint, mesh: TriangleMesh | Points) -> FloatArray:
     """How far outside a rig point's region each vertex of a mesh lies [px], 0 or less inside, shape [v].
 
     The distance from a mask is good to about a pixel of the mask.
@@ -157,7 +191,9 @@ def _outside_polygon(corners: Sequence[tuple[float, float]], points: FloatArray)
     x, y = points.T
     nearest = np.full(len(points), np.inf)
     inside = np.zeros(len(points), dtype=bool)
-    for (ax, ay), (bx, by) in zip(corners, (*corners[1:], corners[0]), strict=True):
+    for number, ((ax, ay), (bx, by)) in enumerate(zip(corners, (*corners[1:], corners[0]), strict=True)):
+        if number % _CORNERS_AT_ONCE == _CORNERS_AT_ONCE - 1:
+            checkpoint()
         ux, uy = bx - ax, by - ay
         squared = ux * ux + uy * uy
         along = np.clip(((x - ax) * ux + (y - ay) * uy) / squared, 0.0, 1.0) if squared > 0 else 0.0
@@ -168,23 +204,24 @@ def _outside_polygon(corners: Sequence[tuple[float, float]], points: FloatArray)
     return np.where(inside, 0.0, nearest)
 
 
-def _in_mask(mask: NDArray[np.bool_], mesh: TriangleMesh) -> NDArray[np.bool_]:
+def _in_mask(mask: NDArray[np.bool_], mesh: TriangleMesh | Points) -> NDArray[np.bool_]:
     """Whether each vertex lies in a painted pixel or on its edge, shape [v]."""
     size = np.array([mask.shape[1], mask.shape[0]])
     scaled = mesh.vertices * (size / [mesh.width, mesh.height])
-    low = np.clip(np.floor(scaled - _EDGE), 0, size - 1).astype(np.int64)
-    high = np.clip(np.floor(scaled + _EDGE), 0, size - 1).astype(np.int64)
+    low = np.clip(np.floor(scaled - EDGE), 0, size - 1).astype(np.int64)
+    high = np.clip(np.floor(scaled + EDGE), 0, size - 1).astype(np.int64)
     return np.logical_or.reduce([mask[y[:, 1], x[:, 0]] for x in (low, high) for y in (low, high)])
 
 
-def _outside_mask(mask: NDArray[np.bool_], mesh: TriangleMesh) -> FloatArray:
+def _outside_mask(mask: NDArray[np.bool_], mesh: TriangleMesh | Points) -> FloatArray:
     """Distance of each vertex from the nearest painted pixel [px], to about a pixel; infinite without any: [v]."""
     import cv2
 
     if not mask.any():
         return np.full(len(mesh.vertices), np.inf)
+    checkpoint()
     size = np.array([mask.shape[1], mask.shape[0]])
     scaled = mesh.vertices * (size / [mesh.width, mesh.height])
     column, row = np.clip(np.floor(scaled), 0, size - 1).astype(np.int64).T
-    distances = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    distances = cv2.distanceTransform((~mask).view(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
     return distances[row, column].astype(np.float64) * (mesh.longest_side / float(size.max()))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+from .checks import is_whole, numbers_of, require_kind, within
 from .collision import Collider, Contact
 from .errors import InvalidInputError, require
 from .limits import (
@@ -45,6 +46,12 @@ class Body:
     name: str = ""
 
     def __post_init__(self) -> None:
+        require_kind("mesh", self.mesh, TriangleMesh, "a TriangleMesh")
+        require_kind("material", self.material, Material, "a Material")
+        whole = is_whole(self.layer, -LARGEST, LARGEST)
+        require("layer", self.layer, whole, f"a whole number, -{LARGEST} to {LARGEST}")
+        object.__setattr__(self, "layer", int(self.layer))
+        require("name", self.name, isinstance(self.name, str), "a text")
         for name in SCALES:
             scale = getattr(self.material, name)
             if scale is not None and len(scale) != len(self.mesh.triangles):
@@ -89,15 +96,19 @@ class Scene:
     query_points: tuple[QueryPoint, ...] = ()
 
     def __post_init__(self) -> None:
-        for name, most in (
-            ("bodies", MAX_BODIES),
-            ("strokes", MAX_STROKES),
-            ("rig_points", MAX_RIG_POINTS),
-            ("colliders", MAX_COLLIDERS),
-            ("paint", MAX_PAINT),
-            ("query_points", MAX_QUERY_POINTS),
+        for name, kind, most in (
+            ("bodies", Body, MAX_BODIES),
+            ("strokes", EnergyStroke, MAX_STROKES),
+            ("rig_points", RigPoint, MAX_RIG_POINTS),
+            ("colliders", Collider, MAX_COLLIDERS),
+            ("paint", Paint, MAX_PAINT),
+            ("query_points", QueryPoint, MAX_QUERY_POINTS),
         ):
-            entries = tuple(getattr(self, name))
+            given = getattr(self, name)
+            require_kind(name, given, (tuple, list), f"a list of {kind.__name__} objects")
+            entries = tuple(given)
+            for number, entry in enumerate(entries):
+                require_kind(f"{name}[{number}]", entry, kind, f"of type {kind.__name__}")
             require(name, f"{len(entries)} entries", len(entries) <= most, f"at most {most} entries")
             object.__setattr__(self, name, entries)
         if not self.bodies:
@@ -105,13 +116,20 @@ class Scene:
         sizes = {(body.mesh.width, body.mesh.height) for body in self.bodies}
         if len(sizes) > 1:
             raise InvalidInputError(f"all bodies must belong to a picture of one size. Got: {sorted(sizes)}")
-        gravity = tuple(float(value) for value in self.gravity)
-        bounded = len(gravity) == 2 and all(abs(value) <= LARGEST for value in gravity)
-        require("gravity", gravity, bounded, f"two numbers from -{LARGEST} to {LARGEST} side/s^2")
+        expected = f"two numbers from -{LARGEST} to {LARGEST} side/s^2"
+        gravity = numbers_of("gravity", self.gravity, expected)
+        bounded = len(gravity) == 2 and all(within(value, -LARGEST, LARGEST) for value in gravity)
+        require("gravity", gravity[:3], bounded, expected)
         object.__setattr__(self, "gravity", gravity)
-        require("frame_rate", self.frame_rate, 1 <= self.frame_rate <= 240, "1 to 240 frames a second")
+        require("frame_rate", self.frame_rate, within(self.frame_rate, 1, 240), "1 to 240 frames a second")
         if self.loop is not None:
-            require("loop", self.loop, 2 / self.frame_rate <= self.loop <= MAX_LOOP, f"2 frames to {MAX_LOOP} s long")
+            long = within(self.loop, 2 / self.frame_rate, MAX_LOOP)
+            require("loop", self.loop, long, f"2 frames to {MAX_LOOP} s long")
+        if self.wind is not None:
+            require_kind("wind", self.wind, Wind, "a Wind or None")
+        if self.contact is not None:
+            require_kind("contact", self.contact, Contact, "a Contact or None")
+        require("sag", self.sag, isinstance(self.sag, bool), "True or False")
         count = len(self.bodies)
         for number, rig_point in enumerate(self.rig_points):
             known = rig_point.body is None or rig_point.body < count

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 __all__ = ["check_document", "join_path"]
 
+_LONGEST = 60  # characters of a value or a key that are shown
+_MOST_DIGITS = 20
 _ENOUGH = 100  # wrong values among which to choose the first
 
 _TYPES = {
@@ -63,7 +65,7 @@ def _check_version(data: dict[str, Any]) -> None:
     if type(version) is int and version > SCENE_VERSION:
         raise SceneError(
             "version",
-            f"this scene was made by a newer PhysAnimator (format {version}, known here up to {SCENE_VERSION});"
+            f"this scene was made by a newer PhysAnimator (format {_shown(version)}, known here up to {SCENE_VERSION});"
             " update PhysAnimator to open it",
         )
 
@@ -129,7 +131,7 @@ def _described(error: ValidationError) -> tuple[tuple[Any, ...], SceneError]:
     if error.validator == "additionalProperties":
         known = error.schema["properties"]
         key = next(str(key) for key in error.instance if key not in known)
-        return (parts, 0), SceneError(join_path(path, key), f"is not known here; {_suggestion(key, known)}")
+        return (parts, 0), SceneError(join_path(path, _key_shown(key)), f"is not known here; {_suggestion(key, known)}")
     if error.validator == "required":
         key = next(key for key in error.validator_value if key not in error.instance)
         return (parts, 1), SceneError(join_path(path, key), f"is missing{_possible(error.schema, key)}")
@@ -165,12 +167,12 @@ def _meant(error: ValidationError) -> str:
     """The choice that a misspelt one may stand for."""
     if error.validator != "enum" or not isinstance(error.instance, str):
         return ""
-    near = get_close_matches(error.instance.lower(), map(str, error.validator_value), n=1)
+    near = get_close_matches(error.instance[:_LONGEST].lower(), map(str, error.validator_value), n=1)
     return f" (did you mean '{near[0]}'?)" if near else ""
 
 
 def _suggestion(key: str, known: Iterable[str]) -> str:
-    near = get_close_matches(key.lower(), known, n=1)
+    near = get_close_matches(key[:_LONGEST].lower(), known, n=1)
     return f"did you mean '{near[0]}'?" if near else f"known are {', '.join(known)}"
 
 
@@ -180,5 +182,18 @@ def _shown(value: object) -> str:
         return "an object"
     if isinstance(value, list):
         return f"a list of {len(value)}"
+    if isinstance(value, int) and abs(value) >= 10**_MOST_DIGITS:
+        return f"a whole number of more than {_MOST_DIGITS} digits"
+    if isinstance(value, str):
+        value = value[: _LONGEST + 1]
     text = json.dumps(value, ensure_ascii=False) if value is None or isinstance(value, bool | str) else repr(value)
-    return text if len(text) <= 60 else text[:60] + "..."
+    return _printable(text if len(text) <= _LONGEST else text[:_LONGEST] + "...")
+
+
+def _key_shown(key: str) -> str:
+    """An unknown key as part of a path: itself, or in quotes and short where it would tear the sentence apart."""
+    return key if key.isprintable() and 0 < len(key) <= _LONGEST else _shown(key)
+
+
+def _printable(text: str) -> str:
+    return "".join(each if each.isprintable() else each.encode("unicode_escape").decode("ascii") for each in text)

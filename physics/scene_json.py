@@ -7,7 +7,7 @@ wrong is a SceneError that names its place.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
@@ -32,7 +32,17 @@ from .scene_schema import scene_schema
 from .strokes import EnergyStroke
 from .wind import Wind
 
-__all__ = ["SCENE_VERSION", "dumps", "loads", "query_points_of", "scene_from_dict", "scene_schema", "scene_to_dict"]
+__all__ = [
+    "SCENE_VERSION",
+    "dumps",
+    "loads",
+    "mask_pixels",
+    "query_points_of",
+    "scene_from_checked",
+    "scene_from_dict",
+    "scene_schema",
+    "scene_to_dict",
+]
 
 T = TypeVar("T")
 S = TypeVar("S", EnergyStroke, RigPoint, Contact, Collider, Paint, QueryPoint)
@@ -78,7 +88,12 @@ def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = Non
     Raises:
         SceneError: a value is wrong; ``path`` says which, such as ``strokes[2].radius``.
     """
-    document = migrated(check_document(data))
+    return scene_from_checked(check_document(data), meshes=meshes)
+
+
+def scene_from_checked(checked: Mapping[str, Any], *, meshes: Sequence[TriangleMesh] | None = None) -> Scene:
+    """The scene of a document that ``check_document`` has let pass; else as ``scene_from_dict``."""
+    document = migrated(dict(checked))
     supply = list(meshes or ())
     size = (int(document["width"]), int(document["height"]))
     target = (supply[0].width, supply[0].height) if supply else size
@@ -213,21 +228,24 @@ def _read_query_point(entry: dict[str, Any], _path: str) -> QueryPoint:
 def _require_small_masks(document: dict[str, Any]) -> None:
     """Refuse before unpacking: a few characters can ask for any number of pixels."""
     total = 0
-    named = [
-        (name, index, entry)
-        for name in ("rig_points", "colliders", "paint")
-        for index, entry in _numbered(document, name)
-    ]
-    for name, index, entry in named:
-        region = entry.get("region", {})
-        total += int(region["width"] * region["height"]) if region.get("type") == "mask" else 0
+    for path, pixels in _masks(document):
+        total += pixels
         if total > MAX_MASK_PIXELS:
-            path = join_path(name, index, "region")
             raise SceneError(path, f"all masks together must have at most {MAX_MASK_PIXELS} pixels. Got: {total}")
 
 
-def _numbered(document: dict[str, Any], name: str) -> Iterator[tuple[int, dict[str, Any]]]:
-    return enumerate(document.get(name, []))
+def mask_pixels(document: Mapping[str, Any]) -> int:
+    """Pixels of all painted masks of a checked document together, once they are unpacked."""
+    return sum(pixels for _, pixels in _masks(document))
+
+
+def _masks(document: Mapping[str, Any]) -> Iterator[tuple[str, int]]:
+    """Path and pixels of each mask of a checked document, whose sizes are whole numbers, as ints or as floats."""
+    for name in ("rig_points", "colliders", "paint"):
+        for index, entry in enumerate(document.get(name, [])):
+            region = entry.get("region", {})
+            if region.get("type") == "mask":
+                yield join_path(name, index, "region"), int(region["width"]) * int(region["height"])
 
 
 def _each(name: str, document: dict[str, Any], read: Callable[[dict[str, Any], str], T]) -> list[T]:

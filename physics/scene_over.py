@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from .scene import Body, Scene
 from .scene_checking import check_document
-from .scene_json import scene_from_dict
+from .scene_json import scene_from_checked
 
-__all__ = ["scene_over"]
+__all__ = ["checked_scene_over", "scene_over"]
 
 
 def scene_over(document: object, bodies: Sequence[Body]) -> Scene:
@@ -25,9 +26,13 @@ def scene_over(document: object, bodies: Sequence[Body]) -> Scene:
     Raises:
         SceneError: a value is wrong; ``path`` says which.
     """
-    checked = check_document(document)
+    return checked_scene_over(check_document(document), bodies)
+
+
+def checked_scene_over(checked: Mapping[str, Any], bodies: Sequence[Body]) -> Scene:
+    """The same for a document that ``check_document`` has let pass."""
     entries = [{key: value for key, value in entry.items() if key != "mesh"} for entry in checked.get("bodies", [])]
-    scene = scene_from_dict({**checked, "bodies": entries}, meshes=[body.mesh for body in bodies])
+    scene = scene_from_checked({**checked, "bodies": entries}, meshes=[body.mesh for body in bodies])
     named = [
         replace(body, **{field: getattr(found, field) for field in entry})
         for body, found, entry in zip(bodies, scene.bodies, entries, strict=False)

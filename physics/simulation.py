@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from .contact_stepping import TouchingBodies
 from .drive import drive
 from .elasticity import RestShape
-from .errors import SimulationError, require
+from .errors import InvalidInputError, SimulationError, require
 from .kernel_functions import REACH
 from .loop import MOST_CYCLES, first_frame, loop_frames, periodic, settled
 from .motion import Motion
-from .plan import MAX_WORK, SimulationPlan, check_work, plan, plan_system
+from .plan import DEFAULT_MINUTES, SimulationPlan, check_work, plan, plan_system, work_of_minutes
 from .preparation import AtRest, Prepare, Prepared
 from .progress import Progress
 from .rig import Pinned
@@ -45,7 +45,8 @@ def simulate(
     *,
     frames: int | None = None,
     progress: Progress | None = None,
-    max_work: float = MAX_WORK,
+    max_minutes: float = DEFAULT_MINUTES,
+    max_work: float | None = None,
     on_frame: OnFrame | None = None,
     prepare: Prepare = Prepared,
 ) -> Motion:
@@ -60,7 +61,10 @@ def simulate(
         frames: number of frames, the drawing included. May be None where the scene loops: then those of one cycle;
             of more frames, each is that one cycle before.
         progress: called after each frame with (frames done, frames); may raise to stop.
-        max_work: most triangle updates that are accepted; ``plan`` tells what a scene takes.
+        max_minutes: minutes of computing that are accepted, estimated for one core of an ordinary machine; a clip of
+            less than a second may take its share of them.
+        max_work: most triangle updates that are accepted, instead of ``max_minutes``; ``plan`` tells what a scene
+            takes.
         on_frame: is shown each frame as soon as it is known; may raise to stop. Of a loop it is shown every cycle while
             the motion settles, and at the end the one that closes: a frame takes the place of an earlier one with its
             number.
@@ -68,17 +72,25 @@ def simulate(
 
     Raises:
         InvalidInputError: ``frames`` is below 1.
-        SimulationError: the work would be above ``max_work``, a position is no finite number, or a scene that shall
+        SimulationError: the work would be more than is accepted, a position is no finite number, or a scene that shall
             loop does not.
     """
     if scene.loop is not None:
         cyclic = periodic(scene)
-        return _looped(cyclic, prepare(cyclic), frames=frames, progress=progress, max_work=max_work, on_frame=on_frame)
-    require("frames", frames, frames is not None, "a number where the scene has no loop")
-    assert frames is not None
+        return _looped(
+            cyclic,
+            prepare(cyclic),
+            frames=frames,
+            progress=progress,
+            max_minutes=max_minutes,
+            max_work=max_work,
+            on_frame=on_frame,
+        )
+    if frames is None:
+        raise InvalidInputError("frames must be a number where the scene has no loop. Got: None")
     prepared = prepare(scene)
     planned = plan_system(scene, prepared.system, frames=frames)
-    check_work(scene, planned, max_work=max_work)
+    check_work(scene, planned, max_minutes=max_minutes, max_work=max_work)
     side, order, at_rest = scene.bodies[0].mesh.longest_side, prepared.system.order, prepared.at_rest
     rest = at_rest.rest
     positions = np.empty((frames, len(rest), 2), dtype=np.float32)
@@ -101,15 +113,17 @@ def _looped(
     *,
     frames: int | None,
     progress: Progress | None,
-    max_work: float,
+    max_minutes: float,
+    max_work: float | None,
     on_frame: OnFrame | None,
 ) -> Motion:
     """One cycle of a periodic scene, again and again for as many frames as are wanted."""
     length = loop_frames(scene)
     require("frames", frames, frames is None or frames >= 1, "at least 1")
     planned = plan_system(scene, prepared.system, frames=length + 1)
-    check_work(scene, planned, max_work=max_work)
-    most = int(min(MOST_CYCLES, max(2.0, max_work / max(planned.work, 1.0))))
+    check_work(scene, planned, max_minutes=max_minutes, max_work=max_work)
+    accepted = work_of_minutes(max_minutes) if max_work is None else max_work
+    most = int(min(MOST_CYCLES, max(2.0, accepted / max(planned.work, 1.0))))
     side, order, at_rest = scene.bodies[0].mesh.longest_side, prepared.system.order, prepared.at_rest
     rest = at_rest.rest
     endless = _displacements(scene, at_rest, planned, first=first_frame(scene))

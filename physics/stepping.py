@@ -101,4 +101,4 @@ def frequency_limits(squared: FloatArray, masses: FloatArray, parts: IndexArray)
 
 def substeps(squared_frequency: float) -> int:
     """Substeps in a tick at a highest omega^2 [1/s^2]."""
-    return max(1, math.ceil(TICK * math.sqrt(squared_frequency) / (2 * SAFETY)))
+    return max(1, math.ceil(min(TICK * math.sqrt(squared_frequency) / (2 * SAFETY), 2.0**31)))

@@ -14,6 +14,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from .checks import within
 from .errors import require
 from .limits import LARGEST, MAX_PARTICLES_OF_STROKE
 from .points import Point, Scale, checked_points, scaled_points
@@ -91,21 +92,24 @@ class EnergyStroke:
     speed_keys: tuple[Key, ...] = ()
 
     def __post_init__(self) -> None:
-        require("kind", self.kind, self.kind in STROKE_KINDS, f"one of {', '.join(STROKE_KINDS)}")
+        known = isinstance(self.kind, str) and self.kind in STROKE_KINDS
+        require("kind", self.kind, known, f"one of {', '.join(STROKE_KINDS)}")
         path = checked_points("path", self.path, least=1)
         object.__setattr__(self, "path", path)
-        require("radius", self.radius, 0 < self.radius <= LARGEST, f"above 0 and at most {LARGEST} px")
-        require("speed", self.speed, 0 <= self.speed <= LARGEST, f"0 to {LARGEST} px/s")
-        require("strength", self.strength, -LARGEST <= self.strength <= LARGEST, f"-{LARGEST} to {LARGEST} side/s^2")
-        require("start", self.start, 0 <= self.start <= LARGEST, f"0 to {LARGEST} s")
-        require("interval", self.interval, 0.01 <= self.interval <= LARGEST, f"0.01 to {LARGEST} s")
+        require("radius", self.radius, within(self.radius, 0, LARGEST, above=True), f"above 0 and at most {LARGEST} px")
+        require("speed", self.speed, within(self.speed, 0, LARGEST), f"0 to {LARGEST} px/s")
+        bounded = within(self.strength, -LARGEST, LARGEST)
+        require("strength", self.strength, bounded, f"-{LARGEST} to {LARGEST} side/s^2")
+        require("start", self.start, within(self.start, 0, LARGEST), f"0 to {LARGEST} s")
+        require("interval", self.interval, within(self.interval, 0.01, LARGEST), f"0.01 to {LARGEST} s")
         if self.end is not None:
-            after_start = self.start < self.end <= LARGEST
+            after_start = within(self.end, self.start, LARGEST, above=True)
             require("end", self.end, after_start, f"after start ({self.start} s) and at most {LARGEST} s")
-        require("falloff", self.falloff, self.falloff in FALLOFFS, f"one of {', '.join(FALLOFFS)}")
+        known = isinstance(self.falloff, str) and self.falloff in FALLOFFS
+        require("falloff", self.falloff, known, f"one of {', '.join(FALLOFFS)}")
         if self.repeat is not None:
             window = math.inf if self.end is None else self.end - self.start
-            long_enough = max(window * (1 - ROUNDING), 0.01) <= self.repeat <= LARGEST
+            long_enough = within(self.repeat, max(window * (1 - ROUNDING), 0.01), LARGEST)
             expected = f"at least 0.01 s and the time from start to end ({window:g} s), and at most {LARGEST} s"
             expected = "left out where the stroke has no end" if self.end is None else expected
             require("repeat", self.repeat, long_enough, expected)

@@ -85,7 +85,7 @@ def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> t
         Young's modulus [density side^2 / s^2], shape [t], and a report of each part that sways.
     """
     material, mesh = body.material, body.mesh
-    modulus = np.full(len(mesh.triangles), material.youngs_modulus)
+    modulus = np.full(len(mesh.triangles), float(material.youngs_modulus))
     if material.stiffness_scale is not None:
         modulus *= material.stiffness_scale
     report: list[SwayPart] = []

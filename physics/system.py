@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .elasticity import RestShape, lame_parameters, lumped_masses, stiffness_matrix
-from .falloff import grips_of
+from .errors import SimulationError
+from .holds import Holds, holds_of
+from .mesh import TriangleMesh
 from .modes import highest_eigenvalue
 from .paint import with_paint
-from .rigging import leaders_of
 from .scene import Body, Scene
 from .stepping import frequency_limits, substeps, vertex_frequencies
 from .sway import SwayPart, resolve_stiffness
@@ -23,6 +24,10 @@ __all__ = ["System", "assemble"]
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
 
+_STIFFNESS = 1e-12, 1e20  # [density side^2 / s^2], factors included
+_DENSITY = 1e-12, 1e14  # [1], factors included
+_LEAST_ALTITUDE = 1e-9  # of a triangle [side]
+_MOST_SUBSTEPS = 1_000_000
 _MOST_ASSEMBLED = 200_000  # triangles up to which the stiffness matrix takes little enough memory
 
 
@@ -115,14 +120,37 @@ class System:
 
     @cached_property
     def substeps(self) -> IndexArray:
-        """Substeps of each part in a tick, shape [p]."""
-        return np.array([substeps(squared) for squared in self.highest], dtype=np.int32)
+        """Substeps of each part in a tick, shape [p].
+
+        Raises:
+            SimulationError: there are so many that nothing could be simulated.
+        """
+        counts = [substeps(squared) for squared in self.highest]
+        most = int(np.argmax(counts))
+        if counts[most] > _MOST_SUBSTEPS:
+            raise SimulationError(
+                f"Body number {self.bodies[self.starts[most, 0]]} is so stiff for its weight and the size of its"
+                f" triangles that it would take more than {_MOST_SUBSTEPS:,} steps in 1/240 s. Give it a lower"
+                " youngs_modulus or sway_frequency or a higher density, or mesh it with a larger spacing."
+            )
+        return np.array(counts, dtype=np.int32)
 
 
-def assemble(scene: Scene) -> System:
-    """Put the bodies of a scene together and settle how stiff and heavy each of their parts is."""
+def assemble(scene: Scene, holds: Holds | None = None) -> System:
+    """Put the bodies of a scene together and settle how stiff and heavy each of their parts is.
+
+    Args:
+        scene: what is put together.
+        holds: what its rig points hold, where that is known already.
+
+    Raises:
+        SimulationError: a body is so stiff, so soft, so light or so finely meshed that floats cannot bear it.
+    """
     bodies, side = with_paint(scene.bodies, scene.paint), scene.bodies[0].mesh.longest_side
-    leaders = [leaders_of(scene.rig_points, body.mesh, body=number) for number, body in enumerate(bodies)]
+    for number, body in enumerate(bodies):
+        _require_bearable(body, number)
+    held_by = holds_of(scene) if holds is None else holds
+    leaders = held_by.leaders
     stiffness = [
         resolve_stiffness(body, held >= 0, number)
         for number, (body, held) in enumerate(zip(bodies, leaders, strict=True))
@@ -137,7 +165,6 @@ def assemble(scene: Scene) -> System:
     rank[order] = np.arange(len(order), dtype=np.int32)
     along = np.argsort(parts[triangles[:, 0]], kind="stable")
     density = np.concatenate([b.material.densities(n) for b, n in zip(bodies, triangle_counts, strict=True)])[along]
-    grips = [grips_of(scene.rig_points, body.mesh, body=number) for number, body in enumerate(bodies)]
     rest = RestShape(np.concatenate([body.mesh.vertices / side for body in bodies])[order], rank[triangles[along]])
     system = System(
         rest=rest,
@@ -151,13 +178,41 @@ def assemble(scene: Scene) -> System:
         damping=np.repeat([body.material.damping for body in bodies], vertex_counts)[order]
         * _damping_scale(bodies, rest, density, along),
         leaders=np.concatenate(leaders)[order],
-        grips=np.concatenate([grip for grip, _ in grips])[order],
-        grippers=np.concatenate([gripper for _, gripper in grips])[order],
+        grips=np.concatenate(held_by.grips)[order],
+        grippers=np.concatenate(held_by.grippers)[order],
         stretch_limits=np.repeat([body.material.stretch_limit or np.inf for body in bodies], vertex_counts)[order],
         wind_response=np.repeat([body.material.wind_response for body in bodies], vertex_counts)[order],
         sway=tuple(part for _, parts in stiffness for part in parts),
     )
     return replace(system, masses=_masses_with_slower_slivers(system))
+
+
+def _require_bearable(body: Body, number: int) -> None:
+    """Refuse values with whose squares and ratios the step cannot be computed."""
+    material, mesh = body.material, body.mesh
+    scale = material.stiffness_scale
+    stiffness = material.youngs_modulus * (np.ones(1) if scale is None else scale)
+    altitudes = 2 * mesh.areas / _longest_edges(mesh) / mesh.longest_side
+    for name, values, (low, high) in (
+        ("youngs_modulus", stiffness, _STIFFNESS),
+        ("density", material.densities(len(mesh.triangles)), _DENSITY),
+    ):
+        if values.min() < low or values.max() > high:
+            got = values.min() if values.min() < low else values.max()
+            raise SimulationError(
+                f"The {name} of body number {number}, with its factors, must be {low:g} to {high:g}. Got: {got:.3g}"
+            )
+    if altitudes.min() < _LEAST_ALTITUDE:
+        raise SimulationError(
+            f"The triangles of body number {number} must not be narrower than {_LEAST_ALTITUDE:g} of the picture's"
+            f" longest side. Got: {altitudes.min():.3g}"
+        )
+
+
+def _longest_edges(mesh: TriangleMesh) -> FloatArray:
+    """Length of the longest edge of each triangle [px], shape [t]."""
+    corners = mesh.vertices[mesh.triangles]
+    return np.asarray(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1))
 
 
 def _damping_scale(

@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .checks import numbers_of
 from .errors import InvalidInputError, require
 
 __all__ = ["Key", "Travel", "checked_keys", "factors"]
@@ -35,11 +36,14 @@ def checked_keys(name: str, keys: Sequence[Key], *, positive: bool = False) -> t
     Raises:
         InvalidInputError: a share is not from 0 to 1 or not above the one before, or a factor is out of bounds.
     """
+    expected = "pairs of a share of the path and a factor"
+    if not isinstance(keys, tuple | list | np.ndarray):
+        raise InvalidInputError(f"{name} must be {expected}. Got: {keys!r:.60}")
     require(name, f"{len(keys)} keys", len(keys) <= _MOST_KEYS, f"at most {_MOST_KEYS} keys")
-    try:
-        checked = tuple((float(share), float(factor)) for share, factor in keys)
-    except (TypeError, ValueError):
-        raise InvalidInputError(f"{name} must be pairs of a share of the path and a factor. Got: {keys!r}") from None
+    pairs = [numbers_of(name, key, expected) for key in keys]
+    if not all(len(pair) == 2 for pair in pairs):
+        raise InvalidInputError(f"{name} must be {expected}. Got: {keys!r:.60}")
+    checked = tuple((pair[0], pair[1]) for pair in pairs)
     shares = [share for share, _ in checked]
     rising = all(0 <= share <= 1 for share in shares) and all(a < b for a, b in pairwise(shares))
     require(name, shares, rising, "at increasing shares of the path from 0 to 1")

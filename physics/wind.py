@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .checks import is_whole, within
 from .errors import require
 from .limits import LARGEST
 from .points import Scale
@@ -51,14 +52,16 @@ class Wind:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        require("strength", self.strength, -LARGEST <= self.strength <= LARGEST, f"-{LARGEST} to {LARGEST} side/s^2")
-        require("angle", self.angle, -LARGEST <= self.angle <= LARGEST, f"-{LARGEST} to {LARGEST} degrees")
-        require("gust", self.gust, 0 <= self.gust <= 1, "0 to 1")
-        require("gust_period", self.gust_period, 0.05 <= self.gust_period <= LARGEST, f"0.05 to {LARGEST} s")
-        require("turbulence", self.turbulence, 0 <= self.turbulence <= 1, "0 to 1")
+        bounded = within(self.strength, -LARGEST, LARGEST)
+        require("strength", self.strength, bounded, f"-{LARGEST} to {LARGEST} side/s^2")
+        require("angle", self.angle, within(self.angle, -LARGEST, LARGEST), f"-{LARGEST} to {LARGEST} degrees")
+        require("gust", self.gust, within(self.gust, 0, 1), "0 to 1")
+        require("gust_period", self.gust_period, within(self.gust_period, 0.05, LARGEST), f"0.05 to {LARGEST} s")
+        require("turbulence", self.turbulence, within(self.turbulence, 0, 1), "0 to 1")
         size = self.turbulence_size
-        require("turbulence_size", size, 1 <= size <= LARGEST, f"1 to {LARGEST} px")
-        require("seed", self.seed, 0 <= self.seed <= _LARGEST_SEED, f"a whole number from 0 to {_LARGEST_SEED}")
+        require("turbulence_size", size, within(size, 1, LARGEST), f"1 to {LARGEST} px")
+        require("seed", self.seed, is_whole(self.seed, 0, _LARGEST_SEED), f"a whole number from 0 to {_LARGEST_SEED}")
+        object.__setattr__(self, "seed", int(self.seed))
 
     def rescaled(self, scale: Scale) -> Wind:
         """The same wind over the picture at another size."""

@@ -12,18 +12,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import require
 from ..physics.motion import Motion
 from ..physics.scene import Scene
-from .background import (
-    Background,
-    background_of,
-    check_in_betweens,
-    is_transparent,
-    over,
-    shown_frame,
-    usual_background,
-)
+from .background import Background, background_of, is_transparent, over, shown_frame, usual_background
+from .drawing_checks import check_drawing, height_at
 from .premultiplied import resized
 from .text_files import check_text_output, write_text
 from .video import check_output, holds_alpha, write_animation
@@ -115,11 +107,11 @@ class Animation:
         Raises:
             InvalidInputError: in-betweens and transparency are asked for together, or the background is unknown.
         """
-        require("every", every, every >= 1, "at least 1 frame")
+        check_drawing(every=every)
         chosen = self.background("transparent" if transparent and background is None else background)
         if background is None and not transparent and every > 1:
             chosen = Background()
-        check_in_betweens(chosen, every, pixel_art=self.pixel_art)
+        check_drawing(transparent=chosen.has_alpha, every=every, pixel_art=self.pixel_art)
         pictures: Iterable[Image]
         if every > 1:
             pictures = self._with_in_betweens(every, chosen)
@@ -182,6 +174,7 @@ class Animation:
         Raises:
             InvalidInputError: nothing can be written there, or the background is unknown.
         """
+        check_drawing(every=every)
         name = "transparent" if transparent and background is None else background
         if name is None and (every > 1 or not holds_alpha(path)):
             name = "picture"
@@ -213,7 +206,7 @@ class Animation:
 
     def height_at(self, width: int) -> int:
         """Height of written frames of a width [px]."""
-        return max(1, round(self.image.shape[0] * width / self.image.shape[1]))
+        return height_at(self.image, width)
 
     def save_motion(self, path: StrPath) -> None:
         """Write every vertex of every frame as JSON; see :func:`~physanimator.physics.export.motion_to_dict`.
@@ -285,5 +278,7 @@ def timed(seconds: dict[str, float], stage: str) -> Iterator[None]:
         stage: its name.
     """
     start = time.perf_counter()
-    yield
-    seconds[stage] = seconds.get(stage, 0.0) + time.perf_counter() - start
+    try:
+        yield
+    finally:
+        seconds[stage] = seconds.get(stage, 0.0) + time.perf_counter() - start

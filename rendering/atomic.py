@@ -2,42 +2,74 @@
 
 from __future__ import annotations
 
+import errno
 import os
-import secrets
-import shutil
+import stat
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ..physics.errors import InvalidInputError
+from .ending import uninterrupted
+from .places import StrPath, check_replaceable, printable
+from .unfinished import made_beside
 
-__all__ = ["replacing"]
+__all__ = ["naming_place", "putting_in_place", "replacing"]
+
+_OF_THE_DISK = {getattr(errno, name, None) for name in ("ENOSPC", "EDQUOT", "EFBIG", "EIO", "EROFS")} - {None}
 
 
 @contextmanager
-def replacing(path: Path) -> Iterator[Path]:
-    """A temporary path in the same folder that becomes ``path`` when the block ends without an error.
+def replacing(path: StrPath) -> Iterator[Path]:
+    """An empty temporary file in the same folder that becomes ``path`` when the block ends without an error.
 
-    An interrupted or failed block leaves an earlier file at ``path`` as it was, and nothing half done beside it.
+    An interrupted or failed block leaves an earlier file at ``path`` as it was, and nothing half done beside it. Where
+    ``path`` is a link, the file that it leads to is replaced. The temporary name is absolute and no longer than the
+    final one, so it need not have the same suffix.
 
     Args:
         path: where the result belongs.
 
     Yields:
-        The path to write to, with the same suffix; the block creates a file or a folder there.
+        The file to write to.
 
     Raises:
-        InvalidInputError: the result cannot be moved to its place, for example because another program holds it.
+        InvalidInputError: there is no such place (see :func:`~physanimator.rendering.places.check_replaceable`), or the
+            result cannot be moved there, for example because another program holds it.
+        OSError: the disk is full or the like; it names ``path``.
     """
-    temporary = path.with_name(f".{path.stem}.{secrets.token_hex(4)}{path.suffix}")
-    try:
+    place = check_replaceable(path)
+    with naming_place(path), made_beside(place.name, place.parent) as temporary:
         yield temporary
-        try:
-            os.replace(temporary, path)
-        except OSError as error:
-            raise InvalidInputError(f"cannot write {path}: {error.strerror}; is it open in another program?") from error
-    finally:
-        if temporary.is_dir():
-            shutil.rmtree(temporary)
-        else:
-            temporary.unlink(missing_ok=True)
+        with uninterrupted(), putting_in_place(path):
+            with suppress(FileNotFoundError):
+                os.chmod(temporary, stat.S_IMODE(place.stat().st_mode))
+            os.replace(temporary, place)
+
+
+@contextmanager
+def putting_in_place(path: StrPath) -> Iterator[None]:
+    """Say in a sentence why a complete result cannot be moved to its place.
+
+    Raises:
+        InvalidInputError: another program holds what is there, or the like.
+    """
+    try:
+        yield
+    except OSError as error:
+        if error.errno in _OF_THE_DISK:
+            raise
+        raise InvalidInputError(
+            f"cannot write {printable(path)}: {error.strerror}; is it open in another program?"
+        ) from error
+
+
+@contextmanager
+def naming_place(path: StrPath) -> Iterator[None]:
+    """Let errors of the disk name the result, not the file under work."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno not in _OF_THE_DISK:
+            raise
+        raise OSError(error.errno, error.strerror, str(path)) from error

@@ -62,7 +62,7 @@ def _decoded(path: Path) -> Iterator[NDArray[np.uint8]]:
     import av
 
     try:
-        with av.open(str(path)) as container:
+        with av.open(str(path.absolute())) as container:  # a colon in a relative name would be read as a protocol
             for frame in container.decode(video=0):
                 yield _rgb(frame)
     except (av.FFmpegError, IndexError) as error:

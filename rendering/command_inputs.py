@@ -9,7 +9,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from ..physics.collision import Contact
 
-__all__ = ["check_inputs", "read_inputs"]
+__all__ = ["check_inputs", "check_taken", "read_inputs"]
+
+
+_GREY = 8  # levels by which colours may differ and still be grey, black or white
+_MASK_SHARE = 0.8
 
 
 def check_inputs(options: argparse.Namespace) -> None:
@@ -24,6 +28,35 @@ def check_inputs(options: argparse.Namespace) -> None:
         raise InvalidInputError(f"{options.command} needs --mask or --points to know what moves. Got: neither")
     if options.scene and _wind(options):
         raise InvalidInputError("--attach, --wind, --wind-angle and --turbulence work without --scene. Got: both")
+
+
+def check_taken(options: argparse.Namespace, image: Any) -> None:
+    """Say which value of another option was taken as the picture, and refuse it if it is likely to be a mask.
+
+    Args:
+        options: of the command; ``image_after`` names that option, if there is one.
+        image: the picture, uint8, shape [h, w, 3 or 4].
+
+    Raises:
+        InvalidInputError: it has hardly anything but black and white in it.
+    """
+    import numpy as np
+
+    from ..physics.errors import InvalidInputError
+    from .command_messages import warn
+
+    option = getattr(options, "image_after", None)
+    if option is None:
+        return
+    colours = image[..., :3].astype(np.int16)
+    grey = np.ptp(colours, axis=2).max() <= _GREY
+    if grey and np.mean((colours <= _GREY) | (colours >= 255 - _GREY)) > _MASK_SHARE:
+        raise InvalidInputError(
+            f"IMAGE must be given, best before the options. Got: {options.image}, the last value of {option}, which"
+            " looks like a mask"
+        )
+    if not options.quiet:
+        warn(f"physanimator: {options.image}, the last value of {option}, is taken as the picture")
 
 
 def _wind(options: argparse.Namespace) -> dict[str, Any]:

@@ -13,7 +13,7 @@ def add_animate(parser: argparse.ArgumentParser) -> None:
         "Animate the parts of an illustration that masks or query points select. Without a scene, the parts are"
         " held where they are attached and a gentle wind blows."
     )
-    parser.add_argument("image", metavar="IMAGE", help="the illustration (PNG, JPEG, WebP)")
+    _add_picture(parser)
     _add_parts(parser)
     _add_direction(parser)
     _add_files(parser, output=None)
@@ -48,7 +48,7 @@ def add_measure(parser: argparse.ArgumentParser) -> None:
     parser.description = (
         "Measure a clip against the motion that it should show: the options that made it make the motion again."
     )
-    parser.add_argument("image", metavar="IMAGE", help="the illustration (PNG, JPEG, WebP)")
+    _add_picture(parser)
     _add_parts(parser)
     _add_direction(parser)
     clip = parser.add_argument_group("what is measured")
@@ -66,6 +66,15 @@ def add_measure(parser: argparse.ArgumentParser) -> None:
     clip.add_argument("--description", metavar="TEXT", help="what the clip shows, for --video-score")
     parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
     parser.add_argument("--quiet", "-q", action="store_true", help="no progress bars")
+
+
+def _add_picture(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "image",
+        metavar="IMAGE",
+        help="the illustration (PNG, JPEG, WebP); best written first: where it is missing, the last value of --mask,"
+        " --preset or --collider is it, if just one of them has more than one value",
+    )
 
 
 def _add_parts(parser: argparse.ArgumentParser) -> None:
@@ -124,7 +133,13 @@ def _add_direction(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
-    drawing = parser.add_argument_group("what is written")
+    drawing = parser.add_argument_group(
+        "what is written",
+        "A file of the same name is replaced when the new one is complete, unless it is read-only or read by this"
+        " command. A folder may hold other files, which stay. Frames in it (frame_0000.png and so on) are replaced only"
+        " if PhysAnimator wrote every one of them, which its record .physanimator.json in the folder tells, and nobody"
+        " changed them since; otherwise the folder is refused before the work.",
+    )
     drawing.add_argument(
         "--output",
         "-o",

@@ -3,49 +3,85 @@
 from __future__ import annotations
 
 import argparse
-import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .command_messages import warn
+
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from ..physics.plan import SimulationPlan
     from .animation import Animation, StageProgress
 
-__all__ = ["background_for", "check_outputs", "report", "write_outputs"]
+__all__ = ["background_for", "check_outputs", "check_sizes", "report", "write_outputs"]
+
+LARGEST_WIDTH = 8192
+"""The largest width that can be asked for [px]; its square is the most pixels that a frame may have."""
 
 
-def check_outputs(options: argparse.Namespace) -> None:
-    """Refuse places and sizes that cannot be written, before any long work.
+def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) -> None:
+    """Refuse places and sizes that cannot be written, and results in the place of what is read, before any work.
+
+    Args:
+        options: of the command.
+        bundled: files that the command reads without being told.
 
     Raises:
         InvalidInputError: the message names the option or the file.
     """
     from ..physics.errors import InvalidInputError
     from ..physics.tracks import check_track_options
-    from .background import Background, background_of, check_in_betweens
+    from .command_files import check_apart
+    from .drawing_checks import check_drawing
     from .text_files import check_text_output
-    from .video import check_output
+    from .video import check_frame_rate
 
-    said = options.background and background_of(options.background)
-    check_output(options.output, alpha=bool(said and said.has_alpha))
-    check_in_betweens(said or Background(), options.interpolate, pixel_art=options.pixel_art)
-    if options.width is not None and not 16 <= options.width <= 8192:
-        raise InvalidInputError(f"--width must be 16 to 8192 px. Got: {options.width}")
-    chosen = [options.output]
-    for path in (options.save_sketch, options.save_flow, options.preview):
-        if path is not None:
-            check_output(path)
-            chosen.append(path)
+    check_apart(options, bundled=bundled)
+    _check_clips(options)
+    check_drawing(transparent=_is_transparent(options), every=options.interpolate, pixel_art=options.pixel_art)
+    if options.fps is not None:
+        check_frame_rate(options.fps)
     for path, suffix in ((options.save_tracks, ".json"), (options.save_motion, ".json"), (options.save_svg, ".svg")):
         if path is not None:
             check_text_output(path, suffix)
-            chosen.append(path)
+    if options.width is not None and not 16 <= options.width <= LARGEST_WIDTH:
+        raise InvalidInputError(f"--width must be 16 to {LARGEST_WIDTH} px. Got: {options.width}")
     tracked = (options.track_points, options.track_static, options.track_frames)
     if not options.save_tracks and tracked != (None, None, None):
         raise InvalidInputError("--track-points, --track-static and --track-frames need --save-tracks. Got: without")
     check_track_options(points=tracked[0], static_points=tracked[1], frames=tracked[2])
-    if len({Path(path).resolve() for path in chosen}) < len(chosen):
-        raise InvalidInputError(f"every output must have its own name. Got: {', '.join(chosen)}")
+
+
+def check_sizes(options: argparse.Namespace, image: NDArray[Any]) -> None:
+    """Refuse frames that are too large for what they are written to: the picture is known, nothing is simulated yet.
+
+    Args:
+        options: of the command.
+        image: the illustration, shape [h, w, 3 or 4].
+
+    Raises:
+        InvalidInputError: the message names the format and its limit.
+    """
+    from ..physics.errors import require
+    from .drawing_checks import height_at
+
+    height, width = image.shape[:2]
+    if options.width is not None:
+        width, height = options.width, height_at(image, options.width)
+        held = width * height <= LARGEST_WIDTH**2
+        require("--width", f"{width} x {height} px", held, f"such that a frame has at most {LARGEST_WIDTH}^2 pixels")
+    _check_clips(options, size=(width, height))
+
+
+def _check_clips(options: argparse.Namespace, *, size: tuple[int, int] | None = None) -> None:
+    from .video import check_output
+
+    check_output(options.output, alpha=_is_transparent(options), size=size)
+    for path in (options.save_sketch, options.save_flow, options.preview):
+        if path is not None:
+            check_output(path, size=size)
 
 
 def write_outputs(options: argparse.Namespace, animation: Animation, progress: StageProgress | None) -> None:
@@ -73,17 +109,16 @@ def report(animation: Animation) -> None:
     planned = plan(animation.scene, frames=len(animation))
     for number, body in enumerate(animation.scene.bodies):
         name = body.name or f"part {number + 1}"
-        print(f"{name}: {len(body.mesh.vertices)} vertices, {len(body.mesh.triangles)} triangles", file=sys.stderr)
-    print(f"{planned.substeps_per_frame:g} steps of the simulation a frame", file=sys.stderr)
-    print(_way(animation, planned), file=sys.stderr)
+        warn(f"{name}: {len(body.mesh.vertices)} vertices, {len(body.mesh.triangles)} triangles")
+    warn(f"{planned.substeps_per_frame:g} steps of the simulation a frame")
+    warn(_way(animation, planned))
     loop = animation.motion.loop
     if loop is not None:
-        print(
-            f"loop of {loop.seconds:g} s after {loop.cycles} cycles, {loop.residual:.2g} px apart before it was closed",
-            file=sys.stderr,
+        warn(
+            f"loop of {loop.seconds:g} s after {loop.cycles} cycles, {loop.residual:.2g} px apart before it was closed"
         )
     for stage, seconds in animation.seconds.items():
-        print(f"{stage:<10}{seconds:8.2f} s", file=sys.stderr)
+        warn(f"{stage:<10}{seconds:8.2f} s")
 
 
 def _way(animation: Animation, planned: SimulationPlan) -> str:
@@ -118,7 +153,9 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
     Raises:
         InvalidInputError: in-betweens are asked for where it is transparent.
     """
-    from .background import check_in_betweens, is_transparent, usual_background
+    from .background import is_transparent, usual_background
+    from .drawing_checks import check_drawing
+    from .places import suffix_of
     from .video import holds_alpha
 
     if options.background is not None:
@@ -126,7 +163,17 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
     usual = usual_background(
         transparent_picture=is_transparent(image),
         file_has_alpha=holds_alpha(options.output),
-        parts=Path(options.output).suffix.lower() == ".webm",
+        parts=suffix_of(options.output) == ".webm",
     )
-    check_in_betweens(usual, options.interpolate)
+    check_drawing(transparent=usual.has_alpha, every=options.interpolate)
     return usual.kind
+
+
+def _is_transparent(options: argparse.Namespace) -> bool:
+    """Whether the output has an alpha channel whatever the illustration is."""
+    from .background import background_of
+    from .places import suffix_of
+
+    if options.background is None:
+        return suffix_of(options.output) == ".webm"
+    return background_of(options.background).has_alpha

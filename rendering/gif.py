@@ -6,6 +6,7 @@ import tempfile
 import zlib
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
+from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -38,7 +39,11 @@ def shown_indices(count: int, frame_rate: Fraction) -> Iterator[int]:
 
 
 def paletted(
-    frames: Iterable[av.VideoFrame], frame_rate: Fraction, *, dithered: bool = True
+    frames: Iterable[av.VideoFrame],
+    frame_rate: Fraction,
+    *,
+    dithered: bool = True,
+    folder: Path | None = None,
 ) -> Iterator[av.VideoFrame]:
     """Frames in 256 colours that are chosen for all of them together.
 
@@ -48,11 +53,12 @@ def paletted(
         frames: of one size, in FFmpeg's format rgb24 or rgba, with their times.
         frame_rate: frames a second.
         dithered: mix colours that are missing from others; without, each pixel gets the nearest one.
+        folder: where the temporary file is made, such as that of the result; the system's own when None.
 
     Yields:
         The frames that a GIF can show, in FFmpeg's format pal8.
     """
-    with tempfile.TemporaryFile() as spool:
+    with tempfile.TemporaryFile(dir=folder) as spool:
         lengths: list[int] = []
         palette, like = _palette(_recorded(frames, spool, lengths))
         spool.seek(0)

@@ -97,35 +97,41 @@ def save_image(path: StrPath, image: NDArray[Any]) -> None:
         image: grey, RGB or RGBA, uint8 or 0..1 float, shape [h, w], [h, w, 3] or [h, w, 4].
 
     Raises:
-        InvalidInputError: the suffix is not that of a picture, or the folder does not exist.
+        InvalidInputError: see :func:`check_image_output`; or the format does not hold so large a picture.
     """
     from PIL import Image
 
-    target = check_image_output(path)
-    with replacing(target) as temporary:
-        Image.fromarray(to_uint8(image)).save(temporary, compress_level=_COMPRESSION)
+    from .picture_formats import check_picture_format
+
+    pixels = to_uint8(np.asarray(image))
+    if pixels.ndim not in (2, 3) or pixels.shape[2:] not in ((), (3,), (4,)) or pixels.size == 0:
+        raise InvalidInputError(f"a picture must have shape [h, w], [h, w, 3] or [h, w, 4]. Got: {pixels.shape}")
+    picture = Image.fromarray(pixels)
+    kind = check_picture_format(path, mode=picture.mode, size=picture.size)
+    with replacing(path) as temporary:
+        picture.save(temporary, format=kind, compress_level=_COMPRESSION)
 
 
-def check_image_output(path: StrPath) -> Path:
+def check_image_output(path: StrPath, *, alpha: bool = False) -> Path:
     """Refuse a place that :func:`save_image` could not write to, before any long work.
 
     Args:
         path: where the picture is to be.
+        alpha: whether the picture will have an alpha channel.
 
     Returns:
         The same place.
 
     Raises:
-        InvalidInputError: the suffix is not that of a picture, or the folder does not exist.
+        InvalidInputError: the suffix is not that of a picture that can be written, or nothing can be written there; see
+            :func:`~physanimator.rendering.places.check_file_place`.
     """
-    from PIL import Image
+    from .picture_formats import check_picture_format
+    from .places import check_file_place
 
-    target = Path(path)
-    if target.suffix.lower() not in Image.registered_extensions():
-        raise InvalidInputError(f"a picture's name must end in .png, .jpg or .webp. Got: {path}")
-    if not target.parent.is_dir():
-        raise InvalidInputError(f"the folder for {path} must exist. Got: no folder {target.parent}")
-    return target
+    check_picture_format(path, mode="RGBA" if alpha else "RGB")
+    check_file_place(path)
+    return Path(path)
 
 
 def data_address(image: NDArray[Any]) -> str:

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
-
 from ..physics.errors import InvalidInputError
 from .atomic import replacing
+from .places import StrPath, check_file_place, printable, suffix_of
 
 __all__ = ["check_text_output", "write_text"]
-
-StrPath = str | os.PathLike[str]
 
 
 def check_text_output(path: StrPath, suffix: str) -> None:
@@ -21,15 +17,12 @@ def check_text_output(path: StrPath, suffix: str) -> None:
         suffix: how its name must end, such as ``.json``.
 
     Raises:
-        InvalidInputError: the name ends otherwise, or the folder does not exist.
+        InvalidInputError: the name ends otherwise, or nothing can be written there; see
+            :func:`~physanimator.rendering.places.check_file_place`.
     """
-    target = Path(path)
-    if target.suffix.lower() != suffix:
-        raise InvalidInputError(f"the name must end in {suffix}. Got: {path}")
-    if target.is_dir():
-        raise InvalidInputError(f"{path} must be a file. Got: a folder of that name")
-    if not target.parent.is_dir():
-        raise InvalidInputError(f"the folder for {path} must exist. Got: no folder {target.parent}")
+    if suffix_of(path) != suffix:
+        raise InvalidInputError(f"the name must end in {suffix}. Got: {printable(path)}")
+    check_file_place(path)
 
 
 def write_text(path: StrPath, text: str) -> None:
@@ -41,6 +34,7 @@ def write_text(path: StrPath, text: str) -> None:
 
     Raises:
         InvalidInputError: the file cannot be replaced.
+        OSError: the disk is full.
     """
-    with replacing(Path(path)) as temporary:
+    with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import itertools
+import math
+import numbers
 import os
-import re
-import shutil
-import tempfile
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -19,14 +18,26 @@ from numpy.typing import NDArray
 from ..physics.errors import InvalidInputError, require
 from .atomic import replacing
 from .bleeding import bled
-from .images import save_image, to_uint8
+from .frame_folder import check_frame_folder, write_frame_folder
+from .images import to_uint8
+from .places import StrPath, check_file_place, is_folder_name, place_of, printable, suffix_of
 
 if TYPE_CHECKING:
     import av
 
-__all__ = ["FORMATS", "VideoFormat", "check_output", "exact_frame_rate", "holds_alpha", "write_animation"]
+__all__ = [
+    "FORMATS",
+    "FRAME_RATES",
+    "VideoFormat",
+    "check_frame_rate",
+    "check_output",
+    "exact_frame_rate",
+    "holds_alpha",
+    "write_animation",
+]
 
-StrPath = str | os.PathLike[str]
+FRAME_RATES = (0.01, 240.0)
+"""The slowest and the fastest clip that can be written [frames/s]; every format holds these."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +54,7 @@ class VideoFormat:
         alpha_options: of the encoder, in addition, for frames with alpha.
         exact_options: of the encoder, in addition, where colours shall stay as they are.
         container_options: of the file format.
+        longest_side: largest width and height that it holds [px].
     """
 
     container: str
@@ -54,6 +66,7 @@ class VideoFormat:
     alpha_options: dict[str, str] = field(default_factory=dict)
     exact_options: dict[str, str] = field(default_factory=dict)
     container_options: dict[str, str] = field(default_factory=dict)
+    longest_side: int = 65_535
 
 
 FORMATS = {
@@ -64,6 +77,7 @@ FORMATS = {
         options={"crf": "17", "preset": "medium", "tune": "animation"},
         # The index stands in front, so that a browser starts to play before it has everything.
         container_options={"movflags": "+faststart"},
+        longest_side=16_384,
     ),
     ".webm": VideoFormat(
         "webm",
@@ -85,41 +99,63 @@ FORMATS = {
         options={"quality": "90"},
         exact_options={"lossless": "1"},
         container_options={"loop": "0"},
+        longest_side=16_383,
     ),
     ".apng": VideoFormat("apng", "apng", "rgb24", "rgba", container_options={"plays": "0"}),
 }
 
-_FRAME_NAME = "frame_{:04d}.png"
-_FRAME_PATTERN = re.compile(r"frame_\d{4,}\.png")
 _BT709 = 1
 _LIMITED_RANGE = 1
 
 
-def check_output(path: StrPath, *, alpha: bool = False) -> None:
+def check_output(path: StrPath, *, alpha: bool = False, size: tuple[int, int] | None = None) -> Path:
     """Refuse a place that :func:`write_animation` could not write to, before any long work.
 
     Args:
         path: a file ending in one of ``FORMATS``, or a folder ending in ``/``.
         alpha: whether the frames will have an alpha channel.
+        size: width and height of the frames [px], where they are known.
+
+    Returns:
+        Where the file or folder really comes to lie.
 
     Raises:
-        InvalidInputError: the ending is unknown, the format has no alpha, or the folder is missing or read-only.
+        InvalidInputError: the ending is unknown, the format has no alpha or holds no frames of that size, nothing can
+            be written there, or the folder holds frames that :func:`write_animation` did not write.
     """
-    target = Path(path)
-    if not _is_folder(path):
-        kinds = ", ".join(FORMATS)
-        if target.is_dir():
-            raise InvalidInputError(f"output must end in '/' to fill the folder with numbered pictures. Got: {path}")
-        if target.suffix.lower() not in FORMATS:
-            raise InvalidInputError(f"output must end in {kinds}, or in '/' for a folder of pictures. Got: {path}")
-        chosen = FORMATS[target.suffix.lower()]
-        if alpha and chosen.alpha_pixels is None:
-            able = ", ".join(suffix for suffix, each in FORMATS.items() if each.alpha_pixels)
-            raise InvalidInputError(f"output with transparency must end in {able}, or in '/'. Got: {path}")
-        _check_encoder(chosen)
-    elif target.exists() and not target.is_dir():
-        raise InvalidInputError(f"output {path} must be a folder. Got: a file")
-    _check_writable(target if target.is_dir() else target.parent, path)
+    if is_folder_name(path):
+        return check_frame_folder(path)
+    suffix, kinds = suffix_of(path), ", ".join(FORMATS)
+    if os.path.isdir(place_of(path)):
+        raise InvalidInputError(
+            f"output must end in '/' to fill the folder with numbered pictures. Got: {printable(path)}"
+        )
+    if suffix not in FORMATS:
+        raise InvalidInputError(
+            f"output must end in {kinds}, or in '/' for a folder of pictures. Got: {printable(path)}"
+        )
+    chosen = FORMATS[suffix]
+    if alpha and chosen.alpha_pixels is None:
+        able = ", ".join(suffix for suffix, each in FORMATS.items() if each.alpha_pixels)
+        raise InvalidInputError(f"output with transparency must end in {able}, or in '/'. Got: {printable(path)}")
+    if size is not None and max(size) > chosen.longest_side:
+        raise InvalidInputError(
+            f"frames in {suffix} must be at most {chosen.longest_side} px on a side. Got: {size[0]} x {size[1]} px"
+        )
+    _check_encoder(chosen)
+    return check_file_place(path)
+
+
+def check_frame_rate(frame_rate: float | Fraction) -> None:
+    """Refuse a frame rate that the formats cannot hold, before any long work.
+
+    Raises:
+        InvalidInputError: it is no number from ``FRAME_RATES``.
+    """
+    slowest, fastest = FRAME_RATES
+    number = isinstance(frame_rate, numbers.Real) and not isinstance(frame_rate, bool | np.bool_)
+    held = number and math.isfinite(frame_rate) and slowest <= frame_rate <= fastest
+    require("frame_rate", frame_rate, held, f"a number from {slowest:g} to {fastest:g} frames a second")
 
 
 def holds_alpha(path: StrPath) -> bool:
@@ -128,8 +164,8 @@ def holds_alpha(path: StrPath) -> bool:
     Args:
         path: a file ending in one of ``FORMATS``, or a folder ending in ``/``.
     """
-    chosen = FORMATS.get(Path(path).suffix.lower())
-    return _is_folder(path) or (chosen is not None and chosen.alpha_pixels is not None)
+    chosen = None if is_folder_name(path) else FORMATS.get(suffix_of(path))
+    return is_folder_name(path) or (chosen is not None and chosen.alpha_pixels is not None)
 
 
 def write_animation(
@@ -137,8 +173,9 @@ def write_animation(
 ) -> None:
     """Write frames as they come; the file or folder appears only when it is complete.
 
-    A file of the same name is replaced at the end; in a folder the numbered frames of an earlier clip are. A video
-    of odd width or height gets its last column or row twice, because H.264 needs even sizes.
+    A file of the same name is replaced at the end; in a folder the numbered frames of an earlier clip are, if this
+    function wrote them and nobody has changed them since. A video of odd width or height gets its last column or row
+    twice, because H.264 needs even sizes.
 
     Args:
         frames: RGB, RGBA or grey pictures of one size, uint8 or 0..1 float, shape [h, w, 3], [h, w, 4] or [h, w].
@@ -151,21 +188,20 @@ def write_animation(
     Raises:
         InvalidInputError: see :func:`check_output`; or there is no frame, or they differ in size.
     """
-    require("frame_rate", frame_rate, 0 < frame_rate <= 240, "above 0 and at most 240 frames a second")
+    check_frame_rate(frame_rate)
     iterator = _uniform(frames)
     first = next(iterator, None)
     if first is None:
         raise InvalidInputError("an animation must have at least one frame. Got: none")
-    check_output(path, alpha=first.shape[2] == 4)
+    check_output(path, alpha=first.shape[2] == 4, size=(first.shape[1], first.shape[0]))
     every: Iterable[NDArray[np.uint8]] = itertools.chain([first], iterator)
-    if _is_folder(path):
-        _write_folder(every, Path(path))
+    if is_folder_name(path):
+        write_frame_folder(every, path)
         return
-    target = Path(path)
-    with replacing(target) as temporary:
-        chosen = FORMATS[target.suffix.lower()]
-        if first.shape[2] == 4 and chosen.mixes_neighbours and not exact:
-            every = map(bled, every)
+    chosen = FORMATS[suffix_of(path)]
+    if first.shape[2] == 4 and chosen.mixes_neighbours and not exact:
+        every = map(bled, every)
+    with replacing(path) as temporary:
         _encode(every, temporary, chosen, first.shape, exact_frame_rate(frame_rate), exact=exact)
 
 
@@ -176,15 +212,11 @@ def exact_frame_rate(frame_rate: float | Fraction) -> Fraction:
         frame_rate: frames a second.
     """
     if isinstance(frame_rate, Fraction):
-        return frame_rate
+        return frame_rate.limit_denominator(100_000)
     for nominal in (24, 30, 48, 60, 120):
         if abs(frame_rate - nominal / 1.001) < 0.005:
             return Fraction(nominal * 1000, 1001)
-    return Fraction(frame_rate).limit_denominator(1000)
-
-
-def _is_folder(path: StrPath) -> bool:
-    return os.fspath(path).endswith(("/", os.sep))
+    return Fraction(float(frame_rate)).limit_denominator(1000)
 
 
 def _check_encoder(chosen: VideoFormat) -> None:
@@ -197,17 +229,6 @@ def _check_encoder(chosen: VideoFormat) -> None:
             f"output needs FFmpeg's encoder {chosen.codec}, which the installed PyAV lacks;"
             " install PyAV's own wheel: pip install --force-reinstall av"
         ) from None
-
-
-def _check_writable(folder: Path, path: StrPath) -> None:
-    if not folder.is_dir():
-        raise InvalidInputError(f"the folder for {path} must exist. Got: no folder {folder}")
-    try:
-        # Asking the system for permissions is not reliable on Windows and network drives; trying is.
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        raise InvalidInputError(f"the folder for {path} must be writable. Got: {error.strerror}") from None
 
 
 def _uniform(frames: Iterable[NDArray[Any]]) -> Iterator[NDArray[np.uint8]]:
@@ -225,26 +246,26 @@ def _uniform(frames: Iterable[NDArray[Any]]) -> Iterator[NDArray[np.uint8]]:
         yield np.ascontiguousarray(pixels)
 
 
-def _write_folder(frames: Iterable[NDArray[np.uint8]], folder: Path) -> None:
-    created = not folder.exists()
-    staging = folder.with_name(f".{folder.name}.partial") if created else folder / ".partial"
-    shutil.rmtree(staging, ignore_errors=True)
-    staging.mkdir()
-    try:
-        for index, frame in enumerate(frames):
-            save_image(staging / _FRAME_NAME.format(index), frame)
-        if created:
-            staging.rename(folder)
-            return
-        for earlier in [entry for entry in folder.iterdir() if _FRAME_PATTERN.fullmatch(entry.name)]:
-            earlier.unlink()
-        for picture in sorted(staging.iterdir()):
-            picture.rename(folder / picture.name)
-    finally:
-        shutil.rmtree(staging, ignore_errors=True)
-
-
 def _encode(
+    frames: Iterable[NDArray[np.uint8]],
+    path: Path,
+    chosen: VideoFormat,
+    shape: tuple[int, ...],
+    rate: Fraction,
+    *,
+    exact: bool,
+) -> None:
+    import av
+
+    try:
+        _mux(frames, path, chosen, shape, rate, exact=exact)
+    except av.FFmpegError as error:
+        if isinstance(error, OSError):
+            raise
+        raise InvalidInputError(f"frames must be such that FFmpeg's {chosen.codec} takes them. Got: {error}") from error
+
+
+def _mux(
     frames: Iterable[NDArray[np.uint8]],
     path: Path,
     chosen: VideoFormat,
@@ -265,7 +286,7 @@ def _encode(
         stream.pix_fmt = (chosen.alpha_pixels if alpha else None) or chosen.pixels
         stream.codec_context.time_base = 1 / rate
         _describe(stream)
-        for frame in _converted(frames, stream.pix_fmt, rate, even=even, exact=exact):
+        for frame in _converted(frames, stream.pix_fmt, rate, even=even, exact=exact, folder=path.parent):
             container.mux(stream.encode(frame))
         container.mux(stream.encode(None))
 
@@ -280,13 +301,13 @@ def _describe(stream: av.VideoStream) -> None:
 
 
 def _converted(
-    frames: Iterable[NDArray[np.uint8]], pixels: str, rate: Fraction, *, even: bool, exact: bool
+    frames: Iterable[NDArray[np.uint8]], pixels: str, rate: Fraction, *, even: bool, exact: bool, folder: Path
 ) -> Iterator[av.VideoFrame]:
     """Numbered frames in a stream's pixel format."""
     if pixels == "pal8":
         from .gif import paletted
 
-        yield from paletted(_numbered(frames, rate, even=even), rate, dithered=not exact)
+        yield from paletted(_numbered(frames, rate, even=even), rate, dithered=not exact, folder=folder)
         return
     for frame in _numbered(frames, rate, even=even):
         if pixels.startswith("yuv"):

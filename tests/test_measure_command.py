@@ -49,7 +49,7 @@ def test_a_clip_in_a_folder_and_what_would_be_drawn_measure_alike(folder: Path, 
 def test_a_faulty_clip_is_found_out(folder: Path, capsys: Output) -> None:
     good = measures(capsys, "--clip", "frames")
     shutil.copytree("frames", "faulty")
-    for number, path in enumerate(sorted(Path("faulty").iterdir())):
+    for number, path in enumerate(sorted(Path("faulty").glob("*.png"))):
         save_image(path, np.clip(load_image(path).astype(int) + 20 * (number % 2), 0, 255).astype(np.uint8))
     bad = measures(capsys, "--clip", "faulty")
     assert bad["flow_warp_error"] > good["flow_warp_error"] + 0.05

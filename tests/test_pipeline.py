@@ -12,7 +12,7 @@ import pytest
 from physanimator.physics.errors import InvalidInputError, PhysAnimatorError
 from physanimator.physics.material import PRESETS
 from physanimator.pipeline import animate
-from physanimator.rendering.animation import Animation
+from physanimator.rendering.animation import Animation, timed
 from PIL import Image
 
 WIDTH, HEIGHT = 160, 120
@@ -183,7 +183,19 @@ def test_saved_video_has_the_right_length_rate_and_alpha(windy: Animation, tmp_p
         ({"masks": [np.ones((8, 8), bool)]}, r"masks\[0\] must have the picture's shape"),
         ({"image": np.zeros((HEIGHT, WIDTH), np.uint8)}, "image must be an RGB picture"),
         ({"plate": np.zeros((4, 4, 3), np.uint8)}, "plate must have the picture's shape"),
+        ({"plate": np.zeros((HEIGHT, WIDTH, 3), np.complex64)}, "plate|image"),
+        ({"plate": "plate.png"}, "plate"),
+        ({"image": np.zeros((HEIGHT, WIDTH, 3), np.complex64)}, "image"),
+        ({"image": np.zeros((0, 0, 3), np.uint8)}, "image"),
         ({"frames": 0}, "frames must be at least 1"),
+        ({"frames": 2.5}, "frames must be a whole number"),
+        ({"frames": "3"}, "frames must be a whole number"),
+        ({"frames": True}, "frames must be a whole number"),
+        ({"skip": 1.5}, "skip must be a whole number"),
+        ({"skip": -1}, "skip must be at least 0"),
+        ({"skip": 2}, "skip must be at least 0 and below"),
+        ({"frame_rate": float("nan")}, "frame_rate"),
+        ({"frame_rate": "24"}, "frame_rate"),
         ({"preset": "steel"}, "preset must be one of hair"),
         ({"preset": ["hair", "cloth"]}, "preset must be named once"),
         ({"spacing": -3.0}, "spacing"),
@@ -231,6 +243,34 @@ def test_a_picture_with_transparency_moves_on_it(tmp_path: Path) -> None:
     animation.save(tmp_path / "sparse.gif", every=3)
     with pytest.raises(InvalidInputError, match="one by one"):
         animation.save(tmp_path / "sparse.webm", every=3, background="parts")
+
+
+def test_bad_input_is_refused_before_the_simulation(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The plate is needed last and checked first."""
+    monkeypatch.setattr("physanimator.pipeline.simulate", lambda *_, **__: pytest.fail("simulated"))
+    for plate in (np.zeros((4, 4, 3), np.uint8), np.zeros((HEIGHT, WIDTH, 3), np.complex64), "plate.png"):
+        with pytest.raises(InvalidInputError):
+            animate(picture(), [strip()], frames=2, plate=plate)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("every", [0, -1, 1.5, "2", True, None])
+def test_in_betweens_are_counted(windy: Animation, every: object) -> None:
+    with pytest.raises(InvalidInputError, match="every must be"):
+        windy.frames(every=every)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("width", [0, -5, 8.5, "80"])
+def test_widths_are_counted(windy: Animation, tmp_path: Path, width: object) -> None:
+    with pytest.raises(InvalidInputError, match="width must be"):
+        windy.save(tmp_path / "a.mp4", width=width)  # type: ignore[arg-type]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_time_is_counted_when_a_stage_fails() -> None:
+    seconds: dict[str, float] = {}
+    with pytest.raises(KeyError), timed(seconds, "write"):
+        raise KeyError
+    assert seconds["write"] >= 0
 
 
 def test_in_betweens_cannot_be_transparent(windy: Animation) -> None:

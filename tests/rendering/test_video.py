@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -11,6 +12,7 @@ import av
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
+from physanimator.rendering.clip_reading import read_clip
 from physanimator.rendering.gif import shown_indices
 from physanimator.rendering.video import FORMATS, check_output, exact_frame_rate, write_animation
 from PIL import Image
@@ -176,7 +178,7 @@ def test_gif_does_not_drift_and_skips_what_browsers_would_slow_down() -> None:
 
 def test_folder_holds_exact_numbered_pictures(tmp_path: Path) -> None:
     write_animation(clip(3, alpha=True), f"{tmp_path}/frames/", 24)
-    names = sorted(entry.name for entry in (tmp_path / "frames").iterdir())
+    names = sorted(entry.name for entry in (tmp_path / "frames").glob("*.png"))
     assert names == ["frame_0000.png", "frame_0001.png", "frame_0002.png"]
     assert (pixels_of(tmp_path / "frames" / "frame_0002.png", 0) == list(clip(3, alpha=True))[2]).all()
     assert [entry.name for entry in tmp_path.iterdir()] == ["frames"]
@@ -187,7 +189,7 @@ def test_folder_replaces_an_earlier_clip_and_nothing_else(tmp_path: Path) -> Non
     write_animation(clip(5), f"{folder}/", 24)
     (folder / "notes.txt").write_text("mine")
     write_animation(clip(2), f"{folder}/", 24)
-    assert sorted(entry.name for entry in folder.iterdir()) == ["frame_0000.png", "frame_0001.png", "notes.txt"]
+    assert sorted(entry.name for entry in folder.glob("[!.]*")) == ["frame_0000.png", "frame_0001.png", "notes.txt"]
 
 
 @pytest.mark.parametrize("name", ["clip.mp4", "clip.webm", "clip.gif", "clip.webp", "clip.apng"])
@@ -216,7 +218,10 @@ def test_interrupted_run_leaves_no_folder_and_no_mixture(tmp_path: Path) -> None
     write_animation(clip(3), f"{tmp_path}/old/", 24)
     with pytest.raises(KeyboardInterrupt):
         write_animation(broken(), f"{tmp_path}/old/", 24)
-    assert len(list((tmp_path / "old").iterdir())) == 3
+    assert sorted(entry.name for entry in (tmp_path / "old").iterdir()) == [
+        ".physanimator.json",
+        *(f"frame_000{t}.png" for t in range(3)),
+    ]
 
 
 def test_frames_are_encoded_as_they_come(tmp_path: Path) -> None:
@@ -309,3 +314,10 @@ def test_bad_frames(tmp_path: Path, frames: list[np.ndarray], words: str) -> Non
 def test_bad_frame_rate(tmp_path: Path) -> None:
     with pytest.raises(InvalidInputError, match="frame_rate"):
         write_animation(clip(), tmp_path / "clip.mp4", 0)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows reads it as a stream of the file girl")
+def test_a_name_with_a_colon_is_read_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_animation(clip(3), "girl:v2.mp4", 24)
+    assert len(list(read_clip("girl:v2.mp4"))) == 3

@@ -1,0 +1,242 @@
+"""Outlines of colliders as far as bodies can come, and how far points are from outlines.
+
+A ground may be drawn a million pixels wide. What lies more than some sides from the picture and the bodies is laid
+flat on the border of a window around them, so that what follows does not grow with it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .collision import Collider
+from .contours import area_of, contours_at_half, resampled
+from .interruption import checkpoint
+from .leading import farthest_led
+from .rig import MaskRegion
+from .scene import Body, Scene
+
+__all__ = [
+    "LEAST_SPACING",
+    "Window",
+    "count_outlines",
+    "crossed",
+    "outlines",
+    "segment_distances",
+    "spacing_of",
+    "window_of",
+    "within_reach",
+]
+
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.int64]
+
+LEAST_SPACING = 2.0
+"""Smallest distance between the points of a collider's outline [px]."""
+
+_AROUND = 2.0  # [side] that bodies may leave the picture or their places, besides where they are led
+_FARTHEST = 4.0  # [side] at most: nobody sees what touches out there
+_SMALLEST_COLLIDER = 4.0  # [px^2]
+_PAIRS_AT_ONCE = 1 << 17  # of a point and an edge, each some 100 bytes
+_BANDS = 512
+_POINTS_AT_ONCE = 64  # each may be near every edge
+
+
+class Window(NamedTuple):
+    """Where bodies may touch something: the low and the high corner of a box [px], each of shape [2]."""
+
+    low: FloatArray
+    high: FloatArray
+
+
+def window_of(scene: Scene) -> Window:
+    """Where the bodies of a scene can come, generously."""
+    side = scene.bodies[0].mesh.longest_side
+    lows = [body.mesh.vertices.min(axis=0) for body in scene.bodies]
+    highs = [body.mesh.vertices.max(axis=0) for body in scene.bodies]
+    low, high = np.minimum(np.min(lows, axis=0), 0.0), np.maximum(np.max(highs, axis=0), [scene.width, scene.height])
+    led = max((farthest_led(point, low, high) for point in scene.rig_points), default=0.0)
+    reach = min(_AROUND * side + led, _FARTHEST * side)
+    return Window(low - reach, high + reach)
+
+
+def outlines(collider: Collider, width: int, height: int, spacing: float, window: Window) -> list[FloatArray]:
+    """Closed outlines wound as mesh boundaries are, their points a spacing apart [px], each of shape [n, 2].
+
+    Args:
+        collider: the shape.
+        width: of the picture [px].
+        height: of the picture [px].
+        spacing: between points [px].
+        window: beyond it a polygon is laid flat on its border.
+    """
+    if isinstance(collider.region, MaskRegion):
+        mask = collider.region.mask
+        scale = np.array([width, height]) / mask.shape[::-1]
+        found = contours_at_half(np.pad(mask, 1))
+        loops = [(loop - 1.0) * scale for loop in found if abs(area_of(loop)) >= _SMALLEST_COLLIDER]
+    else:
+        loops = _polygon(collider, window)
+    checkpoint()
+    return [_sampled(loop, spacing) for loop in loops]
+
+
+def spacing_of(bodies: Sequence[Body]) -> float:
+    """Distance of the points of colliders' outlines [px]: that of the bodies' boundary vertices."""
+    lengths = []
+    for body in bodies:
+        ends = body.mesh.vertices[body.mesh.boundary_edges]
+        lengths.append(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+    return max(float(np.median(np.concatenate(lengths))), LEAST_SPACING)
+
+
+def count_outlines(scene: Scene, spacing: float) -> tuple[int, int]:
+    """About how many points the outlines of all colliders have, and how many pixel edges masks have between them.
+
+    Args:
+        scene: the scene.
+        spacing: between points [px].
+    """
+    window, points, crossings = window_of(scene), 0.0, 0
+    for collider in scene.colliders:
+        checkpoint()
+        if isinstance(collider.region, MaskRegion):
+            mask = collider.region.mask
+            found, size = _crossings(mask), max(scene.width / mask.shape[1], scene.height / mask.shape[0])
+            crossings += found
+            points += min(found, found * size / spacing)
+        else:
+            points += sum(_points_of(loop, spacing) for loop in _polygon(collider, window))
+    return math.ceil(points), crossings
+
+
+def _crossings(mask: NDArray[np.bool_]) -> int:
+    """Between how many neighbouring pixels a mask's outline passes."""
+    across = int(np.count_nonzero(mask[:, 1:] != mask[:, :-1])) + int(np.count_nonzero(mask[1:] != mask[:-1]))
+    return across + int(sum(np.count_nonzero(border) for border in (mask[0], mask[-1], mask[:, 0], mask[:, -1])))
+
+
+def within_reach(
+    points: FloatArray, starts: FloatArray, ends: FloatArray, reach: float
+) -> tuple[IndexArray, FloatArray]:
+    """Which points lie inside closed outlines, by the even-odd rule, or nearer to them than a reach, and how far.
+
+    Args:
+        points: shape [n, 2].
+        starts: of the edges, shape [e, 2].
+        ends: of the edges, shape [e, 2].
+        reach: above 0, in the same unit.
+
+    Returns:
+        Indices of points, ascending, and their distances from the outlines, negative inside, of equal length.
+    """
+    from scipy.spatial import cKDTree
+
+    inside = _inside(points, starts, ends)
+    middles, half = (starts + ends) / 2, float(np.hypot(*(ends - starts).T).max(initial=0.0)) / 2
+    tree = cKDTree(middles)
+    nearest, _ = tree.query(points)
+    near = np.flatnonzero(inside | (nearest - half <= reach * (1 + 1e-9)))
+    # The edge nearest to a point has its middle no farther away than the nearest middle and half the longest edge.
+    farthest = (nearest[near] + half) * (1 + 1e-9) + 1e-12
+    distances = np.empty(len(near))
+    for first in range(0, len(near), _POINTS_AT_ONCE):
+        checkpoint()
+        some = slice(first, first + _POINTS_AT_ONCE)
+        found = tree.query_ball_point(points[near[some]], farthest[some], return_sorted=False)
+        counts = np.array([len(edges) for edges in found])
+        edges, owners = np.concatenate(found).astype(np.int64), np.repeat(points[near[some]], counts, axis=0)
+        square = _squares(*(owners - starts[edges]).T, *(ends - starts)[edges].T)
+        distances[some] = np.sqrt(np.minimum.reduceat(square, np.cumsum(counts) - counts))
+    distances = np.where(inside[near], -distances, distances)
+    kept = distances < reach
+    return near[kept], distances[kept]
+
+
+def crossed(points: FloatArray, starts: FloatArray, ends: FloatArray) -> IndexArray:
+    """How many edges lie to the right of each point, shape [n]; odd inside of closed outlines."""
+    edge_x, edge_y = (ends - starts).T
+    x, y = points[:, :1] - starts[:, 0], points[:, 1:] - starts[:, 1]  # from the edges' starts, shape [n, e]
+    spans = (y < 0) != (points[:, 1:] < ends[:, 1])
+    return (spans & (x < edge_x * (y / np.where(edge_y == 0.0, 1.0, edge_y)))).sum(axis=1)
+
+
+def segment_distances(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
+    """Distance of each point from the nearest of some edges, with every edge beside every point in memory."""
+    x, y = points[:, :1] - starts[:, 0], points[:, 1:] - starts[:, 1]
+    return np.asarray(np.sqrt(_squares(x, y, *(ends - starts).T).min(axis=1, initial=np.inf)))
+
+
+def _squares(x: FloatArray, y: FloatArray, edge_x: FloatArray, edge_y: FloatArray) -> FloatArray:
+    """Squared distances of points, seen from the starts of edges, from these edges."""
+    t = np.clip((x * edge_x + y * edge_y) / np.maximum(edge_x**2 + edge_y**2, 1e-30), 0.0, 1.0)
+    return np.asarray((x - t * edge_x) ** 2 + (y - t * edge_y) ** 2)
+
+
+def _inside(points: FloatArray, starts: FloatArray, ends: FloatArray) -> NDArray[np.bool_]:
+    """Whether each point is inside, band by band of y, so that each meets only edges at its height."""
+    result = np.zeros(len(points), dtype=bool)
+    lowest, highest = np.minimum(starts[:, 1], ends[:, 1]), np.maximum(starts[:, 1], ends[:, 1])
+    order = np.argsort(points[:, 1], kind="stable")
+    for some in np.array_split(order, min(_BANDS, max(1, len(order) // 8))):
+        if not len(some):
+            continue
+        here = (lowest <= points[some[-1], 1]) & (highest >= points[some[0], 1])
+        first, last = starts[here], ends[here]
+        at_once = max(1, _PAIRS_AT_ONCE // max(len(first), 1))
+        for begin in range(0, len(some), at_once):
+            checkpoint()
+            piece = some[begin : begin + at_once]
+            result[piece] = crossed(points[piece], first, last) % 2 == 1
+    return result
+
+
+def _polygon(collider: Collider, window: Window) -> list[FloatArray]:
+    """A polygon's corners in the winding of mesh boundaries, none of them beyond the window."""
+    loop = np.array(collider.region.points)  # type: ignore[union-attr]
+    loop = loop if area_of(loop) < 0 else loop[::-1]
+    if (loop >= window.low).all() and (loop <= window.high).all():
+        return [loop]
+    for axis in range(2):
+        for level in (window.low[axis], window.high[axis]):
+            loop = _cut_at(loop, axis, level)
+    loop = np.clip(loop, window.low, window.high)
+    loop = loop[(loop != np.roll(loop, 1, axis=0)).any(axis=1)]
+    return [loop] if len(loop) >= 3 and abs(area_of(loop)) > 0 else []
+
+
+def _cut_at(loop: FloatArray, axis: int, level: float) -> FloatArray:
+    """A polygon with a further corner wherever an edge passes a coordinate."""
+    following = np.roll(loop, -1, axis=0)
+    a, b = loop[:, axis], following[:, axis]
+    passing = ((a < level) & (b > level)) | ((a > level) & (b < level))
+    share = np.divide(level - a, b - a, out=np.zeros_like(a), where=passing)
+    added = (loop + (following - loop) * share[:, None])[passing]
+    added[:, axis] = level
+    return np.insert(loop, np.flatnonzero(passing) + 1, added, axis=0)
+
+
+def _points_of(loop: FloatArray, spacing: float) -> float:
+    lengths = np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1)
+    if np.median(lengths) < spacing / 2:
+        return float(lengths.sum() / spacing) + 3
+    return float(np.ceil(lengths / spacing).sum())
+
+
+def _sampled(loop: FloatArray, spacing: float) -> FloatArray:
+    """A polygon with its corners kept and long edges divided, or a dense one thinned out."""
+    lengths = np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1)
+    if np.median(lengths) < spacing / 2:
+        return resampled(loop, lambda points: np.full(len(points), spacing))
+    closed: Sequence[FloatArray] = [*loop, loop[0]]
+    pieces = [
+        a + (b - a) * (np.arange(n) / n)[:, None]
+        for (a, b), n in zip(pairwise(closed), np.ceil(lengths / spacing).astype(int), strict=True)
+        if n
+    ]
+    return np.concatenate(pieces)

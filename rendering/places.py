@@ -1,0 +1,230 @@
+"""Places that can be written to: checked before the work, the same way for every kind of result."""
+
+from __future__ import annotations
+
+import ntpath
+import os
+import stat
+import unicodedata
+from pathlib import Path
+
+from ..physics.errors import InvalidInputError
+from .unfinished import made_beside
+
+__all__ = [
+    "StrPath",
+    "check_file_place",
+    "check_folder_place",
+    "check_replaceable",
+    "check_windows_name",
+    "is_folder_name",
+    "is_read_only",
+    "place_of",
+    "printable",
+    "same_name",
+    "suffix_of",
+]
+
+StrPath = str | os.PathLike[str]
+
+_RESERVED = {"CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"} | {
+    f"{port}{n}" for port in ("COM", "LPT") for n in "123456789¹²³"
+}
+_HARMLESS = "\u00a0\u200c\u200d\u3000"  # spaces and joiners of written languages
+_FORBIDDEN = '<>:"|?*'
+
+
+def is_folder_name(path: StrPath) -> bool:
+    """Whether a name is that of a folder: it ends in a slash."""
+    return _spelled(path).endswith(("/", os.sep))
+
+
+def suffix_of(path: StrPath) -> str:
+    """The ending of a name in small letters, such as ``.mp4``.
+
+    Raises:
+        InvalidInputError: it cannot be a name on this system.
+    """
+    return Path(_spelled(path)).suffix.lower()
+
+
+def place_of(path: StrPath) -> Path:
+    """Where a result really comes to lie: links are followed, and stay as they are.
+
+    Raises:
+        InvalidInputError: it cannot be a name on this system.
+    """
+    given = _spelled(path)
+    place = Path(os.path.realpath(given))
+    if os.path.islink(place):
+        raise InvalidInputError(f"output {printable(given)} must lead to a file. Got: a link that leads in a circle")
+    return place
+
+
+def check_file_place(path: StrPath) -> Path:
+    """Refuse a file that could not be written.
+
+    Args:
+        path: where the file is to be.
+
+    Returns:
+        Where it really comes to lie.
+
+    Raises:
+        InvalidInputError: see :func:`check_replaceable`; or the folder is read-only.
+    """
+    place = check_replaceable(path)
+    _check_writable(place.parent, place.name, path)
+    return place
+
+
+def check_replaceable(path: StrPath) -> Path:
+    """Refuse what can be seen to be wrong with a file's place, without trying to write there.
+
+    Args:
+        path: where the file is to be.
+
+    Returns:
+        Where it really comes to lie.
+
+    Raises:
+        InvalidInputError: the name is impossible or too long, the folder is missing, or what is there is no file or
+            must not be changed.
+    """
+    place = place_of(path)
+    status = _status(place, path)
+    if status is not None:
+        _check_replaceable(place, status, path)
+    _check_folder(place.parent, path)
+    return place
+
+
+def check_folder_place(path: StrPath) -> Path:
+    """Refuse a folder that could be neither made nor filled.
+
+    Args:
+        path: where the folder is, or is to be.
+
+    Returns:
+        Where it really comes to lie.
+
+    Raises:
+        InvalidInputError: see :func:`check_file_place`.
+    """
+    place = place_of(path)
+    status = _status(place, path)
+    if status is None:
+        _check_folder(place.parent, path)
+        _check_writable(place.parent, place.name, path)
+    elif not stat.S_ISDIR(status.st_mode):
+        raise InvalidInputError(f"output {printable(path)} must be a folder. Got: {_kind(status)}")
+    else:
+        _check_writable(place, "frame_0000.png", path)
+    return place
+
+
+def printable(path: StrPath) -> str:
+    """A path or sentence for a person: in one line, without what else in a name a terminal would obey."""
+    return "".join(each if each.isprintable() or each in _HARMLESS else _escaped(each) for each in os.fspath(path))
+
+
+def _escaped(character: str) -> str:
+    return character.encode("unicode_escape").decode("ascii")
+
+
+def _spelled(path: StrPath) -> str:
+    """A path as text that the system can take."""
+    try:
+        given = os.fspath(path)
+    except TypeError:
+        raise InvalidInputError(f"output must be a path. Got: {type(path).__name__}") from None
+    if not isinstance(given, str):
+        raise InvalidInputError(f"output must be a path as text. Got: {type(given).__name__}")
+    if not given:
+        raise InvalidInputError("output must be a name. Got: nothing")
+    try:
+        possible = "\0" not in given and bool(os.fsencode(given))
+    except UnicodeEncodeError:
+        possible = False
+    if not possible:
+        raise InvalidInputError(f"output must be a name that this system can write. Got: {printable(given)}")
+    if os.name == "nt":
+        check_windows_name(given)
+    return given
+
+
+def check_windows_name(path: str) -> None:
+    """Refuse names that Windows gives another meaning: devices, streams, and ends that it drops.
+
+    Raises:
+        InvalidInputError: the last part of the path is such a name.
+    """
+    name = ntpath.basename(ntpath.splitdrive(path)[1].rstrip("\\/"))
+    if name in ("", ".", ".."):
+        return
+    device = name.split(".")[0].rstrip(" ").upper() in _RESERVED
+    if device or name[-1] in ". " or any(each in _FORBIDDEN or ord(each) < 32 for each in name):
+        raise InvalidInputError(f"output must be a name that Windows can write. Got: {printable(path)}")
+
+
+def _status(place: Path, given: StrPath) -> os.stat_result | None:
+    """What is at a place; None where nothing is."""
+    try:
+        return place.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError as error:
+        raise InvalidInputError(
+            f"output {printable(given)} must be a name that can be written. Got: {error.strerror}"
+        ) from None
+
+
+def _check_replaceable(place: Path, status: os.stat_result, given: StrPath) -> None:
+    if not stat.S_ISREG(status.st_mode):
+        raise InvalidInputError(f"output {printable(given)} must be a file. Got: {_kind(status)}")
+    if is_read_only(status):
+        raise InvalidInputError(f"output {printable(given)} must be a file that may be replaced. Got: a read-only file")
+    try:
+        os.close(os.open(place, os.O_WRONLY))
+    except OSError as error:
+        raise InvalidInputError(
+            f"output {printable(given)} must be a file that may be replaced. Got: {error.strerror};"
+            " is it open in another program?"
+        ) from None
+
+
+def _check_folder(folder: Path, given: StrPath) -> None:
+    if not os.path.isdir(folder):
+        there = (
+            f"{printable(folder)}, which is no folder" if os.path.exists(folder) else f"no folder {printable(folder)}"
+        )
+        raise InvalidInputError(f"the folder for {printable(given)} must exist. Got: {there}")
+
+
+def _check_writable(folder: Path, name: str, given: StrPath) -> None:
+    try:
+        # Asking the system for permissions is not reliable on Windows and network drives; trying is.
+        with made_beside(name, folder):
+            pass
+    except OSError as error:
+        raise InvalidInputError(f"the folder for {printable(given)} must be writable. Got: {error.strerror}") from None
+
+
+def _kind(status: os.stat_result) -> str:
+    if stat.S_ISDIR(status.st_mode):
+        return "a folder of that name"
+    return "a file" if stat.S_ISREG(status.st_mode) else "a device or pipe"
+
+
+def is_read_only(status: os.stat_result) -> bool:
+    """Whether nobody may write to a file: an administrator could, but whoever set this wants it kept."""
+    return not status.st_mode & 0o222
+
+
+def same_name(first: str, second: str) -> bool:
+    """Whether two names are one on systems that tell neither case nor ways to write an accent apart."""
+    return _folded(first) == _folded(second)
+
+
+def _folded(name: str) -> str:
+    return unicodedata.normalize("NFC", name).casefold()

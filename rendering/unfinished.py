@@ -1,0 +1,74 @@
+"""Files and folders under work: hidden beside the place that they are for, and never left behind."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from .ending import uninterrupted
+
+__all__ = ["made_beside", "remove_unfinished"]
+
+_TRIES = 200
+_PREFIX = 5  # characters of the name that give way to a dot and a random number
+
+_unfinished: set[Path] = set()
+
+
+@contextmanager
+def made_beside(name: str, folder: Path, *, is_folder: bool = False) -> Iterator[Path]:
+    """A new, empty file or folder that nobody else has, gone at the end if it is still there.
+
+    Its own name is hidden and not longer than ``name``, and ends like it where there is room.
+
+    Args:
+        name: of what shall replace or become it.
+        folder: where to make it.
+        is_folder: whether a folder is wanted.
+
+    Raises:
+        OSError: it cannot be made.
+    """
+    made: Path | None = None
+    try:
+        with uninterrupted():
+            made = _made(name, folder, is_folder)
+            _unfinished.add(made)
+        yield made
+    finally:
+        with uninterrupted():
+            if made is not None:
+                _remove(made)
+
+
+def remove_unfinished() -> None:
+    """Remove everything that was made and is neither in its place nor removed: the process is ending."""
+    for made in list(_unfinished):
+        _remove(made)
+
+
+def _remove(made: Path) -> None:
+    _unfinished.discard(made)
+    if os.path.isdir(made) and not os.path.islink(made):
+        shutil.rmtree(made, ignore_errors=True)
+    else:
+        with suppress(OSError):
+            made.unlink(missing_ok=True)
+
+
+def _made(name: str, folder: Path, is_folder: bool) -> Path:
+    for _ in range(_TRIES):
+        place = folder / f".{secrets.token_hex(2)}{name[_PREFIX:]}"
+        try:
+            if is_folder:
+                place.mkdir()
+            else:
+                os.close(os.open(place, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+        except FileExistsError:
+            continue
+        return place
+    raise FileExistsError(f"{folder} holds too many unfinished files")
