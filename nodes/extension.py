@@ -15,6 +15,7 @@ from .paint_nodes import PaintMaterial
 from .preview_server import register_routes
 from .render_nodes import Interpolate, Render
 from .rig_nodes import RigPoint
+from .running import watch_prompts
 from .scene_editor_nodes import SceneEditor
 from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
 from .sketch_nodes import ExtractSketch, WarpSketch
@@ -59,4 +60,5 @@ NODES: list[type[io.ComfyNode]] = [
 class PhysAnimatorExtension(ComfyExtension):
     async def get_node_list(self) -> list[type[io.ComfyNode]]:
         register_routes()  # here, because host 0.8.0 does not call on_load
+        watch_prompts()
         return list(NODES)

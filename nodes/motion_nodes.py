@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,7 @@ from comfy_api.latest import io
 from numpy.typing import NDArray
 
 from ..physics.limits import MAX_LOOP
+from .messages import all_told, tell_user
 from .previews import animated
 from .progress import host_progress
 from .tensors import picture_batch, pictures_for
@@ -61,14 +61,14 @@ class Simulate(io.ComfyNode):
 
     @classmethod
     def execute(cls, scene: MaskedScene, frames: int, loop: float = 0.0) -> io.NodeOutput:
-        from ..physics.advice import advice
+        from ..physics.advice import advice, stillness
         from ..physics.simulation import simulate
 
         acting = replace(scene.scene, loop=loop) if loop else scene.scene
-        for sentence in advice(acting):
-            logging.warning("PhysAnimator: %s", sentence)
+        told = tell_user(cls, advice(acting))
         motion = simulate(acting, frames=None if acting.loop else frames, progress=host_progress())
-        return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate)
+        told = all_told(told, tell_user(cls, stillness(motion)))
+        return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate, ui=told or None)
 
 
 class PreviewMotion(io.ComfyNode):
