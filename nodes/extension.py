@@ -5,6 +5,7 @@ from __future__ import annotations
 from comfy_api.latest import ComfyExtension, io
 
 from .body_nodes import Body, Material
+from .choices import checked
 from .contact_nodes import Contact
 from .example_nodes import ExampleIllustration
 from .flow_nodes import OpticalFlow, PreviewFlow
@@ -61,4 +62,4 @@ class PhysAnimatorExtension(ComfyExtension):
     async def get_node_list(self) -> list[type[io.ComfyNode]]:
         register_routes()  # here, because host 0.8.0 does not call on_load
         watch_prompts()
-        return list(NODES)
+        return [checked(node) for node in NODES]
