@@ -12,7 +12,7 @@ from ..physics.errors import MeshingError
 from ..rendering.points import parse_points
 from .defaults import default_of
 from .literals import boxes_of, chosen, refusal
-from .messages import tell_user
+from .messages import shown_with, tell_user
 from .sam_backend import missing_sam_files, sam_inputs, sam_network
 from .tensors import batch_of_masks, batch_of_pictures, mask_of, picture_of
 from .wires import MaskedMesh, MeshWire
@@ -203,5 +203,4 @@ class MaskToMesh(io.ComfyNode):
         told = tell_user(cls, mask_advice(coverage))
         mesh = mesh_from_mask(coverage, spacing=spacing or None, elements_across=elements_across)
         preview = batch_of_pictures([draw_wireframe(picture, mesh)], 1)
-        shown = {**ui.PreviewImage(preview).as_dict(), **told}
-        return io.NodeOutput(MaskedMesh(mesh, coverage), preview, ui=shown)
+        return io.NodeOutput(MaskedMesh(mesh, coverage), preview, ui=shown_with(ui.PreviewImage(preview), told))

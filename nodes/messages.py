@@ -8,7 +8,7 @@ from typing import Any
 
 from .running import context, server
 
-__all__ = ["EVENT", "all_told", "tell_user"]
+__all__ = ["EVENT", "all_told", "shown_with", "tell_user"]
 
 EVENT = "physanimator.advice"
 """Name of the message that nodes/web/js/host/advice.js shows as a toast."""
@@ -25,7 +25,7 @@ def tell_user(node: Any, sentences: Iterable[str]) -> dict[str, list[str]]:
 
     Returns:
         What belongs into the node's ``ui``, so that the history has the sentences for programs that queue prompts:
-        ``io.NodeOutput(..., ui={**shown, **tell_user(cls, sentences)})``. Empty without sentences.
+        see :func:`shown_with`, or ``io.NodeOutput(..., ui=told or None)``. Empty without sentences.
     """
     told = list(dict.fromkeys(sentences))
     if not told:
@@ -44,3 +44,13 @@ def all_told(*told: dict[str, list[str]]) -> dict[str, list[str]]:
     """What several calls of ``tell_user`` have returned, as one."""
     sentences = [sentence for each in told for sentence in each.get("advice", [])]
     return {"advice": sentences} if sentences else {}
+
+
+def shown_with(shown: Any, told: dict[str, list[str]]) -> dict[str, Any]:
+    """A node's ``ui``: what it shows, and what it has told.
+
+    Args:
+        shown: one of the host's ``ui`` classes, such as PreviewImage.
+        told: from ``tell_user``.
+    """
+    return {**shown.as_dict(), **told}

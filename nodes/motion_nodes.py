@@ -10,7 +10,8 @@ from comfy_api.latest import io
 from numpy.typing import NDArray
 
 from ..physics.limits import MAX_LOOP
-from .messages import all_told, tell_user
+from .batches import announce_batch
+from .messages import all_told, shown_with, tell_user
 from .previews import animated
 from .progress import host_progress
 from .tensors import picture_batch, pictures_for
@@ -114,11 +115,14 @@ class PreviewMotion(io.ComfyNode):
         moved, acting = motion.motion, scene.scene if scene else None
         pictures = _shrunk(pictures_for(image, moved.width, moved.height, frames=len(moved)), longest_side)
         shown, report = range(0, len(moved), every), host_progress()
+        small_height, small_width = pictures[0].shape[:2]
+        instead = "raise every, or lower longest_side"
+        told = announce_batch(cls, len(shown), small_width, small_height, instead=instead)
         batch = picture_batch(len(shown))
         for number, frame in enumerate(shown, start=1):
             batch.put(preview(pictures[frame % len(pictures)], moved, acting, frame))
             report(number, len(shown))
-        return io.NodeOutput(batch.tensor, ui=animated(batch.tensor, moved.frame_rate / every))
+        return io.NodeOutput(batch.tensor, ui=shown_with(animated(batch.tensor, moved.frame_rate / every), told))
 
 
 def _shrunk(pictures: NDArray[np.float32], longest_side: int) -> list[NDArray[np.uint8]]:

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from contextvars import ContextVar
 from typing import Any
 
-__all__ = ["context", "is_linked", "sent_inputs", "server", "watch_prompts"]
+__all__ = ["context", "is_linked", "is_wanted", "not_made", "sent_inputs", "server", "watch_prompts"]
 
 _posted: ContextVar[Mapping[str, Any] | None] = ContextVar("physanimator_posted", default=None)
 _watched: list[Any] = []
@@ -47,6 +47,18 @@ def sent_inputs() -> Mapping[str, Any] | None:
     return found.get("inputs") if isinstance(found, Mapping) else None
 
 
+def is_wanted(output: int) -> bool:
+    """Whether an output of the node being called has to be made: some node takes it, or that cannot be known.
+
+    A node that asks this has to give the answer to ``fingerprint_inputs`` too, so that what was made without an output
+    is not taken from the host's cache once somebody connects it.
+
+    Args:
+        output: its number, from 0.
+    """
+    return is_linked(output) is not False
+
+
 def is_linked(output: int) -> bool | None:
     """Whether any node takes an output of the node being called; None where that cannot be known.
 
@@ -59,6 +71,17 @@ def is_linked(output: int) -> bool | None:
     inputs = (each.get("inputs", {}) for each in prompt.values() if isinstance(each, Mapping))
     links = (value for given in inputs for value in given.values() if isinstance(value, list) and len(value) == 2)
     return any(str(source) == str(node.node_id) and slot == output for source, slot in links)
+
+
+def not_made(output: str) -> Any:
+    """What stands for an output that nobody takes: the host stops whoever takes it all the same, with this sentence.
+
+    Args:
+        output: what the node calls it.
+    """
+    from comfy_execution.graph_utils import ExecutionBlocker
+
+    return ExecutionBlocker(f"{output} was not connected when the node ran, and was not made: run it again.")
 
 
 def _remember(posted: Any) -> Any:
