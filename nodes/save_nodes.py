@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io, ui
 
 from ..physics.errors import require
-from ..rendering.background import background_of, renderer_of, shown_frame, usual_background
 from ..rendering.video import FORMATS, check_output
+from .background_inputs import background_chosen, background_inputs
 from .literals import refusal
 from .progress import host_progress
 from .saving import FILE_TYPES, FRAMES, Place, check_prefix, free_place
-from .tensors import picture_of
+from .tensors import picture_with_alpha
 from .wires import MaskedMotion, MotionWire
 
 if TYPE_CHECKING:
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..rendering.background import Background
+    from ..rendering.composite import LayeredRenderer
+    from ..rendering.pixel_art import PixelArtRenderer
 
 __all__ = ["SaveAnimation"]
 
@@ -66,35 +68,25 @@ class SaveAnimation(io.ComfyNode):
                     optional=True,
                     tooltip="The picture without the moving parts. Painted automatically when left out.",
                 ),
-                io.String.Input(
-                    "background",
-                    default="",
-                    optional=True,
-                    tooltip="What is there where nothing moves: picture; transparent: the picture's own transparency;"
-                    " parts: only what moves, on transparency; or a colour such as white or #8cf, on which a"
-                    " transparent picture is laid. Empty: transparency stays where the file can hold it.",
-                ),
-                io.Boolean.Input(
-                    "pixel_art",
-                    default=False,
-                    optional=True,
-                    tooltip="Moves whole pixels and mixes no colours, as pixel art needs it.",
-                ),
+                *background_inputs(),
             ],
             outputs=[io.String.Output(display_name="path", tooltip="The file, or the folder of frames.")],
         )
 
     @classmethod
     def validate_inputs(
-        cls, filename_prefix: str | None = None, file_type: str | None = None, background: str | None = None
+        cls,
+        filename_prefix: str | None = None,
+        file_type: str | None = None,
+        background: dict[str, Any] | None = None,
+        **others: Any,
     ) -> bool | str:
-        checks = []
+        # The host hands over what a choice brings only to a function that takes every input.
+        checks: list[Callable[[], Any]] = []
         if filename_prefix is not None:
             checks.append(lambda: check_prefix(filename_prefix))
-        if background:
-            checks.append(lambda: background_of(background))
         if file_type is not None:
-            checks.append(lambda: _check_format(file_type, background_of(background) if background else None))
+            checks.append(lambda: _check_format(file_type, background_chosen(background)))
         return refusal(*checks)
 
     @classmethod
@@ -106,28 +98,33 @@ class SaveAnimation(io.ComfyNode):
         file_type: str,
         width: int,
         clean_plate: torch.Tensor | None = None,
-        background: str = "",
+        background: dict[str, Any] | None = None,
+        image_alpha: torch.Tensor | None = None,
         pixel_art: bool = False,
     ) -> io.NodeOutput:
+        from ..rendering.background import renderer_of
         from ..rendering.images import to_uint8
         from ..rendering.video import write_animation
 
+        behind = background_chosen(background)
+        _check_format(file_type, behind)
         # In the depth in which they are written.
-        picture = to_uint8(picture_of(image))
-        plate = None if clean_plate is None else to_uint8(picture_of(clean_plate, name="clean_plate"))
-        shown = _background(background, picture, file_type)
+        picture = to_uint8(picture_with_alpha(image, image_alpha))
+        plate = None if clean_plate is None else to_uint8(picture_with_alpha(clean_plate, name="clean_plate"))
         size = _size(picture, width)
         place = free_place(filename_prefix, file_type, *size)
-        check_output(place.path, alpha=shown.has_alpha)
+        check_output(place.path, alpha=behind.has_alpha)
         renderer = renderer_of(picture, motion.masks, motion.motion, plate=plate, pixel_art=pixel_art)
-        write_animation(
-            _frames(renderer, shown, size, pixel_art), place.path, motion.motion.frame_rate, exact=pixel_art
-        )
+        frames = _frames(renderer, behind, size, nearest=pixel_art)
+        write_animation(frames, place.path, motion.motion.frame_rate, exact=pixel_art)
         return io.NodeOutput(place.path, ui=_preview(place, file_type, len(renderer)))
 
 
-def _frames(renderer: Any, background: Background, size: tuple[int, int], nearest: bool) -> Iterator[NDArray[Any]]:
+def _frames(
+    renderer: LayeredRenderer | PixelArtRenderer, background: Background, size: tuple[int, int], *, nearest: bool
+) -> Iterator[NDArray[Any]]:
     """The frames one after another, with the host's progress and interruption."""
+    from ..rendering.background import shown_frame
     from ..rendering.premultiplied import resized
 
     report = host_progress()
@@ -136,12 +133,6 @@ def _frames(renderer: Any, background: Background, size: tuple[int, int], neares
         own = (frame.shape[1], frame.shape[0]) == size
         yield frame if own else resized(frame, *size, nearest=nearest)
         report(number + 1, len(renderer))
-
-
-def _background(text: str, picture: NDArray[Any], file_type: str) -> Background:
-    if text.strip():
-        return background_of(text)
-    return usual_background(transparent_picture=picture.shape[2] == 4, file_has_alpha=_holds_alpha(file_type))
 
 
 def _size(picture: NDArray[Any], width: int) -> tuple[int, int]:
@@ -156,20 +147,21 @@ def _holds_alpha(file_type: str) -> bool:
     return file_type == FRAMES or FORMATS[f".{file_type}"].alpha_pixels is not None
 
 
-def _check_format(file_type: str, background: Background | None) -> None:
+def _check_format(file_type: str, background: Background) -> None:
     """Refuse what the format cannot hold; InvalidInputError."""
     import folder_paths
 
     if file_type not in FILE_TYPES:
         return  # said elsewhere
-    transparent = background is not None and background.has_alpha
     able = ", ".join(each for each in FILE_TYPES if _holds_alpha(each))
-    require("file_type", file_type, not transparent or _holds_alpha(file_type), f"one of {able} for transparency")
+    require(
+        "file_type", file_type, not background.has_alpha or _holds_alpha(file_type), f"one of {able} for transparency"
+    )
     ending = "/" if file_type == FRAMES else f".{file_type}"
     # Also whether it can be encoded here, and whether anything can be written. The host makes the folder when it saves.
     output = folder_paths.get_output_directory()
     os.makedirs(output, exist_ok=True)
-    check_output(os.path.join(output, f"physanimator{ending}"), alpha=transparent)
+    check_output(os.path.join(output, f"physanimator{ending}"), alpha=background.has_alpha)
 
 
 def _preview(place: Place, file_type: str, count: int) -> Any:

@@ -88,7 +88,8 @@ def test_parts_alone_are_transparent(host: Any) -> None:
     ("changes", "sentence"),
     [
         ({"background": "parts"}, "file_type must be one of webm, gif, webp, apng, png frames for transparency"),
-        ({"background": "sky-high"}, "background must be picture, transparent, parts, or a colour"),
+        ({"background": "sky-high"}, "background must be one of picture, transparent, parts, colour"),
+        ({"background": "colour", "background.colour": "sky-high"}, "background must be picture, transparent, parts"),
         ({"file_type": "mov"}, "file_type must be one of mp4, webm"),
         ({"filename_prefix": "../outside"}, "filename_prefix must be a name in the output folder"),
         ({"filename_prefix": "/etc/outside"}, "filename_prefix must be a name in the output folder"),
