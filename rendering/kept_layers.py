@@ -10,6 +10,7 @@ import hashlib
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,8 +48,8 @@ class KeptLayers:
         self._lock = threading.Lock()
 
     @property
-    def bytes(self) -> int:
-        """What is kept now."""
+    def size(self) -> int:
+        """What is kept now [bytes]."""
         with self._lock:
             return sum(size for _, size in self._kept.values())
 
@@ -65,7 +66,11 @@ class KeptLayers:
                 return self._kept[key][0]
         made = make()
         background, layers = made
-        arrays = [background, *(layer.texture for layer in layers), *(layer.mesh.rest for layer in layers)]
+        arrays: list[NDArray[Any]] = [
+            background,
+            *(layer.texture for layer in layers),
+            *(layer.mesh.rest for layer in layers),
+        ]
         for array in arrays:
             array.setflags(write=False)
         size = sum(array.nbytes for array in arrays)
@@ -107,7 +112,8 @@ def apart(
     Returns:
         Background and layers; read-only.
     """
-    arrays = [picture, *masks, *(part for mesh in meshes for part in (mesh.vertices, mesh.triangles))]
+    arrays: list[NDArray[Any]] = [picture, *masks]
+    arrays += [part for mesh in meshes for part in (mesh.vertices, mesh.triangles)]
     arrays += [] if plate is None else [plate]
     key = hashlib.blake2b(f"{take_apart.__name__} {len(masks)} {plate is None}".encode(), digest_size=20)
     for array in arrays:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import time
 from pathlib import Path
 from typing import Any
 
@@ -104,3 +105,18 @@ def test_what_cannot_be_written_is_refused_before_the_simulation(
     assert status == 400
     assert sentence in answer["node_errors"]["save"]["errors"][0]["details"]
     assert not (host.folder / "outside_00001_.mp4").exists()
+
+
+def test_an_interrupted_file_leaves_nothing(host: Any) -> None:
+    folder = host.folder / "output" / "stopped"
+    prompt = saved(frames=60, filename_prefix="stopped/bar", width=2400)
+    running = host.queue(prompt)
+    end = time.monotonic() + 60
+    while not (folder.is_dir() and any(folder.iterdir())):  # it is being written under a temporary name
+        assert time.monotonic() < end
+        time.sleep(0.02)
+    assert not (folder / "bar_00001_.mp4").exists()
+    host.post("/interrupt", {})
+    entry = host.wait(running)
+    assert "execution_interrupted" in [name for name, _ in entry["status"]["messages"]]
+    assert list(folder.iterdir()) == []

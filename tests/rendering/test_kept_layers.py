@@ -78,7 +78,7 @@ def test_what_is_kept_is_bounded_and_cannot_be_changed() -> None:
     store = KeptLayers(most_bytes=2 * size)
     for key in (b"one", b"two", b"three"):
         assert store.get(key, lambda: made) is made
-    assert store.bytes == 2 * size
+    assert store.size == 2 * size
     missed: list[int] = []
     for key in (b"three", b"two", b"one"):
         store.get(key, lambda: (missed.append(1), made)[1])
