@@ -149,6 +149,10 @@ def _patcher_class() -> Any:
             self.taken_away = taken_away
             self.add_callback(CallbacksMP.ON_DETACH, _detached)
 
+        def load(self, device_to: Any = None, **options: Any) -> Any:
+            # Also where the host is told to use little of the device: plain layers work there or not at all.
+            return super().load(device_to, **(options | {"full_load": True}))
+
         def partially_unload(self, *_: Any, **__: Any) -> int:
             return 0  # all or nothing, as in at_work
 
