@@ -201,7 +201,7 @@ def _measure(options: argparse.Namespace) -> None:
 
 def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     """Animate, write everything that was asked for, and report."""
-    from .physics.advice import advice
+    from .physics.advice import advice, stillness
     from .pipeline import animate
     from .rendering.command_messages import say, warn
     from .rendering.command_outputs import background_for, report, write_outputs
@@ -227,7 +227,8 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             max_minutes=options.max_minutes,
             **inputs,
         )
-        for sentence in advice(animation.scene, masks=not getattr(options, "mask", None)):
+        told = [*advice(animation.scene, masks=not getattr(options, "mask", None)), *stillness(animation.motion)]
+        for sentence in told:
             warn(f"physanimator: warning: {sentence}")
         write_outputs(options, animation, progress)
     if options.verbose:

@@ -14,16 +14,8 @@ from numpy.typing import NDArray
 
 from ..physics.motion import Motion
 from ..physics.scene import Scene
-from .background import (
-    Background,
-    background_of,
-    check_in_betweens,
-    is_transparent,
-    over,
-    shown_frame,
-    usual_background,
-)
-from .drawing_checks import check_count, height_at
+from .background import Background, background_of, is_transparent, over, shown_frame, usual_background
+from .drawing_checks import check_drawing, height_at
 from .premultiplied import resized
 from .text_files import check_text_output, write_text
 from .video import check_output, holds_alpha, write_animation
@@ -115,11 +107,11 @@ class Animation:
         Raises:
             InvalidInputError: in-betweens and transparency are asked for together, or the background is unknown.
         """
-        check_count("every", every)
+        check_drawing(every=every)
         chosen = self.background("transparent" if transparent and background is None else background)
         if background is None and not transparent and every > 1:
             chosen = Background()
-        check_in_betweens(chosen, every, pixel_art=self.pixel_art)
+        check_drawing(transparent=chosen.has_alpha, every=every, pixel_art=self.pixel_art)
         pictures: Iterable[Image]
         if every > 1:
             pictures = self._with_in_betweens(every, chosen)
@@ -182,6 +174,7 @@ class Animation:
         Raises:
             InvalidInputError: nothing can be written there, or the background is unknown.
         """
+        check_drawing(every=every)
         name = "transparent" if transparent and background is None else background
         if name is None and (every > 1 or not holds_alpha(path)):
             name = "picture"

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError, require
+from ..physics.errors import require
 from .pixels import as_float
 
 if TYPE_CHECKING:
@@ -31,7 +31,6 @@ __all__ = [
     "WHITE",
     "Background",
     "background_of",
-    "check_in_betweens",
     "is_transparent",
     "over",
     "renderer_of",
@@ -178,23 +177,3 @@ def shown_frame_and_alpha(
         return frame, as_float(frame[..., 3])
     frame, alpha = renderer.frame_and_alpha(t)
     return over(frame, background.colour), alpha
-
-
-def check_in_betweens(background: Background, every: int, *, pixel_art: bool = False) -> None:
-    """Refuse in-betweens, which mix colours, of transparent frames and of pixel art.
-
-    Args:
-        background: of the frames.
-        every: each so many-th frame is drawn, and the others are filled in.
-        pixel_art: pixels are moved whole.
-
-    Raises:
-        InvalidInputError: both are asked for.
-    """
-    if pixel_art and every > 1:
-        raise InvalidInputError("frames of pixel art must be drawn one by one. Got: in-betweens as well")
-    if background.has_alpha and every > 1:
-        raise InvalidInputError(
-            "transparent frames must be drawn one by one; leave in-betweens out or choose an opaque background."
-            " Got: in-betweens as well"
-        )

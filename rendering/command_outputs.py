@@ -33,17 +33,16 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     """
     from ..physics.errors import InvalidInputError
     from ..physics.tracks import check_track_options
-    from .background import Background, background_of, check_in_betweens
+    from .background import Background, background_of
     from .command_files import check_apart
-    from .drawing_checks import check_count
+    from .drawing_checks import check_drawing
     from .text_files import check_text_output
     from .video import check_frame_rate
 
     check_apart(options, bundled=bundled)
     said = background_of(options.background) if options.background else Background()
     _check_clips(options, alpha=said.has_alpha)
-    check_count("--interpolate", options.interpolate)
-    check_in_betweens(said, options.interpolate, pixel_art=options.pixel_art)
+    check_drawing(transparent=said.has_alpha, every=options.interpolate, pixel_art=options.pixel_art)
     if options.fps is not None:
         check_frame_rate(options.fps)
     for path, suffix in ((options.save_tracks, ".json"), (options.save_motion, ".json"), (options.save_svg, ".svg")):
@@ -158,7 +157,9 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
     Raises:
         InvalidInputError: in-betweens are asked for where it is transparent.
     """
-    from .background import check_in_betweens, is_transparent, usual_background
+    from .background import is_transparent, usual_background
+    from .drawing_checks import check_drawing
+    from .places import suffix_of
     from .video import holds_alpha
 
     if options.background is not None:
@@ -166,7 +167,17 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
     usual = usual_background(
         transparent_picture=is_transparent(image),
         file_has_alpha=holds_alpha(options.output),
-        parts=Path(options.output).suffix.lower() == ".webm",
+        parts=suffix_of(options.output) == ".webm",
     )
-    check_in_betweens(usual, options.interpolate)
+    check_drawing(transparent=usual.has_alpha, every=options.interpolate)
     return usual.kind
+
+
+def _is_transparent(options: argparse.Namespace) -> bool:
+    """Whether the output has an alpha channel whatever the illustration is."""
+    from .background import background_of
+    from .places import suffix_of
+
+    if options.background is None:
+        return suffix_of(options.output) == ".webm"
+    return background_of(options.background).has_alpha

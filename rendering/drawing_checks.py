@@ -7,9 +7,9 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from ..physics.errors import require
+from ..physics.errors import InvalidInputError, require
 
-__all__ = ["check_count", "height_at"]
+__all__ = ["check_count", "check_drawing", "height_at"]
 
 
 def check_count(name: str, value: object, *, least: int = 1, unit: str = "frame") -> None:
@@ -27,6 +27,30 @@ def check_count(name: str, value: object, *, least: int = 1, unit: str = "frame"
     whole = isinstance(value, numbers.Integral) and type(value) is not bool
     expected = f"at least {least} {unit}" if whole else "a whole number"
     require(name, value, whole and int(value) >= least, expected)  # type: ignore[call-overload]
+
+
+def check_drawing(*, transparent: bool = False, every: int = 1, pixel_art: bool = False) -> None:
+    """Refuse ways to draw frames that do not go together.
+
+    Args:
+        transparent: frames have an alpha channel.
+        every: draw each so many-th frame anew and fill in the others.
+        pixel_art: pixels are moved whole, and no colours mixed.
+
+    Raises:
+        InvalidInputError: ``every`` is no number of frames, or in-betweens are asked for together with transparency or
+            with pixel art.
+    """
+    check_count("every", every)
+    if every == 1:
+        return
+    if pixel_art:
+        raise InvalidInputError("frames of pixel art must be drawn one by one. Got: in-betweens as well")
+    if transparent:
+        raise InvalidInputError(
+            "transparent frames must be drawn one by one; leave in-betweens out or choose an opaque background."
+            " Got: in-betweens as well"
+        )
 
 
 def height_at(picture: NDArray[Any], width: int) -> int:

@@ -39,7 +39,11 @@ def shown_indices(count: int, frame_rate: Fraction) -> Iterator[int]:
 
 
 def paletted(
-    frames: Iterable[av.VideoFrame], frame_rate: Fraction, *, dithered: bool = True, folder: Path | None = None
+    frames: Iterable[av.VideoFrame],
+    frame_rate: Fraction,
+    *,
+    dithered: bool = True,
+    folder: Path | None = None,
 ) -> Iterator[av.VideoFrame]:
     """Frames in 256 colours that are chosen for all of them together.
 
@@ -48,8 +52,8 @@ def paletted(
     Args:
         frames: of one size, in FFmpeg's format rgb24 or rgba, with their times.
         frame_rate: frames a second.
-        folder: where the temporary file is made, such as that of the result; the system's own when None.
         dithered: mix colours that are missing from others; without, each pixel gets the nearest one.
+        folder: where the temporary file is made, such as that of the result; the system's own when None.
 
     Yields:
         The frames that a GIF can show, in FFmpeg's format pal8.

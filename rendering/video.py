@@ -164,7 +164,7 @@ def holds_alpha(path: StrPath) -> bool:
     Args:
         path: a file ending in one of ``FORMATS``, or a folder ending in ``/``.
     """
-    chosen = FORMATS.get(suffix_of(path))
+    chosen = None if is_folder_name(path) else FORMATS.get(suffix_of(path))
     return is_folder_name(path) or (chosen is not None and chosen.alpha_pixels is not None)
 
 
@@ -198,10 +198,10 @@ def write_animation(
     if is_folder_name(path):
         write_frame_folder(every, path)
         return
+    chosen = FORMATS[suffix_of(path)]
+    if first.shape[2] == 4 and chosen.mixes_neighbours and not exact:
+        every = map(bled, every)
     with replacing(path) as temporary:
-        chosen = FORMATS[suffix_of(path)]
-        if first.shape[2] == 4 and chosen.mixes_neighbours and not exact:
-            every = map(bled, every)
         _encode(every, temporary, chosen, first.shape, exact_frame_rate(frame_rate), exact=exact)
 
 

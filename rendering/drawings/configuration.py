@@ -22,7 +22,7 @@ class _FromValues:
         if isinstance(values, cls):
             return values
         if not isinstance(values, Mapping):
-            raise InvalidInputError(f"configuration must be values by name. Got: {type(values).__name__}")
+            raise InvalidInputError(f"configuration must hold values by name. Got: {type(values).__name__}")
         known = {field.name for field in fields(cls)}  # type: ignore[arg-type]
         unknown = sorted(set(values) - known)
         require("configuration", unknown, not unknown, f"made of {', '.join(sorted(known))}")

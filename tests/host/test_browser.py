@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from frame_interpolation_graph import for_newer_hosts
+from small_graphs import core, moving_bar
 
 ROOT = Path(__file__).resolve().parents[2]
 # Without those that need nodes which the oldest supported host lacks.
@@ -126,3 +127,16 @@ def test_another_preset_brings_its_own_values(page: Any) -> None:
     options = schemas["PhysAnimator_Material"]["input"]["required"]["preset"][1]["options"]
     usual = {o["key"]: o["inputs"]["required"].get("sway_frequency", [0, {}])[1].get("default") for o in options}
     assert values == [usual["hair"], usual["jelly"]]
+
+
+def test_advice_appears_as_a_toast(page: Any, host: Any) -> None:
+    still = moving_bar(3) | {"seen": core("PreviewAny", source=["motion", 1])}
+    still["scene"]["inputs"]["wind_strength"] = 0.0
+    page.run("(prompt) => app.loadApiJson(prompt, 'advice')", still)
+    page.run("() => app.queuePrompt(0)")
+    page.page.wait_for_selector(".p-toast-message", timeout=60_000)
+    (said,) = page.run(_ALERTS)
+    assert "Simulate" in said
+    assert "nothing moves" in said
+    assert page.problems == []
+    page.run("() => app.extensionManager.toast.removeAll?.()")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.physics.advice import advice, inverted_masks
+from physanimator.physics.advice import advice, inverted_masks, mask_advice, stillness
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.motion import Motion
 from physanimator.physics.rig import Circle, RigPoint
 from physanimator.physics.scene import Body, Scene
 
@@ -51,3 +52,24 @@ def test_a_large_part_that_leaves_the_border_free_is_meant() -> None:
     part[8:82, 10:110] = True
     assert part.mean() > 0.6
     assert advice(Scene((Body(mesh_from_mask(part)),))) == []
+
+
+def test_a_clip_in_which_nothing_moves_is_reported() -> None:
+    body = Body(two_triangles())
+    rest = np.repeat(body.mesh.vertices[None].astype(np.float32), 3, axis=0)
+    (sentence,) = stillness(Motion((body,), rest, 24.0))
+    assert sentence.startswith("nothing moves at all in 3 frames")
+    moving = rest.copy()
+    moving[2, 0, 0] += 1
+    assert stillness(Motion((body,), moving, 24.0)) == []
+    assert stillness(Motion((body,), rest[:1], 24.0)) == []
+
+
+def test_tiny_and_inverted_masks_are_reported() -> None:
+    mask = np.zeros((60, 80))
+    assert mask_advice(mask) == []
+    mask[5:8, 5:9] = 1
+    assert mask_advice(mask) == ["the mask covers 12 px only: is it the whole part that shall move?"]
+    assert "inverted" in mask_advice(1 - mask)[0]
+    mask[5:25, 5:35] = 1
+    assert mask_advice(mask) == []

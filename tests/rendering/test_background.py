@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.background import Background, background_of, check_in_betweens, over, usual_background
+from physanimator.rendering.background import Background, background_of, over, usual_background
 
 
 @pytest.mark.parametrize(
@@ -59,11 +59,3 @@ def test_a_picture_over_a_colour(dtype: type) -> None:
     assert np.allclose(shown[1, 1] / most, [0, 0.5, 0.5], atol=0.003)
     opaque = image[..., :3]
     assert over(opaque) is opaque
-
-
-def test_in_betweens_go_with_opaque_pictures_alone() -> None:
-    check_in_betweens(Background(), 5)
-    check_in_betweens(Background("parts"), 1)
-    for bad in ({"background": Background("parts")}, {"background": Background(), "pixel_art": True}):
-        with pytest.raises(InvalidInputError, match="one by one"):
-            check_in_betweens(every=2, **bad)
