@@ -171,13 +171,3 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
     )
     check_drawing(transparent=usual.has_alpha, every=options.interpolate)
     return usual.kind
-
-
-def _is_transparent(options: argparse.Namespace) -> bool:
-    """Whether the output has an alpha channel whatever the illustration is."""
-    from .background import background_of
-    from .places import suffix_of
-
-    if options.background is None:
-        return suffix_of(options.output) == ".webm"
-    return background_of(options.background).has_alpha
