@@ -48,6 +48,12 @@ def loop_frames(scene: Scene) -> int:
     return count
 
 
+def _seconds(scene: Scene) -> float:
+    if scene.loop is None:
+        raise InvalidInputError("loop must be a length in seconds. Got: None")
+    return scene.loop
+
+
 def periodic(scene: Scene) -> Scene:
     """The scene with everything that acts in it repeating after each cycle.
 
@@ -105,8 +111,7 @@ def _periodic_motion(motion: RigMotion, seconds: float, path: str) -> RigMotion:
 def first_frame(scene: Scene) -> int:
     """Frame of a periodic scene from which on as many particles are under way as in any later cycle."""
     under_way = [stroke.start + (0.0 if stroke.rests else stroke.travel.lifetime) for stroke in scene.strokes]
-    assert scene.loop is not None
-    return math.ceil(max(under_way, default=0.0) / scene.loop) * loop_frames(scene)
+    return math.ceil(max(under_way, default=0.0) / _seconds(scene)) * loop_frames(scene)
 
 
 def settled(
@@ -135,7 +140,7 @@ def settled(
     Raises:
         SimulationError: a position is no finite number, or the motion drifts so that it never repeats.
     """
-    assert scene.loop is not None
+    seconds = _seconds(scene)
     count, side = loop_frames(scene), max(scene.width, scene.height)
     overlap = max(1, min(count // 2, round(_CLOSING * scene.frame_rate)))
     report = _Estimate(scene, count, tolerance, progress)
@@ -148,7 +153,7 @@ def settled(
             break
     if residual > _LARGEST_RESIDUAL * side:
         raise SimulationError(
-            f"The motion does not repeat: after {cycles} cycles of {scene.loop:g} s it still changes by"
+            f"The motion does not repeat: after {cycles} cycles of {seconds:g} s it still changes by"
             f" {residual:.0f} px. Hold every body with a rig point, give the materials more damping, or weaken the"
             " strokes."
         )
@@ -156,7 +161,7 @@ def settled(
     left = float(np.linalg.norm(closed[-1] - before[-1], axis=1).max(initial=0.0)) * side
     if progress is not None:
         progress(count, count)
-    return closed, LoopReport(seconds=scene.loop, frames=count, cycles=cycles, residual=residual, closed_residual=left)
+    return closed, LoopReport(seconds=seconds, frames=count, cycles=cycles, residual=residual, closed_residual=left)
 
 
 def _cycle(
@@ -186,11 +191,11 @@ class _Estimate:
     """Reports progress in frames of one cycle, by how many cycles the damping lets expect."""
 
     def __init__(self, scene: Scene, count: int, tolerance: float, progress: Progress | None) -> None:
-        assert scene.loop is not None
+        seconds = _seconds(scene)
         damping = max(0.2, min(body.material.damping for body in scene.bodies))
         decay = 2 * math.log(100 / tolerance) / damping  # a swing dies away by half the damping
         self._count, self._progress = count, progress
-        self._expected = min(MOST_CYCLES, 2 + decay / scene.loop) * count
+        self._expected = min(MOST_CYCLES, 2 + decay / seconds) * count
 
     def __call__(self, frames: int) -> None:
         if self._progress is not None:

@@ -39,6 +39,15 @@ PARTICLE_WORK = 0.2
 """Work of one flow particle on one vertex in triangle updates."""
 
 
+WIND_WORK = 4.0
+"""Work of a wind field on one vertex in a tick, in triangle updates."""
+
+STROKE_WORK = 750.0
+"""Work of finding the particles of one stroke in a tick, whether it has any or not, in triangle updates."""
+
+RIG_WORK = 100.0
+"""Work of leading one rig point in a tick, in triangle updates."""
+
 CONTACT_WORK = 1.3
 """Factor on the work of bodies that touch."""
 
@@ -117,7 +126,10 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
     chosen = schedule(triangles, system.substeps, threads=None if scene.contact is None else 1)
     counts = NO_OUTLINES if scene.contact is None else count_outlines(scene, outline_spacing(scene, system))
     outline_work = OUTLINE_WORK * counts.points + CROWDING_WORK * counts.crowding
-    in_a_tick = float(elastic.sum()) + PARTICLE_WORK * alive * int(system.free.sum()) + outline_work
+    drawn_work = STROKE_WORK * len(scene.strokes) + RIG_WORK * len(scene.rig_points)
+    blown = WIND_WORK if scene.wind is not None else 0.0
+    forces = (PARTICLE_WORK * alive + blown) * int(system.free.sum())
+    in_a_tick = float(elastic.sum()) + forces + outline_work + drawn_work
     work = math.ceil(duration / TICK) * in_a_tick
     return SimulationPlan(
         frames=frames,

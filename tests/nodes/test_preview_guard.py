@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import pytest
 from physanimator.nodes.preview_hosts import HOSTS_VARIABLE, authority_of, is_own_name
-from test_preview_routes import Served, in_a_server  # the tests beside this one
+from served_previews import Served, in_a_server
 
 Headers = list[tuple[str, str]]
 

@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physanimator.physics import modes, schedule, simulation, taichi_runtime
+from physanimator.physics import modes, preparation, schedule, simulation, system, taichi_runtime
 from physanimator.physics.errors import Cancelled
+from physanimator.physics.holds import Holds
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.paint import Paint
@@ -23,7 +24,7 @@ from physanimator.physics.preview_queue import RecordQueue
 from physanimator.physics.preview_records import END, ERROR, FRAME, HEADER, record, split_records
 from physanimator.physics.preview_session import PreviewRun, PreviewRuns, stream, warm_up
 from physanimator.physics.preview_store import PreviewBodies, PreviewStore
-from physanimator.physics.rig import Circle, Polygon, RigPoint, Wave
+from physanimator.physics.rig import Circle, MaskRegion, Polygon, RigPoint, Wave
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.simulation import simulate
 from physanimator.physics.strokes import EnergyStroke
@@ -302,3 +303,32 @@ def test_keys_follow_the_content() -> None:
     changed = PreviewBodies((Body(kept(1).bodies[0].mesh, Material(damping=7.0)),))
     assert changed.key != kept(1).key
     assert changed.picture_key == kept(1).picture_key
+
+
+def test_rig_points_are_compared_with_the_bodies_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    compared: list[Scene] = []
+    original = preparation.holds_of
+
+    def counted(of: Scene) -> Holds:
+        compared.append(of)
+        return original(of)
+
+    for module in (preparation, system):
+        monkeypatch.setattr(module, "holds_of", counted)
+    runs, looping = PreviewRuns(), scene(loop=0.5)
+    run = runs.enter("one", next(ORDER), runs.prepare(looping))
+    assert run is not None
+    assert streamed(looping, 12, run)[-1][0] == END
+    assert len(compared) == 1
+
+
+def test_masks_that_are_not_read_any_more_are_not_kept() -> None:
+    mask = MaskRegion(np.ones((2000, 2000), bool))
+    preparations, base = Preparations(most=8, max_bytes=9_000_000), scene()
+    held = replace(base, rig_points=(replace(base.rig_points[0], region=mask),))
+    prepared = preparations(held)
+    assert prepared.size < 1_000_000
+    np.testing.assert_array_equal(prepared.system.leaders, 0)
+    for factor in (2.0, 3.0, 4.0, 5.0):
+        preparations(replace(base, paint=(Paint(mask, stiffness=factor),)))
+    assert 8_000_000 < preparations.size < 9_000_000, "two masks of paint"
