@@ -15,6 +15,7 @@ from .matte import with_outline
 from .patch_synthesis import continue_texture
 from .pixel_windows import window_around
 from .pixels import as_dtype, as_float, as_picture
+from .regular_mask import regular_mask
 from .smooth_fill import smooth_fill
 
 __all__ = ["clean_plate", "fill_hole"]
@@ -54,7 +55,8 @@ def clean_plate(image: NDArray[Any], mask: ArrayLike) -> NDArray[Any]:
         raise InvalidInputError("mask must leave some of the picture to fill the rest with. Got: all is white")
     picture = as_float(image)
     # An outline along the mask belongs to what is removed: it must not run on into the fill.
-    filled = fill_hole(picture, with_outline(picture, coverage))
+    whole = hole | with_outline(picture, regular_mask(picture, coverage)) | with_outline(picture, coverage)
+    filled = fill_hole(picture, hole if whole.all() else whole)
     plate = image.copy()
     plate[hole] = as_dtype(filled[hole], image.dtype)
     return plate

@@ -39,9 +39,6 @@ _STRONGER = 1.15
 _LEAST_STEP = 0.04
 # Where less of an edge would move, the mask has been made with care and is taken at its word.
 _MOVED = 0.3
-# A search that moves no more than this share of the edge has ended; it ends after so many rounds more at the latest.
-_SETTLED = 0.05
-_ROUNDS = 3
 _TOUCHING = np.ones((5, 5), np.uint8)
 _MARGIN = 40
 
@@ -97,7 +94,10 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
     shape, moved = _searched(image, mask, edge)
     displaced = _share(moved, edge.line & ~blurred) > _MOVED
     if displaced:
-        shape, moved = _searched_again(image, shape, moved)
+        # From where it has got to: strands that the mask had lost have a core to start from now.
+        again = shape.astype(np.float32)
+        shape, further = _searched(image, again, _edge_of(again))
+        moved |= further
     else:
         moved &= blurred
         shape = np.where(moved, shape, edge.inside)
@@ -112,18 +112,6 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
 def _share(moved: Mask, line: Mask) -> float:
     """How much of an edge moves."""
     return int((grown(moved, _TOUCHING) & line).sum()) / max(1, int(line.sum()))
-
-
-def _searched_again(image: FloatImage, shape: Mask, moved: Mask) -> tuple[Mask, Mask]:
-    """The shape searched from where it has got to, until little moves: strands are followed to their tips."""
-    everything = moved
-    for _ in range(_ROUNDS):
-        hard = _edge_of(shape.astype(np.float32))
-        shape, moved = _searched(image, shape.astype(np.float32), hard)
-        everything = everything | moved
-        if _share(moved, hard.line) < _SETTLED:
-            break
-    return shape, everything
 
 
 def _searched(image: FloatImage, mask: FloatImage, edge: _Edge) -> tuple[Mask, Mask]:
@@ -177,7 +165,7 @@ def _in_blocks(mask: FloatImage) -> bool:
     soft = (corners > 0.05) & (corners < 0.95)
     alike = soft.all(axis=0) & (np.ptp(corners, axis=0) < 1e-3)
     count = int(soft[0].sum())
-    return count > 0 and 4 * int(alike.sum()) > _BLOCKS * 4 * count
+    return count > 0 and 4 * int(alike.sum()) > _BLOCKS * count
 
 
 def _distance(shape: Mask) -> FloatImage:

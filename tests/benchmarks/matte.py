@@ -12,6 +12,13 @@ edge, away from the picture's border:
   down [8-bit steps].
 
 The hard mask itself is measured in the same way.
+
+Then masks as people make them - blurred, grown, shrunk, scaled, painted by hand, compressed - and the sprite's own
+alpha, each made regular and matted as the renderer does it:
+
+- "ghost": pixels within ten of the edge where the picture behind the moved sprite is darker than the true background by
+  --darker 8-bit steps and as dark as the drawing was there, once with the mask as given and once made regular;
+- "mask": pixels further than one from the edge that the mask has wrong, before and after.
 """
 
 from __future__ import annotations
@@ -22,11 +29,13 @@ from pathlib import Path
 from typing import Any
 
 import cv2
+import mask_variants
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
 from physanimator.rendering.clean_plate import fill_hole
 from physanimator.rendering.images import load_image
-from physanimator.rendering.matte import fitting_plate, soft_alpha, with_outline
+from physanimator.rendering.matte import fitting_plate, mixed_rim, soft_alpha, with_outline
+from physanimator.rendering.regular_mask import regular_mask
 from PIL import Image
 
 MASKS = {"exact": 0, "shrunk": -1, "grown": 1}
@@ -86,22 +95,52 @@ def measure(folder: Path, band: int) -> dict[str, Any]:
     return table
 
 
+def behind(image: np.ndarray, mask: np.ndarray) -> np.ndarray:
+    """What the renderer shows behind a moved part."""
+    support = with_outline(image, mask)
+    plate = fill_hole(image, support | mixed_rim(mask, support))
+    return fitting_plate(image, plate, soft_alpha(image, plate, mask, support))
+
+
+def ghosts(folder: Path, darker: float) -> dict[str, Any]:
+    """What stays behind of the sprite's outline, and what masks have wrong, by mask."""
+    image, _, alpha, background = read(folder)
+    light = np.float32([0.299, 0.587, 0.114])
+    near, beside = band_of(alpha, 10), band_of(alpha, 1)
+    table = {}
+    for name, change in mask_variants.VARIANTS.items():
+        given = change(alpha)
+        row: dict[str, Any] = {"ghost": [], "mask": []}
+        for mask in (given, regular_mask(image, given)):
+            left = behind(image, mask) @ light
+            dark = (left < background @ light - darker / 255) & (np.abs(left - image @ light) < 0.1)
+            row["ghost"].append(int((dark & near).sum()))
+            row["mask"].append(int((((mask > 0.5) != (alpha > 0.5)) & ~beside).sum()))
+        table[name] = row
+    return table
+
+
 def main() -> None:
     """Read the command line, measure, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--band", type=int, default=6, help="width of the band on either side of the edge (default 6)")
+    parser.add_argument("--darker", type=float, default=38, help="what is seen as a ghost [8-bit steps] (default 38)")
     parser.add_argument("--json", action="store_true", help="print the whole document")
     options = parser.parse_args()
     folders = sorted(path.parent for path in options.folder.glob("*/sprite.png"))
     document = {folder.name: measure(folder, options.band) for folder in folders}
+    made = {folder.name: ghosts(folder, options.darker) for folder in folders}
     if options.json:
-        print(json.dumps(document, indent=2))
+        print(json.dumps({"matte": document, "masks": made}, indent=2))
         return
     for sample, table in document.items():
         for name, row in table.items():
             figures = [f"{kind}: " + " ".join(f"{key} {value:.4f}" for key, value in row[kind].items()) for kind in row]
             print(f"{sample:>20} {name:>25}  " + "   ".join(figures))
+    for sample, table in made.items():
+        for name, row in table.items():
+            print(f"{sample:>20} {name:>25}  " + "   ".join(f"{key} {a:5d} -> {b:5d}" for key, (a, b) in row.items()))
 
 
 if __name__ == "__main__":
