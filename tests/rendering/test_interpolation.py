@@ -306,6 +306,8 @@ def test_every_backend_describes_itself() -> None:
         ({"backend": "magic"}, "backend must be one of motion, flow, blend. Got: 'magic'"),
         ({"indices": [0]}, r"indices must be one per keyframe \(2\). Got: 1"),
         ({"indices": [5, 5]}, "indices must be increasing"),
+        ({"indices": [-3, 5]}, "indices must be increasing frame numbers from 0"),
+        ({"indices": [0, 4.5]}, "indices must be increasing frame numbers from 0"),
         ({"indices": [0, 11]}, "indices must be within the motion's frames 0 to 10"),
         ({"keyframes": []}, "keyframes must be at least one"),
         ({"masks": [0, 0]}, r"masks must be none or one per body \(1\)"),
@@ -345,3 +347,9 @@ def test_in_betweens_of_transparent_keyframes_mix_no_hidden_colours(motion: Moti
         assert drawn[frame].dtype == dtype
         assert seen.sum() > 1500
         assert np.abs(shown[seen][:, :3] - (40, 200, 60)).max() <= 8
+
+
+def test_a_clip_may_begin_with_a_later_keyframe() -> None:
+    dark, light = np.zeros((8, 8, 3), np.uint8), np.full((8, 8, 3), 200, np.uint8)
+    frames = list(interpolate([dark, light], [3, 7], backend="blend"))
+    assert [int(frame[0, 0, 0]) for frame in frames] == [0, 50, 100, 150, 200]
