@@ -139,6 +139,7 @@ def _animate(options: argparse.Namespace) -> None:
 
 def _measure(options: argparse.Namespace) -> None:
     from .pipeline import animate
+    from .rendering.background import over
     from .rendering.command_inputs import check_inputs, read_inputs
     from .rendering.command_measures import check_measures, measured, table
     from .rendering.images import load_image
@@ -146,6 +147,7 @@ def _measure(options: argparse.Namespace) -> None:
     check_inputs(options)
     check_measures(options)
     image, inputs = read_inputs(options)
+    image = over(image)  # clips are compared by their colours
     plate = load_image(options.plate) if options.plate else None
     timing = {"frames": options.frames, "loop": options.loop, "skip": options.skip, "frame_rate": options.fps}
     with ExitStack() as bars:
@@ -159,10 +161,15 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     """Animate, write everything that was asked for, and report."""
     from .physics.advice import advice
     from .pipeline import animate
-    from .rendering.command_outputs import report, write_outputs
+    from .rendering.command_outputs import background_for, report, write_outputs
     from .rendering.images import load_image
+    from .rendering.pixel_art import pixel_art_hint
 
-    plate = load_image(options.plate) if options.plate else None
+    plate = load_image(options.plate, alpha=True) if options.plate else None
+    background_for(options, image)
+    if not options.pixel_art:
+        for sentence in pixel_art_hint(image, option="--pixel-art"):
+            print(f"physanimator: hint: {sentence}", file=sys.stderr)
     with ExitStack() as bars:
         progress = None if options.quiet else _progress_bars(bars)
         animation = animate(
@@ -173,6 +180,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             frame_rate=options.fps,
             plate=plate,
             progress=progress,
+            pixel_art=options.pixel_art,
             **inputs,
         )
         for sentence in advice(animation.scene):

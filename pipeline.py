@@ -27,6 +27,7 @@ from .physics.progress import Progress
 from .physics.scene import Body, Scene
 from .physics.simulation import simulate
 from .rendering.animation import Animation, StageProgress, timed
+from .rendering.background import over, renderer_of
 
 __all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "Animation", "StageProgress", "animate"]
 
@@ -58,11 +59,13 @@ def animate(
     colliders: Sequence[Mask] = (),
     plate: Image | None = None,
     progress: StageProgress | None = None,
+    pixel_art: bool = False,
 ) -> Animation:
     """Set parts of an illustration in motion.
 
     Args:
-        image: the illustration, RGB, uint8 or 0..1 float, shape [h, w, 3].
+        image: the illustration, RGB, or straight RGBA to move on transparency, uint8 or 0..1 float, shape [h, w, 3] or
+            [h, w, 4].
         masks: where each moving part is, bool, 0..1 or 0..255, each of shape [h, w]; later ones lie in front.
         points: for each further part its query points, in any form that
             :func:`~physanimator.rendering.points.parse_points` reads.
@@ -83,22 +86,24 @@ def animate(
             passing gusts, when there is no scene.
         contact: how the parts keep out of each other, instead of what the scene says.
         colliders: masks of what the parts keep out of besides the scene's colliders; they need contact.
-        plate: the illustration without the moving parts, if it exists; painted in when None.
+        plate: the illustration without the moving parts, if it exists, RGB or RGBA; painted in when None.
         progress: called as the stages "simulate" and those of the frames advance.
+        pixel_art: move whole pixels, or the blocks that an enlarged picture shows for them, and mix no colours.
 
     Raises:
         InvalidInputError: an input is unusable; the message names it.
     """
     seconds: dict[str, float] = {}
     image = np.asarray(image)
-    require("image", f"shape {image.shape}", image.ndim == 3 and image.shape[2] == 3, "an RGB picture [h, w, 3]")
+    pictured = image.ndim == 3 and image.shape[2] in (3, 4)
+    require("image", f"shape {image.shape}", pictured, "an RGB picture [h, w, 3] or an RGBA picture [h, w, 4]")
     _check_frames(frames, skip)
     if isinstance(scene, Mapping):
         from .physics.scene_checking import check_document
 
         check_document(scene)
     with timed(seconds, "segment"):
-        parts = (*(masks or ()), *_segmented(image, points or ()))
+        parts = (*(masks or ()), *_segmented(over(image), points or ()))
     _check_parts(image, parts, plate)
     with timed(seconds, "mesh"):
         meshes = [mesh_from_mask(each, spacing=spacing) for each in parts]
@@ -123,9 +128,7 @@ def animate(
     with timed(seconds, "simulate"):
         motion = simulate(whole, frames=frames, progress=_stage("simulate", progress))
     with timed(seconds, "prepare"):
-        from .rendering.composite import LayeredRenderer
-
-        renderer = LayeredRenderer(image, parts, motion, plate=plate)
+        renderer = renderer_of(image, parts, motion, plate=plate, pixel_art=pixel_art)
     return Animation(image, parts, whole, motion, renderer, skip, seconds)
 
 
@@ -156,7 +159,7 @@ def _check_parts(image: Image, parts: Sequence[Mask], plate: Image | None) -> No
             raise InvalidInputError(
                 f"masks[{number}] must have the picture's shape, [{height}, {width}]. Got: {list(np.shape(mask))}"
             )
-    if plate is not None and np.shape(plate) != image.shape:
+    if plate is not None and np.shape(plate) not in ((height, width, 3), (height, width, 4)):
         raise InvalidInputError(f"plate must have the picture's shape, {image.shape}. Got: {np.shape(plate)}")
 
 

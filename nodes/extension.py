@@ -5,6 +5,7 @@ from __future__ import annotations
 from comfy_api.latest import ComfyExtension, io
 
 from .body_nodes import Body, Material
+from .choices import checked
 from .contact_nodes import Contact
 from .example_nodes import ExampleIllustration
 from .flow_nodes import OpticalFlow, PreviewFlow
@@ -15,6 +16,7 @@ from .paint_nodes import PaintMaterial
 from .preview_server import register_routes
 from .render_nodes import Interpolate, Render
 from .rig_nodes import RigPoint
+from .running import watch_prompts
 from .scene_editor_nodes import SceneEditor
 from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
 from .sketch_nodes import ExtractSketch, WarpSketch
@@ -59,4 +61,5 @@ NODES: list[type[io.ComfyNode]] = [
 class PhysAnimatorExtension(ComfyExtension):
     async def get_node_list(self) -> list[type[io.ComfyNode]]:
         register_routes()  # here, because host 0.8.0 does not call on_load
-        return list(NODES)
+        watch_prompts()
+        return [checked(node) for node in NODES]

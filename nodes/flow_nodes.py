@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from comfy_api.latest import io
 
+from .batches import announce_batch
+from .messages import shown_with
 from .previews import animated
 from .progress import host_progress
 from .tensors import picture_batch
@@ -66,13 +68,15 @@ class PreviewFlow(io.ComfyNode):
         from ..rendering.flow_colour import flow_to_color
 
         shown, report = range(0, len(flow), every), host_progress()
+        instead = "raise every to show fewer frames"
+        told = announce_batch(cls, len(shown), flow.motion.width, flow.motion.height, instead=instead)
         scale = largest or _largest(flow, shown)
         batch = picture_batch(len(shown))
         for number, frame in enumerate(shown, start=1):
             field = flow.flow(frame)
             batch.put(flow_to_color(field.displacement, field.inside, max_px=scale))
             report(number, len(shown))
-        return io.NodeOutput(batch.tensor, ui=animated(batch.tensor, flow.motion.frame_rate / every))
+        return io.NodeOutput(batch.tensor, ui=shown_with(animated(batch.tensor, flow.motion.frame_rate / every), told))
 
 
 def _largest(flow: FlowSequence, shown: range) -> float:

@@ -12,6 +12,7 @@ from ..physics.errors import MeshingError
 from ..rendering.points import parse_points
 from .defaults import default_of
 from .literals import boxes_of, chosen, refusal
+from .messages import shown_with, tell_user
 from .sam_backend import missing_sam_files, sam_inputs, sam_network
 from .tensors import batch_of_masks, batch_of_pictures, mask_of, picture_of
 from .wires import MaskedMesh, MeshWire
@@ -189,6 +190,7 @@ class MaskToMesh(io.ComfyNode):
         mask_index: int,
         image: torch.Tensor | None = None,
     ) -> io.NodeOutput:
+        from ..physics.advice import mask_advice
         from ..physics.masks import fitted
         from ..physics.meshing import mesh_from_mask
         from ..rendering.overlay import draw_wireframe
@@ -198,6 +200,7 @@ class MaskToMesh(io.ComfyNode):
         if not (coverage > 0.5).any():
             raise MeshingError(_EMPTY)
         coverage = fitted(coverage, picture.shape[1], picture.shape[0])
+        told = tell_user(cls, mask_advice(coverage))
         mesh = mesh_from_mask(coverage, spacing=spacing or None, elements_across=elements_across)
         preview = batch_of_pictures([draw_wireframe(picture, mesh)], 1)
-        return io.NodeOutput(MaskedMesh(mesh, coverage), preview, ui=ui.PreviewImage(preview))
+        return io.NodeOutput(MaskedMesh(mesh, coverage), preview, ui=shown_with(ui.PreviewImage(preview), told))

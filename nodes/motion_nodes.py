@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,8 @@ from comfy_api.latest import io
 from numpy.typing import NDArray
 
 from ..physics.limits import MAX_LOOP
+from .batches import announce_batch
+from .messages import all_told, shown_with, tell_user
 from .previews import animated
 from .progress import host_progress
 from .tensors import picture_batch, pictures_for
@@ -61,14 +62,14 @@ class Simulate(io.ComfyNode):
 
     @classmethod
     def execute(cls, scene: MaskedScene, frames: int, loop: float = 0.0) -> io.NodeOutput:
-        from ..physics.advice import advice
+        from ..physics.advice import advice, stillness
         from ..physics.simulation import simulate
 
         acting = replace(scene.scene, loop=loop) if loop else scene.scene
-        for sentence in advice(acting):
-            logging.warning("PhysAnimator: %s", sentence)
+        told = tell_user(cls, advice(acting))
         motion = simulate(acting, frames=None if acting.loop else frames, progress=host_progress())
-        return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate)
+        told = all_told(told, tell_user(cls, stillness(motion)))
+        return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate, ui=told or None)
 
 
 class PreviewMotion(io.ComfyNode):
@@ -114,11 +115,14 @@ class PreviewMotion(io.ComfyNode):
         moved, acting = motion.motion, scene.scene if scene else None
         pictures = _shrunk(pictures_for(image, moved.width, moved.height, frames=len(moved)), longest_side)
         shown, report = range(0, len(moved), every), host_progress()
+        small_height, small_width = pictures[0].shape[:2]
+        instead = "raise every, or lower longest_side"
+        told = announce_batch(cls, len(shown), small_width, small_height, instead=instead)
         batch = picture_batch(len(shown))
         for number, frame in enumerate(shown, start=1):
             batch.put(preview(pictures[frame % len(pictures)], moved, acting, frame))
             report(number, len(shown))
-        return io.NodeOutput(batch.tensor, ui=animated(batch.tensor, moved.frame_rate / every))
+        return io.NodeOutput(batch.tensor, ui=shown_with(animated(batch.tensor, moved.frame_rate / every), told))
 
 
 def _shrunk(pictures: NDArray[np.float32], longest_side: int) -> list[NDArray[np.uint8]]:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import count
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
+from ..physics.errors import require
+from .batches import announce_batch
 from .cartoon_interpolation import missing_tooncrafter_files, tooncrafter_backend
 from .literals import chosen, refusal, whole_numbers_of
 from .model_files import find_model_file
 from .progress import host_progress
+from .running import is_wanted, not_made
 from .sketch_video import missing_sketch_video_files, sketch_video_frames
 from .sketch_video_inputs import sketch_video_inputs
 from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of, pictures_of
@@ -24,11 +26,13 @@ if TYPE_CHECKING:
 
     from ..physics.motion import Motion
     from ..rendering.composite import LayeredRenderer
+    from .tensors import FrameBatch
 
 __all__ = ["Interpolate", "Render"]
 
 _COMPOSITE, _SKETCH_VIDEO = "composite", "sketch-guided SVD"
 _TOONCRAFTER = "tooncrafter"
+_FRAMES, _ALPHA = 0, 1  # numbers of the outputs
 _IMAGES_ARE = ("all frames", "keyframes")
 
 
@@ -62,7 +66,10 @@ class Render(io.ComfyNode):
             ],
             outputs=[
                 io.Image.Output(display_name="frames", tooltip="One picture a frame: for Create Video."),
-                io.Mask.Output(display_name="alpha", tooltip="White where the moving parts are, one mask a frame."),
+                io.Mask.Output(
+                    display_name="alpha",
+                    tooltip="White where the moving parts are, one mask a frame; made only where it is connected.",
+                ),
                 io.Image.Output("plate", display_name="clean_plate", tooltip="The picture without the moving parts."),
             ],
         )
@@ -71,6 +78,10 @@ class Render(io.ComfyNode):
     def validate_inputs(cls, renderer: dict[str, Any] | None = None, **others: Any) -> bool | str:
         # Before the simulation, not after it. The host hands over what a choice brings only if every input is taken.
         return missing_sketch_video_files(renderer or {}) or True
+
+    @classmethod
+    def fingerprint_inputs(cls, **inputs: Any) -> list[bool]:
+        return [is_wanted(_FRAMES), is_wanted(_ALPHA)]
 
     @classmethod
     def execute(
@@ -83,22 +94,34 @@ class Render(io.ComfyNode):
         from ..rendering.composite import LayeredRenderer
 
         picture, plate = picture_of(image), None if clean_plate is None else picture_of(clean_plate, name="clean_plate")
+        by_model = renderer is not None and renderer["renderer"] == _SKETCH_VIDEO
+        count, (height, width) = len(motion.motion), picture.shape[:2]
+        frames = picture_batch(count) if is_wanted(_FRAMES) else None
+        alpha = mask_batch(count) if is_wanted(_ALPHA) else None
+        instead = "" if by_model else "use Save Animation, which holds one frame at a time"
+        channels = 3 * (frames is not None) + (alpha is not None)
+        told = announce_batch(cls, count, width, height, channels=channels, instead=instead)
         layers = LayeredRenderer(picture, motion.masks, motion.motion, plate=plate)
-        frames, alpha = picture_batch(len(layers)), mask_batch(len(layers))
-        if renderer is not None and renderer["renderer"] == _SKETCH_VIDEO:
-            drawn = zip(sketch_video_frames(picture, layers, renderer), map(layers.alpha, count()), strict=False)
-        else:
-            drawn = _composed(layers)
-        for frame, covered in drawn:
-            frames.put(frame)
-            alpha.put(covered)
-        return io.NodeOutput(frames.tensor, alpha.tensor, batch_of_pictures([layers.plate], 1))
+        if by_model and frames is not None:
+            for frame in sketch_video_frames(picture, layers, renderer):
+                frames.put(frame)
+        _compose(layers, None if by_model else frames, alpha)
+        made = [
+            not_made(name) if each is None else each.tensor for name, each in (("frames", frames), ("alpha", alpha))
+        ]
+        return io.NodeOutput(*made, batch_of_pictures([layers.plate], 1), ui=told or None)
 
 
-def _composed(layers: LayeredRenderer) -> Iterator[tuple[NDArray[Any], NDArray[Any]]]:
+def _compose(layers: LayeredRenderer, frames: FrameBatch | None, alpha: FrameBatch | None) -> None:
+    """Draw into the batches that there are."""
     report = host_progress()
-    for number in range(len(layers)):
-        yield layers.frame_and_alpha(number)
+    for number in range(len(layers) if frames or alpha else 0):
+        if alpha is None or frames is None:
+            drawn = (layers.alpha(number),) if frames is None else (layers.frame(number),)
+        else:
+            drawn = layers.frame_and_alpha(number)
+        for batch, picture in zip((each for each in (frames, alpha) if each is not None), drawn, strict=True):
+            batch.put(picture)
         report(number + 1, len(layers))
 
 
@@ -156,11 +179,15 @@ class Interpolate(io.ComfyNode):
 
     @classmethod
     def validate_inputs(
-        cls, backend: dict[str, Any] | None = None, keyframes_at: str | None = None, **others: Any
+        cls,
+        images_are: str | None = None,
+        backend: dict[str, Any] | None = None,
+        keyframes_at: str | None = None,
+        **others: Any,
     ) -> bool | str:
         # The host hands over the inputs that a choice brings only to a function that takes every input.
         missing = " ".join(missing_tooncrafter_files(backend or {}))
-        return missing or refusal(lambda: whole_numbers_of(keyframes_at or "", name="keyframes_at"))
+        return missing or refusal(lambda: _numbers_of(keyframes_at or "", images_are))
 
     @classmethod
     def execute(
@@ -176,8 +203,9 @@ class Interpolate(io.ComfyNode):
 
         name, choice = chosen(backend, "backend", (*BACKENDS, _TOONCRAFTER))
         known = motion.motion if motion else None
-        at = whole_numbers_of(keyframes_at, name="keyframes_at")
-        keyframes, indices = _keyframes(pictures_of(images, name="images"), images_are, every, at, known)
+        pictures, at = pictures_of(images, name="images"), _numbers_of(keyframes_at, images_are)
+        keyframes, indices = _keyframes(pictures, images_are, every, at, known)
+        told = announce_batch(cls, indices[-1] + 1, pictures.shape[2], pictures.shape[1])
         drawn_by_model = name == _TOONCRAFTER
         sketches = choice.get("sketches")
         frames = interpolate(
@@ -190,7 +218,19 @@ class Interpolate(io.ComfyNode):
             find_file=find_model_file,
             progress=None if drawn_by_model else host_progress(),
         )
-        return io.NodeOutput(batch_of_pictures(frames, indices[-1] + 1))
+        return io.NodeOutput(batch_of_pictures(frames, indices[-1] + 1), ui=told or None)
+
+
+def _numbers_of(keyframes_at: str, images_are: str | None) -> tuple[int, ...]:
+    """The typed frame numbers; InvalidInputError where no clip can have such keyframes."""
+    at = whole_numbers_of(keyframes_at, name="keyframes_at")
+    require("keyframes_at", keyframes_at[:60], min(at, default=0) >= 0, "frame numbers from 0")
+    if images_are == _IMAGES_ARE[1] and at:
+        rising = all(one < next_one for one, next_one in pairwise(at))
+        require("keyframes_at", keyframes_at[:60], rising, "increasing frame numbers, one for each keyframe")
+        # Nothing says what is to be seen before it.
+        require("keyframes_at", keyframes_at[:60], at[0] == 0, "0 for the first keyframe: the clip begins with it")
+    return at
 
 
 def _keyframes(
@@ -199,7 +239,7 @@ def _keyframes(
     """The keyframes among the pictures and their frame numbers."""
     from ..rendering.interpolation import keyframe_indices
 
-    if images_are == "keyframes":
+    if images_are == _IMAGES_ARE[1]:
         last = len(motion) - 1 if motion else every * len(pictures)
         regular = [min(every * number, last) for number in range(len(pictures))]
         return pictures, list(at) or regular

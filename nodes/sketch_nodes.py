@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
+from .batches import announce_batch
 from .defaults import default_of
 from .drawing_network import drawing_network_inputs, missing_drawing_file, network_sketch
 from .progress import host_progress
+from .running import is_wanted, not_made
 from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of
 from .wires import FlowWire
 
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ExtractSketch", "WarpSketch"]
 
+_HOLES = 1  # number of the output
 _GAUSSIANS, _NETWORK = "difference of Gaussians", "drawing network"
 
 
@@ -145,10 +148,16 @@ class WarpSketch(io.ComfyNode):
             outputs=[
                 io.Image.Output(display_name="sketches", tooltip="One sketch a frame."),
                 io.Mask.Output(
-                    display_name="holes", tooltip="White where nothing came to lie: what is behind a body shows there."
+                    display_name="holes",
+                    tooltip="White where nothing came to lie: what is behind a body shows there. Made only where it is"
+                    " connected.",
                 ),
             ],
         )
+
+    @classmethod
+    def fingerprint_inputs(cls, **inputs: Any) -> bool:
+        return is_wanted(_HOLES)
 
     @classmethod
     def execute(
@@ -163,10 +172,14 @@ class WarpSketch(io.ComfyNode):
 
         drawing, report = picture_of(sketch, name="sketch").mean(axis=2), host_progress()
         behind = None if lines_behind is None else picture_of(lines_behind, name="lines_behind").mean(axis=2)
-        sketches, holes = picture_batch(len(flow)), mask_batch(len(flow))
+        count, (height, width) = len(flow), drawing.shape
+        sketches, holes = picture_batch(count), mask_batch(count) if is_wanted(_HOLES) else None
+        told = announce_batch(cls, count, width, height, channels=3 + (holes is not None))
         warped = warped_sketches(drawing, flow, mode=mode, behind=behind, blur_sigma=blur_sigma)
         for number, each in enumerate(warped, start=1):
             sketches.put(each.sketch)
-            holes.put(each.holes)
-            report(number, len(flow))
-        return io.NodeOutput(sketches.tensor, holes.tensor)
+            if holes is not None:
+                holes.put(each.holes)
+            report(number, count)
+        uncovered = not_made("holes") if holes is None else holes.tensor
+        return io.NodeOutput(sketches.tensor, uncovered, ui=told or None)

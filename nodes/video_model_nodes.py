@@ -8,6 +8,7 @@ from comfy_api.latest import io
 
 from ..physics.tracks import FITS, Fit
 from ..rendering.video_format import FRAME_STEP, SIZE_STEP, VideoFormat
+from .batches import announce_batch
 from .progress import host_progress
 from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of
 from .wires import MaskedMotion, MotionWire
@@ -125,13 +126,14 @@ class WarpedVideo(io.ComfyNode):
         from ..rendering.control_video import warped_frames
 
         form, plate, report = VideoFormat(frames, width, height, fit), _given(clean_plate), host_progress()
+        told = announce_batch(cls, frames, width, height, channels=4)
         pictures, holes = picture_batch(frames), mask_batch(frames)
         drawn = warped_frames(picture_of(image), motion.masks, motion.motion, form, plate=plate, grow=grow)
         for number, (picture, hole) in enumerate(drawn, start=1):
             pictures.put(picture)
             holes.put(hole)
             report(number, frames)
-        return io.NodeOutput(pictures.tensor, holes.tensor, *_form_values(form, motion))
+        return io.NodeOutput(pictures.tensor, holes.tensor, *_form_values(form, motion), ui=told or None)
 
 
 class LineControlVideo(io.ComfyNode):
@@ -167,13 +169,14 @@ class LineControlVideo(io.ComfyNode):
     ) -> io.NodeOutput:
         from ..rendering.control_video import line_frames
 
-        form, batch, report = VideoFormat(frames, width, height, fit), picture_batch(frames), host_progress()
+        form, report = VideoFormat(frames, width, height, fit), host_progress()
+        told, batch = announce_batch(cls, frames, width, height), picture_batch(frames)
         drawing = picture_of(sketch, name="sketch").mean(axis=2)
         drawn = line_frames(drawing, motion.motion, form, bright_lines=lines == _LINES[0])
         for number, picture in enumerate(drawn, start=1):
             batch.put(picture)
             report(number, frames)
-        return io.NodeOutput(batch.tensor, *_form_values(form, motion))
+        return io.NodeOutput(batch.tensor, *_form_values(form, motion), ui=told or None)
 
 
 class FirstAndLastFrame(io.ComfyNode):

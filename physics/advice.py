@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .motion import Motion
 from .rigging import leaders_of, unused_rig_points
 from .scene import Scene
 
-__all__ = ["advice", "loose_parts"]
+__all__ = ["advice", "loose_parts", "mask_advice", "stillness"]
 
 _NAMED = 3
+# What nobody sees: frames drawn with less differ by resampling alone [px].
+_UNSEEN = 0.25
+# Smaller parts than this are rather a slip of the brush than something that bends [px].
+_TINY = 64
+_MOSTLY = 0.9
 
 
 def advice(scene: Scene) -> list[str]:
@@ -40,3 +49,30 @@ def loose_parts(scene: Scene) -> list[str]:
         more = "" if len(tops) <= _NAMED else " and so on"
         sentences.append(f"bodies[{number}]{named} has {counted} may drift away; pin at {where}{more} to hold on to it")
     return sentences
+
+
+def stillness(motion: Motion) -> list[str]:
+    """A sentence where a motion of several frames shows nothing that anybody could see."""
+    moved = motion.positions - motion.positions[:1]
+    farthest = float(np.hypot(moved[..., 0], moved[..., 1]).max(initial=0.0))
+    if len(motion) < 2 or farthest >= _UNSEEN:
+        return []
+    return [
+        f"nothing moves by more than {farthest:.2f} px in {len(motion)} frames: is everything held, do strokes and wind"
+        " reach the bodies, and are they strong and early enough?"
+    ]
+
+
+def mask_advice(mask: ArrayLike) -> list[str]:
+    """Sentences about a mask that probably shows something else than the part that shall move.
+
+    Args:
+        mask: coverage 0..1 or bool, shape [h, w].
+    """
+    covered = np.asarray(mask) > 0.5
+    pixels, share = int(np.count_nonzero(covered)), float(covered.mean()) if covered.size else 0.0
+    if 0 < pixels < _TINY:
+        return [f"the mask covers {pixels} px only: is it the whole part that shall move?"]
+    if share > _MOSTLY:
+        return [f"the mask covers {100 * share:.0f} % of the picture: is it inverted? White is what moves."]
+    return []

@@ -12,14 +12,25 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError, require
+from ..physics.errors import require
 from ..physics.motion import Motion
 from ..physics.scene import Scene
+from .background import (
+    Background,
+    background_of,
+    check_in_betweens,
+    is_transparent,
+    over,
+    shown_frame,
+    usual_background,
+)
+from .premultiplied import resized
 from .text_files import check_text_output, write_text
-from .video import check_output, write_animation
+from .video import check_output, holds_alpha, write_animation
 
 if TYPE_CHECKING:
     from .composite import LayeredRenderer
+    from .pixel_art import PixelArtRenderer
 
 __all__ = ["Animation", "StageProgress", "timed"]
 
@@ -37,7 +48,7 @@ class Animation:
     """An illustration and how its parts move. Frames are drawn when they are asked for.
 
     Attributes:
-        image: the illustration, RGB, shape [h, w, 3].
+        image: the illustration, RGB, shape [h, w, 3], or straight RGBA, shape [h, w, 4].
         masks: where each moving part is, 0..1 or bool, each of shape [h, w].
         scene: bodies, strokes and rig points.
         motion: where every vertex is in every frame.
@@ -50,7 +61,7 @@ class Animation:
     masks: tuple[Mask, ...]
     scene: Scene
     motion: Motion
-    renderer: LayeredRenderer
+    renderer: LayeredRenderer | PixelArtRenderer
     first: int = 0
     seconds: dict[str, float] = field(default_factory=dict)
 
@@ -59,32 +70,61 @@ class Animation:
         return len(self.motion) - self.first
 
     @property
+    def pixel_art(self) -> bool:
+        """Whether pixels are moved whole, and no colours are mixed."""
+        from .pixel_art import PixelArtRenderer
+
+        return isinstance(self.renderer, PixelArtRenderer)
+
+    @property
     def shown(self) -> range:
         """The motion's frames that are shown."""
         return range(self.first, len(self.motion))
 
-    def frames(
-        self, *, transparent: bool = False, every: int = 1, progress: StageProgress | None = None
-    ) -> Iterator[Image]:
-        """The pictures of the animation, one after another.
+    def background(self, text: str | None = None, *, file_has_alpha: bool = True) -> Background:
+        """The background of a name or colour; without one, transparency stays where the file can hold it.
 
         Args:
-            transparent: only the moving parts, as RGBA; otherwise the whole picture, as RGB.
-            every: draw each so many-th frame anew and fill in the others from the known motion.
-            progress: called after each frame with the stage "render".
+            text: see :func:`~physanimator.rendering.background.background_of`.
+            file_has_alpha: what is written can hold transparency.
 
         Raises:
-            InvalidInputError: in-betweens and transparency are asked for together.
+            InvalidInputError: there is no such background.
+        """
+        if text is None:
+            return usual_background(transparent_picture=is_transparent(self.image), file_has_alpha=file_has_alpha)
+        return background_of(text)
+
+    def frames(
+        self,
+        *,
+        transparent: bool = False,
+        every: int = 1,
+        progress: StageProgress | None = None,
+        background: str | None = None,
+    ) -> Iterator[Image]:
+        """The pictures of the animation, one after another: RGB, or straight RGBA where they have transparency.
+
+        Args:
+            transparent: short for the background "transparent".
+            every: draw each so many-th frame anew and fill in the others from the known motion.
+            progress: called after each frame with the stage "render".
+            background: what is there where nothing moves: "picture", "transparent", "parts" or a colour (see
+                :mod:`~physanimator.rendering.background`); None keeps the transparency that the picture has.
+
+        Raises:
+            InvalidInputError: in-betweens and transparency are asked for together, or the background is unknown.
         """
         require("every", every, every >= 1, "at least 1 frame")
-        if transparent and every > 1:
-            raise InvalidInputError("transparent frames must be drawn one by one. Got: in-betweens as well")
+        chosen = self.background("transparent" if transparent and background is None else background)
+        if background is None and not transparent and every > 1:
+            chosen = Background()
+        check_in_betweens(chosen, every)
         pictures: Iterable[Image]
         if every > 1:
-            pictures = self._with_in_betweens(every)
+            pictures = self._with_in_betweens(every, chosen)
         else:
-            draw = self.renderer.cutout if transparent else self.renderer.frame
-            pictures = (draw(t) for t in self.shown)
+            pictures = (shown_frame(self.renderer, t, chosen) for t in self.shown)
         return self._measured("render", pictures, progress)
 
     def sketches(self, *, progress: StageProgress | None = None) -> Iterator[Image]:
@@ -94,7 +134,7 @@ class Animation:
         from .sketch_warping import warped_sketches
 
         def drawn() -> Iterator[Image]:
-            sketch, behind = extract_sketch(self.image), extract_sketch(self.renderer.plate)
+            sketch, behind = extract_sketch(over(self.image)), extract_sketch(over(self.renderer.plate))
             warped = warped_sketches(sketch, FlowSequence(self.motion), self.shown, behind=behind)
             yield from (each.sketch for each in warped)
 
@@ -116,7 +156,7 @@ class Animation:
         """The animation with meshes, pins and strokes drawn over it."""
         from .overlay import preview
 
-        drawn = (preview(self.renderer.frame(t), self.motion, self.scene, t) for t in self.shown)
+        drawn = (preview(over(self.renderer.frame(t)), self.motion, self.scene, t) for t in self.shown)
         return self._measured("preview", drawn, progress)
 
     def save(
@@ -127,6 +167,7 @@ class Animation:
         every: int = 1,
         width: int | None = None,
         progress: StageProgress | None = None,
+        background: str | None = None,
     ) -> None:
         """Write the animation to a video, an animated picture or a folder of pictures.
 
@@ -136,12 +177,16 @@ class Animation:
             every: see :meth:`frames`.
             width: width of the written frames [px]; that of the illustration when None.
             progress: called after each frame with the stage "render".
+            background: see :meth:`frames`; None keeps the picture's transparency if the file can hold it.
 
         Raises:
-            InvalidInputError: nothing can be written there.
+            InvalidInputError: nothing can be written there, or the background is unknown.
         """
-        check_output(path, alpha=transparent)
-        self.write(self.frames(transparent=transparent, every=every, progress=progress), path, width=width)
+        name = "transparent" if transparent and background is None else background
+        if name is None and (every > 1 or not holds_alpha(path)):
+            name = "picture"
+        check_output(path, alpha=self.background(name).has_alpha)
+        self.write(self.frames(every=every, progress=progress, background=name), path, width=width)
 
     def write(self, pictures: Iterable[Image], path: StrPath, *, width: int | None = None) -> None:
         """Write any of the clips of this animation, at its frame rate; see :func:`write_animation`.
@@ -152,10 +197,11 @@ class Animation:
             width: width of the written frames [px]; that of the illustration when None.
         """
         if width is not None:
-            pictures = (_resized(picture, width) for picture in pictures)
+            height, nearest = self.height_at(width), self.pixel_art
+            pictures = (resized(picture, width, height, nearest=nearest) for picture in pictures)
         drawing = sum(self.seconds.values())
         start = time.perf_counter()
-        write_animation(pictures, path, self.motion.frame_rate)
+        write_animation(pictures, path, self.motion.frame_rate, exact=self.pixel_art)
         # Pictures are drawn while they are written; what the drawing took is already counted.
         drawing = sum(self.seconds.values()) - drawing
         self.seconds["write"] = self.seconds.get("write", 0.0) + time.perf_counter() - start - drawing
@@ -167,7 +213,7 @@ class Animation:
 
     def height_at(self, width: int) -> int:
         """Height of written frames of a width [px]."""
-        return _height_at(self.image, width)
+        return max(1, round(self.image.shape[0] * width / self.image.shape[1]))
 
     def save_motion(self, path: StrPath) -> None:
         """Write every vertex of every frame as JSON; see :func:`~physanimator.physics.export.motion_to_dict`.
@@ -196,7 +242,7 @@ class Animation:
         from .images import data_address
 
         check_text_output(path, ".svg")
-        write_text(path, motion_to_svg(self.shown_motion, background=data_address(self.image)))
+        write_text(path, motion_to_svg(self.shown_motion, background=data_address(over(self.image))))
 
     def save_tracks(self, path: StrPath, **options: Any) -> None:
         """Write tracks for motion-controlled video models as JSON; see :func:`~physanimator.physics.tracks.tracks`.
@@ -213,11 +259,11 @@ class Animation:
         check_text_output(path, ".json")
         write_text(path, tracks(self.shown_motion, **options).to_json() + "\n")
 
-    def _with_in_betweens(self, every: int) -> Iterator[Image]:
+    def _with_in_betweens(self, every: int, background: Background) -> Iterator[Image]:
         from .interpolation import interpolate, keyframe_indices
 
         indices = [self.first + t for t in keyframe_indices(len(self), every)]
-        keyframes = [self.renderer.frame(t) for t in indices]
+        keyframes = [shown_frame(self.renderer, t, background) for t in indices]
         yield from interpolate(keyframes, indices, motion=self.motion, masks=self.masks)
 
     def _measured(self, stage: str, pictures: Iterable[T], progress: StageProgress | None) -> Iterator[T]:
@@ -228,18 +274,6 @@ class Animation:
             if progress is not None:
                 progress(stage, done, len(self))
             yield picture
-
-
-def _height_at(picture: Image, width: int) -> int:
-    return max(1, round(picture.shape[0] * width / picture.shape[1]))
-
-
-def _resized(picture: Image, width: int) -> Image:
-    import cv2
-
-    height = _height_at(picture, width)
-    finer = width > picture.shape[1]
-    return cv2.resize(picture, (width, height), interpolation=cv2.INTER_CUBIC if finer else cv2.INTER_AREA)
 
 
 @contextmanager

@@ -43,7 +43,7 @@ def read_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
     from .images import load_image, load_mask
 
     scene = read_json(_text(options.scene, "scene")) if options.scene else None
-    image = load_image(options.image)
+    image = load_image(options.image, alpha=True)
     height, width = image.shape[:2]
     return image, {
         "masks": [load_mask(path, width=width, height=height) for path in options.mask],

@@ -131,8 +131,8 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
         metavar="OUT",
         required=output is None,
         default=output,
-        help=".mp4, .webm (the moving parts, transparent), .gif, .webp, .apng, or a folder ending in / for"
-        " numbered PNG files" + (f" (default: {output})" if output else ""),
+        help=".mp4, .webm (with transparency; of an opaque picture the moving parts alone), .gif, .webp, .apng, or a"
+        " folder ending in / for numbered PNG files" + (f" (default: {output})" if output else ""),
     )
     _add_timing(drawing)
     drawing.add_argument(
@@ -140,8 +140,19 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
     )
     drawing.add_argument(
         "--background",
-        choices=("picture", "transparent"),
-        help="behind the moving parts (default: transparent for .webm, else the picture)",
+        metavar="WHAT",
+        help="what is there where nothing moves. picture: all of the picture, opaque, its transparent places white."
+        " A colour (a CSS name, #rgb or #rrggbb): the same on that colour. transparent: all of the picture with its own"
+        " transparency; of an opaque picture the moving parts alone. parts: the moving parts alone, on transparency."
+        " (default: a transparent picture keeps its transparency, except in .mp4; of an opaque one parts for .webm,"
+        " else picture)",
+    )
+    drawing.add_argument(
+        "--pixel-art",
+        action="store_true",
+        help="move whole pixels (or blocks, where each pixel of the art is one) and mix no colours. Folders of PNG"
+        " files, .apng, .webp and a .gif of up to 255 colours keep them exactly, .mp4 and .webm blur them a little."
+        " --width repeats pixels: take a whole multiple",
     )
     drawing.add_argument(
         "--interpolate", metavar="N", type=int, default=1, help="draw every N-th frame, fill in the rest"

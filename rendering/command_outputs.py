@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ..physics.plan import SimulationPlan
     from .animation import Animation, StageProgress
 
-__all__ = ["check_outputs", "report", "write_outputs"]
+__all__ = ["background_for", "check_outputs", "report", "write_outputs"]
 
 
 def check_outputs(options: argparse.Namespace) -> None:
@@ -22,10 +22,14 @@ def check_outputs(options: argparse.Namespace) -> None:
     """
     from ..physics.errors import InvalidInputError
     from ..physics.tracks import check_track_options
+    from .background import background_of, check_in_betweens
     from .text_files import check_text_output
     from .video import check_output
 
-    check_output(options.output, alpha=_is_transparent(options))
+    said = options.background and background_of(options.background)
+    check_output(options.output, alpha=bool(said and said.has_alpha))
+    if said:
+        check_in_betweens(said, options.interpolate)
     if options.width is not None and not 16 <= options.width <= 8192:
         raise InvalidInputError(f"--width must be 16 to 8192 px. Got: {options.width}")
     chosen = [options.output]
@@ -49,7 +53,7 @@ def write_outputs(options: argparse.Namespace, animation: Animation, progress: S
     """Write the animation, and all that was asked for beside it."""
     animation.save(
         options.output,
-        transparent=_is_transparent(options),
+        background=background_for(options, animation.image),
         every=options.interpolate,
         width=options.width,
         progress=progress,
@@ -109,7 +113,21 @@ def _save_data(options: argparse.Namespace, animation: Animation) -> None:
         animation.save_svg(options.save_svg)
 
 
-def _is_transparent(options: argparse.Namespace) -> bool:
-    if options.background is None:
-        return Path(options.output).suffix.lower() == ".webm"
-    return bool(options.background == "transparent")
+def background_for(options: argparse.Namespace, image: Any) -> str:
+    """The background of what is written, as said or as usual for the illustration and the output.
+
+    Raises:
+        InvalidInputError: in-betweens are asked for where it is transparent.
+    """
+    from .background import check_in_betweens, is_transparent, usual_background
+    from .video import holds_alpha
+
+    if options.background is not None:
+        return str(options.background)
+    usual = usual_background(
+        transparent_picture=is_transparent(image),
+        file_has_alpha=holds_alpha(options.output),
+        parts=Path(options.output).suffix.lower() == ".webm",
+    )
+    check_in_betweens(usual, options.interpolate)
+    return usual.kind

@@ -15,8 +15,11 @@ from ..physics.masks import coverage_of, fitted
 from ..physics.motion import Motion
 from ..physics.pixel_box import PixelBox
 from ..physics.progress import Progress
+from .background import is_transparent
 from .layers import take_apart
 from .pixels import as_dtype, as_float, check_picture
+from .premultiplied import straight
+from .sprite_layers import take_sprite_apart
 
 __all__ = ["LayeredRenderer", "render_frames"]
 
@@ -29,9 +32,11 @@ class LayeredRenderer:
     A frame in which nothing is displaced is the illustration itself, and so is every part of a frame that is at
     rest. Pixels that no body ever covers stay exactly as drawn.
 
+    An illustration with transparency moves on transparency: its frames are straight RGBA, black where alpha is 0.
+
     Attributes:
         motion: what is drawn.
-        plate: the illustration without its bodies, in its dtype, shape [h, w, 3].
+        plate: the illustration without its bodies, in its dtype and channels, shape [h, w, 3] or [h, w, 4].
     """
 
     def __init__(
@@ -45,41 +50,46 @@ class LayeredRenderer:
         """Take the illustration apart.
 
         Args:
-            image: RGB, uint8 or float32 in 0 to 1, shape [h, w, 3].
+            image: RGB or straight RGBA, uint8 or float32 in 0 to 1, shape [h, w, 3] or [h, w, 4].
             masks: one for each body of the motion, in its order: bool, integers 0 to 255 or floats 0 to 1,
                 shape [h, w].
             motion: of the bodies.
-            plate: what is behind all bodies, of the image's shape and dtype; None makes a clean plate.
+            plate: what is behind all bodies, of the image's shape and dtype; for RGBA it may be RGB, and what is
+                transparent behind the bodies is then found. None makes a clean plate.
 
         Raises:
             InvalidInputError: sizes, dtypes or the number of masks do not fit together.
         """
-        check_picture(image)
+        _check_image(image)
         size, expected = image.shape[1::-1], (motion.width, motion.height)
         require("image", f"{size[0]} x {size[1]} px", size == expected, f"as large as the motion's, {expected} px")
         require("masks", len(masks), len(masks) == len(motion.bodies), f"one for each of {len(motion.bodies)} bodies")
-        if plate is not None and (plate.shape != image.shape or plate.dtype != image.dtype):
+        if plate is not None and not _fits(plate, image):
             raise InvalidInputError(
                 f"plate must have the image's shape {image.shape} and dtype {image.dtype}."
                 f" Got: {plate.shape}, {plate.dtype}"
             )
         self.motion = motion
         self._order = layer_order(motion)
-        background, self._layers = take_apart(
+        background, self._layers = (take_sprite_apart if is_transparent(image) else take_apart)(
             as_float(image),
             [fitted(coverage_of(masks[k]), *size) for k in self._order],
             [motion.bodies[k].mesh for k in self._order],
             plate=None if plate is None else as_float(plate),
         )
-        self.plate = as_dtype(background, image.dtype)
-        self._planes = np.ascontiguousarray(np.moveaxis(as_float(self.plate), 2, 0))
+        if is_transparent(image):
+            self.plate = as_dtype(straight(background), image.dtype)
+            self._planes = np.ascontiguousarray(np.moveaxis(background, 2, 0))
+        else:
+            self.plate = as_dtype(background, image.dtype)
+            self._planes = np.ascontiguousarray(np.moveaxis(as_float(self.plate), 2, 0))
 
     def __len__(self) -> int:
         """Number of frames."""
         return len(self.motion)
 
     def frame(self, t: int) -> NDArray[Any]:
-        """Frame ``t`` in the dtype of the illustration, RGB, shape [h, w, 3].
+        """Frame ``t`` in the dtype and channels of the illustration, shape [h, w, 3] or [h, w, 4].
 
         Raises:
             InvalidInputError: there is no such frame.
@@ -124,8 +134,6 @@ class LayeredRenderer:
         planes = np.zeros((4, *self.plate.shape[:2]), dtype=np.float32)
         for box, layer in self._drawn(t):
             _lay_over(_part(planes, box), layer)
-        np.clip(planes, 0, 1, out=planes)
-        planes[:3] /= np.maximum(planes[3], 1e-6)
         return _interleaved(planes, self.plate.dtype)
 
     def _over_plate(self, drawn: list[tuple[PixelBox, FloatImage]]) -> NDArray[Any]:
@@ -145,7 +153,7 @@ class LayeredRenderer:
         covered = np.zeros(self.plate.shape[:2], dtype=np.float32)
         for box, layer in drawn:
             part = covered[box.slices]
-            part += np.clip(layer[..., 3], 0, 1) * (1 - part)
+            part += np.clip(layer[..., -1], 0, 1) * (1 - part)
         return covered
 
     def _drawn(self, t: int) -> list[tuple[PixelBox, FloatImage]]:
@@ -181,7 +189,7 @@ def _part(planes: FloatImage, box: PixelBox) -> FloatImage:
 
 
 def _lay_over(planes: FloatImage, layer: FloatImage) -> None:
-    """Lay premultiplied RGB and alpha, shape [h, w, 4], over planes, shape [3 or 4, h, w], in place."""
+    """Lay a layer's colours and coverage, shape [h, w, 4 or 5], over planes, shape [3 or 4, h, w], in place."""
     *colours, alpha = cv2.split(layer)
     np.clip(alpha, 0, 1, out=alpha)
     beneath = 1 - alpha
@@ -192,8 +200,18 @@ def _lay_over(planes: FloatImage, layer: FloatImage) -> None:
 
 
 def _interleaved(planes: FloatImage, dtype: np.dtype[Any]) -> NDArray[Any]:
-    """Planes in 0 to 1, shape [c, h, w], as a picture, shape [h, w, c]."""
-    return as_dtype(np.asarray(cv2.merge(list(planes))), dtype)
+    """Planes in 0 to 1, four of them premultiplied, shape [c, h, w], as a straight picture, shape [h, w, c]."""
+    picture = np.asarray(cv2.merge(list(planes)))
+    return as_dtype(straight(picture) if is_transparent(picture) else picture, dtype)
+
+
+def _check_image(image: NDArray[Any]) -> None:
+    check_picture(image[..., :3] if is_transparent(image) else image)
+
+
+def _fits(plate: NDArray[Any], image: NDArray[Any]) -> bool:
+    opaque = is_transparent(image) and plate.shape == (*image.shape[:2], 3)
+    return plate.dtype == image.dtype and (opaque or plate.shape == image.shape)
 
 
 def _union(boxes: Sequence[PixelBox]) -> PixelBox:

@@ -37,7 +37,9 @@ def shown_indices(count: int, frame_rate: Fraction) -> Iterator[int]:
             yield index
 
 
-def paletted(frames: Iterable[av.VideoFrame], frame_rate: Fraction) -> Iterator[av.VideoFrame]:
+def paletted(
+    frames: Iterable[av.VideoFrame], frame_rate: Fraction, *, dithered: bool = True
+) -> Iterator[av.VideoFrame]:
     """Frames in 256 colours that are chosen for all of them together.
 
     All frames are needed before the first comes out; they wait compressed in a temporary file, not in memory.
@@ -45,6 +47,7 @@ def paletted(frames: Iterable[av.VideoFrame], frame_rate: Fraction) -> Iterator[
     Args:
         frames: of one size, in FFmpeg's format rgb24 or rgba, with their times.
         frame_rate: frames a second.
+        dithered: mix colours that are missing from others; without, each pixel gets the nearest one.
 
     Yields:
         The frames that a GIF can show, in FFmpeg's format pal8.
@@ -53,7 +56,7 @@ def paletted(frames: Iterable[av.VideoFrame], frame_rate: Fraction) -> Iterator[
         lengths: list[int] = []
         palette, like = _palette(_recorded(frames, spool, lengths))
         spool.seek(0)
-        yield from _painted(_replayed(spool, lengths, like, frame_rate), palette, like)
+        yield from _painted(_replayed(spool, lengths, like, frame_rate), palette, like, dithered=dithered)
 
 
 def _recorded(frames: Iterable[av.VideoFrame], spool: IO[bytes], lengths: list[int]) -> Iterator[av.VideoFrame]:
@@ -97,12 +100,14 @@ def _palette(frames: Iterator[av.VideoFrame]) -> tuple[av.VideoFrame, av.VideoFr
     return next(_pulled(sink)), first
 
 
-def _painted(frames: Iterable[av.VideoFrame], palette: av.VideoFrame, like: av.VideoFrame) -> Iterator[av.VideoFrame]:
+def _painted(
+    frames: Iterable[av.VideoFrame], palette: av.VideoFrame, like: av.VideoFrame, *, dithered: bool
+) -> Iterator[av.VideoFrame]:
     from av.filter import Graph
 
     graph = Graph()
     source, colours, sink = _buffer(graph, like), _buffer(graph, palette), graph.add("buffersink")
-    painter = graph.add("paletteuse", "dither=bayer:bayer_scale=4:diff_mode=rectangle")
+    painter = graph.add("paletteuse", f"dither={'bayer:bayer_scale=4' if dithered else 'none'}:diff_mode=rectangle")
     source.link_to(painter, 0, 0)
     colours.link_to(painter, 0, 1)
     painter.link_to(sink)

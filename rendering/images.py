@@ -27,18 +27,19 @@ StrPath = str | os.PathLike[str]
 _COMPRESSION = 4  # of PNG: within 2 % of the size at Pillow's own 6, in less than half the time
 
 
-def load_image(path: StrPath) -> NDArray[np.uint8]:
+def load_image(path: StrPath, *, alpha: bool = False) -> NDArray[np.uint8]:
     """Read an illustration.
 
     The orientation noted by a camera or scanner is applied, an embedded colour profile is converted to sRGB,
-    16-bit and grey pictures become 8-bit RGB, and transparent areas are laid over white. Of an animated file the
-    first frame is read.
+    16-bit and grey pictures become 8-bit RGB, and transparent areas are laid over white unless alpha is kept. Of an
+    animated file the first frame is read.
 
     Args:
         path: a PNG, JPEG, WebP or any other file that Pillow reads.
+        alpha: keep the alpha of a picture that is not opaque everywhere.
 
     Returns:
-        RGB, uint8, shape [h, w, 3].
+        RGB, uint8, shape [h, w, 3]; or straight RGBA, shape [h, w, 4], black where alpha is 0.
 
     Raises:
         InvalidInputError: there is no such file, it is no picture, or it is too large.
@@ -48,6 +49,10 @@ def load_image(path: StrPath) -> NDArray[np.uint8]:
     picture = _in_srgb(_open(path))
     if _has_transparency(picture):
         picture = _with_opacity(picture)
+        pixels = np.array(picture)
+        if alpha and pixels[..., 3].min() < 255:
+            pixels[pixels[..., 3] == 0] = 0
+            return pixels
         picture = Image.alpha_composite(Image.new("RGBA", picture.size, "white"), picture)
     return np.array(_in_8_bits(picture).convert("RGB"))
 

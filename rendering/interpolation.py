@@ -140,7 +140,8 @@ def _check(keyframes: Sequence[NDArray[Any]], indices: Sequence[int]) -> None:
     same = len(indices) == len(keyframes)
     require("indices", f"{len(indices)}", same, f"one per keyframe ({len(keyframes)})")
     rising = all(a < b for a, b in itertools.pairwise(indices))
-    require("indices", list(indices), rising, "increasing frame numbers")
+    whole = all(isinstance(index, int | np.integer) and index >= 0 for index in indices)
+    require("indices", list(indices), whole and rising, "increasing frame numbers from 0")
     kinds = {(keyframe.shape, keyframe.dtype) for keyframe in keyframes}
     require("keyframes", sorted(map(str, kinds)), len(kinds) == 1, "of one size and type")
     shape = keyframes[0].shape

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import cv2
 import numpy as np
@@ -44,7 +45,8 @@ class Layer:
     Attributes:
         mesh: the body's mesh with its apron.
         canvas: the pixels that the texture covers; may exceed the picture.
-        texture: premultiplied RGB and alpha at rest, float32, shape [canvas height, canvas width, 4].
+        texture: premultiplied RGB and alpha at rest, float32, shape [canvas height, canvas width, 4]; of a picture with
+            transparency premultiplied RGBA and coverage, 5 channels.
     """
 
     mesh: ApronedMesh
@@ -60,17 +62,25 @@ class Layer:
             height: of the picture [px].
 
         Returns:
-            The box of the picture that the layer may touch, and premultiplied RGB and alpha there, shape [h, w, 4].
+            The box of the picture that the layer may touch, and the texture's channels there, shape [h, w, 4 or 5].
         """
         points = self.mesh.positions(vertices)
         box = bounding_box(points).clipped(width, height)
         if not (box.width and box.height):
-            return box, np.zeros((box.height, box.width, 4), dtype=np.float32)
+            return box, np.zeros((box.height, box.width, self.texture.shape[2]), dtype=np.float32)
         x, y = interpolate(points, self.mesh.triangles, self.mesh.rest - points, box, fill=_NOWHERE)
         x += np.arange(box.left - self.canvas.left, box.right - self.canvas.left, dtype=np.float32)
         y += np.arange(box.top - self.canvas.top, box.bottom - self.canvas.top, dtype=np.float32)[:, None]
-        drawn = cv2.remap(self.texture, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
-        return box, drawn
+        drawn = [
+            cv2.remap(part, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
+            for part in self._parts
+        ]
+        return box, drawn[0] if len(drawn) == 1 else np.dstack(drawn)
+
+    @cached_property
+    def _parts(self) -> list[FloatImage]:
+        """The texture in the four channels at most that OpenCV resamples at once."""
+        return [np.ascontiguousarray(self.texture[..., k : k + 4]) for k in range(0, self.texture.shape[2], 4)]
 
 
 def take_apart(

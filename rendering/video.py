@@ -18,12 +18,13 @@ from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError, require
 from .atomic import replacing
+from .bleeding import bled
 from .images import save_image, to_uint8
 
 if TYPE_CHECKING:
     import av
 
-__all__ = ["FORMATS", "VideoFormat", "check_output", "exact_frame_rate", "write_animation"]
+__all__ = ["FORMATS", "VideoFormat", "check_output", "exact_frame_rate", "holds_alpha", "write_animation"]
 
 StrPath = str | os.PathLike[str]
 
@@ -37,8 +38,10 @@ class VideoFormat:
         codec: FFmpeg's name of the encoder.
         pixels: pixel format of opaque frames.
         alpha_pixels: pixel format of frames with alpha; None where the format has no alpha.
+        mixes_neighbours: colours of neighbours are mixed, whatever their alpha.
         options: of the encoder.
         alpha_options: of the encoder, in addition, for frames with alpha.
+        exact_options: of the encoder, in addition, where colours shall stay as they are.
         container_options: of the file format.
     """
 
@@ -46,8 +49,10 @@ class VideoFormat:
     codec: str
     pixels: str
     alpha_pixels: str | None = None
+    mixes_neighbours: bool = False
     options: dict[str, str] = field(default_factory=dict)
     alpha_options: dict[str, str] = field(default_factory=dict)
+    exact_options: dict[str, str] = field(default_factory=dict)
     container_options: dict[str, str] = field(default_factory=dict)
 
 
@@ -65,13 +70,21 @@ FORMATS = {
         "libvpx-vp9",
         "yuv420p",
         "yuva420p",
+        mixes_neighbours=True,
         options={"crf": "22", "b": "0", "cpu-used": "3", "row-mt": "1"},
         # Alternate reference frames and alpha exclude each other in libvpx.
         alpha_options={"auto-alt-ref": "0"},
     ),
     ".gif": VideoFormat("gif", "gif", "pal8", "pal8", container_options={"loop": "0"}),
     ".webp": VideoFormat(
-        "webp", "libwebp_anim", "bgra", "bgra", options={"quality": "90"}, container_options={"loop": "0"}
+        "webp",
+        "libwebp_anim",
+        "bgra",
+        "bgra",
+        mixes_neighbours=True,
+        options={"quality": "90"},
+        exact_options={"lossless": "1"},
+        container_options={"loop": "0"},
     ),
     ".apng": VideoFormat("apng", "apng", "rgb24", "rgba", container_options={"plays": "0"}),
 }
@@ -109,7 +122,19 @@ def check_output(path: StrPath, *, alpha: bool = False) -> None:
     _check_writable(target if target.is_dir() else target.parent, path)
 
 
-def write_animation(frames: Iterable[NDArray[Any]], path: StrPath, frame_rate: float | Fraction) -> None:
+def holds_alpha(path: StrPath) -> bool:
+    """Whether what :func:`write_animation` writes there can be transparent.
+
+    Args:
+        path: a file ending in one of ``FORMATS``, or a folder ending in ``/``.
+    """
+    chosen = FORMATS.get(Path(path).suffix.lower())
+    return _is_folder(path) or (chosen is not None and chosen.alpha_pixels is not None)
+
+
+def write_animation(
+    frames: Iterable[NDArray[Any]], path: StrPath, frame_rate: float | Fraction, *, exact: bool = False
+) -> None:
     """Write frames as they come; the file or folder appears only when it is complete.
 
     A file of the same name is replaced at the end; in a folder the numbered frames of an earlier clip are. A video
@@ -120,6 +145,8 @@ def write_animation(frames: Iterable[NDArray[Any]], path: StrPath, frame_rate: f
             Alpha is straight, not premultiplied.
         path: a file ending in one of ``FORMATS``, or a folder ending in ``/`` for ``frame_0000.png`` and so on.
         frame_rate: frames a second; 23.976, 29.97 and 59.94 are taken as the exact rates so called.
+        exact: for pixel art: colours as they are wherever the format can hold them; a GIF of up to 255 colours and
+            animated WebP can.
 
     Raises:
         InvalidInputError: see :func:`check_output`; or there is no frame, or they differ in size.
@@ -130,13 +157,16 @@ def write_animation(frames: Iterable[NDArray[Any]], path: StrPath, frame_rate: f
     if first is None:
         raise InvalidInputError("an animation must have at least one frame. Got: none")
     check_output(path, alpha=first.shape[2] == 4)
-    every = itertools.chain([first], iterator)
+    every: Iterable[NDArray[np.uint8]] = itertools.chain([first], iterator)
     if _is_folder(path):
         _write_folder(every, Path(path))
         return
     target = Path(path)
     with replacing(target) as temporary:
-        _encode(every, temporary, FORMATS[target.suffix.lower()], first.shape, exact_frame_rate(frame_rate))
+        chosen = FORMATS[target.suffix.lower()]
+        if first.shape[2] == 4 and chosen.mixes_neighbours and not exact:
+            every = map(bled, every)
+        _encode(every, temporary, chosen, first.shape, exact_frame_rate(frame_rate), exact=exact)
 
 
 def exact_frame_rate(frame_rate: float | Fraction) -> Fraction:
@@ -215,7 +245,13 @@ def _write_folder(frames: Iterable[NDArray[np.uint8]], folder: Path) -> None:
 
 
 def _encode(
-    frames: Iterable[NDArray[np.uint8]], path: Path, chosen: VideoFormat, shape: tuple[int, ...], rate: Fraction
+    frames: Iterable[NDArray[np.uint8]],
+    path: Path,
+    chosen: VideoFormat,
+    shape: tuple[int, ...],
+    rate: Fraction,
+    *,
+    exact: bool,
 ) -> None:
     import av
 
@@ -223,14 +259,13 @@ def _encode(
     even = chosen.codec == "libx264"
     height, width = (size + size % 2 if even else size for size in shape[:2])
     with av.open(str(path), "w", format=chosen.container, options=chosen.container_options) as container:
-        stream = container.add_stream(
-            chosen.codec, rate=rate, options={**chosen.options, **(chosen.alpha_options if alpha else {})}
-        )
+        options = chosen.options | (chosen.alpha_options if alpha else {}) | (chosen.exact_options if exact else {})
+        stream = container.add_stream(chosen.codec, rate=rate, options=options)
         stream.width, stream.height = width, height
         stream.pix_fmt = (chosen.alpha_pixels if alpha else None) or chosen.pixels
         stream.codec_context.time_base = 1 / rate
         _describe(stream)
-        for frame in _converted(frames, stream.pix_fmt, rate, even=even):
+        for frame in _converted(frames, stream.pix_fmt, rate, even=even, exact=exact):
             container.mux(stream.encode(frame))
         container.mux(stream.encode(None))
 
@@ -245,13 +280,13 @@ def _describe(stream: av.VideoStream) -> None:
 
 
 def _converted(
-    frames: Iterable[NDArray[np.uint8]], pixels: str, rate: Fraction, *, even: bool
+    frames: Iterable[NDArray[np.uint8]], pixels: str, rate: Fraction, *, even: bool, exact: bool
 ) -> Iterator[av.VideoFrame]:
     """Numbered frames in a stream's pixel format."""
     if pixels == "pal8":
         from .gif import paletted
 
-        yield from paletted(_numbered(frames, rate, even=even), rate)
+        yield from paletted(_numbered(frames, rate, even=even), rate, dithered=not exact)
         return
     for frame in _numbered(frames, rate, even=even):
         if pixels.startswith("yuv"):

@@ -214,7 +214,7 @@ def test_interruption_is_status_130_and_keeps_the_earlier_file(
 
 
 def test_full_disk_is_status_1_and_one_sentence(folder: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(*_: object) -> None:
+    def full(*_: object, **__: object) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr("physanimator.rendering.animation.write_animation", full)

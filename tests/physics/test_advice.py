@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from physanimator.physics.advice import advice
+from physanimator.physics.advice import advice, mask_advice, stillness
 from physanimator.physics.mesh import TriangleMesh
+from physanimator.physics.motion import Motion
 from physanimator.physics.rig import Circle, RigPoint
 from physanimator.physics.scene import Body, Scene
 
@@ -33,3 +34,24 @@ def test_held_parts_and_bodies_that_are_free_on_purpose_need_no_word() -> None:
 def test_a_rig_point_beside_everything_is_reported() -> None:
     (sentence,) = advice(Scene((Body(two_triangles()),), rig_points=(RigPoint((90, 10), Circle(3)),)))
     assert sentence.startswith("rig_points[0] touches no body")
+
+
+def test_a_clip_in_which_nothing_moves_is_reported() -> None:
+    body = Body(two_triangles())
+    rest = np.repeat(body.mesh.vertices[None].astype(np.float32), 3, axis=0)
+    (sentence,) = stillness(Motion((body,), rest, 24.0))
+    assert sentence.startswith("nothing moves by more than 0.00 px in 3 frames")
+    moving = rest.copy()
+    moving[2, 0, 0] += 1
+    assert stillness(Motion((body,), moving, 24.0)) == []
+    assert stillness(Motion((body,), rest[:1], 24.0)) == []
+
+
+def test_tiny_and_inverted_masks_are_reported() -> None:
+    mask = np.zeros((60, 80))
+    assert mask_advice(mask) == []
+    mask[5:8, 5:9] = 1
+    assert mask_advice(mask) == ["the mask covers 12 px only: is it the whole part that shall move?"]
+    assert "inverted" in mask_advice(1 - mask)[0]
+    mask[5:25, 5:35] = 1
+    assert mask_advice(mask) == []

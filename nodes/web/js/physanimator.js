@@ -2,6 +2,7 @@
 
 import { app } from "../../../scripts/app.js";
 import { api } from "../../../scripts/api.js";
+import { showAdvice } from "./host/advice.js";
 import { attachEditor } from "./host/attach.js";
 import { POINTS, SCENE } from "./host/formats.js";
 import { POINT_GROUPS, SCENE_GROUPS } from "./panels/toolbar.js";
@@ -14,6 +15,9 @@ const KINDS = {
 
 app.registerExtension({
   name: "PhysAnimator.Editor",
+  setup() {
+    showAdvice(app, api);
+  },
   /**
    * @param {any} nodeType
    * @param {any} nodeData

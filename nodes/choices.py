@@ -1,0 +1,169 @@
+"""Values that a node does not offer are refused in one sentence, before the graph runs and before the node does.
+
+The host checks plain choices and numbers alone, and not even those of a node that takes every input for checking. A
+dynamic choice that it does not know it leaves out without a word, so that the node would run with its usual one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from functools import wraps
+from typing import Any, NamedTuple
+
+from ..physics.errors import InvalidInputError
+from .literals import refusal
+from .running import sent_inputs
+
+__all__ = ["check_choices", "check_numbers", "checked"]
+
+_DYNAMIC, _CHOICE, _NUMBERS = "COMFY_DYNAMICCOMBO_V3", "COMBO", ("INT", "FLOAT")
+_LISTED = 12
+
+
+class _Given(NamedTuple):
+    """One input of a node and what is known of its value.
+
+    Attributes:
+        name: in full, with those of the dynamic choices that bring it.
+        kind: the host's name of its type.
+        options: what the schema says of it.
+        required: whether it must be there.
+        value: None where it is left out, or comes from another node that has not run yet.
+        linked: whether another node gives it.
+    """
+
+    name: str
+    kind: str
+    options: Mapping[str, Any]
+    required: bool
+    value: Any
+    linked: bool
+
+
+def checked(node: Any) -> Any:
+    """The node's class, changed so that it refuses what it does not offer; a second time changes nothing.
+
+    Args:
+        node: a V3 node.
+    """
+    if "_physanimator_checked" in vars(node):
+        return node
+    node._physanimator_checked = True
+    node.execute = classmethod(_checking_execution(vars(node)["execute"].__func__))
+    own = vars(node).get("validate_inputs")
+    if own is not None or any(kind == _DYNAMIC for kind, _ in _described(node.INPUT_TYPES())):
+        node.validate_inputs = classmethod(_checking_validation(own.__func__ if own is not None else None))
+    return node
+
+
+def check_choices(described: Mapping[str, Any], values: Mapping[str, Any], sent: Mapping[str, Any] | None) -> None:
+    """Refuse a choice that is not offered, a dynamic one that is missing, and what a chosen one needs and lacks.
+
+    Args:
+        described: the node's inputs as the host describes them: ``INPUT_TYPES()``.
+        values: what the host hands over, by name; for a dynamic choice a mapping with what it brings.
+        sent: the inputs in the prompt, where they are known.
+
+    Raises:
+        InvalidInputError: one sentence about the first.
+    """
+    for given in _given(described, values, sent, ""):
+        if given.value is None:
+            if given.required and not (given.linked and given.kind != _DYNAMIC) and _must_be_there(given, sent):
+                raise InvalidInputError(f"{given.name} must be {_offered(given)}. Got: {_absent(given)}")
+        elif given.kind in (_DYNAMIC, _CHOICE) and given.value not in _keys(given):
+            raise InvalidInputError(f"{given.name} must be {_offered(given)}. Got: {str(given.value)[:60]!r}")
+
+
+def check_numbers(described: Mapping[str, Any], values: Mapping[str, Any], sent: Mapping[str, Any] | None) -> None:
+    """Refuse a number that is out of its input's range, or none at all.
+
+    Args:
+        described: see :func:`check_choices`.
+        values: see :func:`check_choices`.
+        sent: see :func:`check_choices`.
+
+    Raises:
+        InvalidInputError: one sentence about the first.
+    """
+    for given in _given(described, values, sent, ""):
+        if given.kind not in _NUMBERS or given.value is None:
+            continue
+        low, high = given.options.get("min", -math.inf), given.options.get("max", math.inf)
+        number = isinstance(given.value, int | float) and math.isfinite(given.value)
+        if not number or not low <= given.value <= high:
+            raise InvalidInputError(f"{given.name} must be a number from {low} to {high}. Got: {str(given.value)[:60]}")
+
+
+def _checking_execution(inner: Callable[..., Any]) -> Callable[..., Any]:
+    @wraps(inner)
+    def execute(cls: Any, **values: Any) -> Any:
+        check_choices(cls.INPUT_TYPES(), values, sent_inputs())
+        return inner(cls, **values)
+
+    return execute
+
+
+def _checking_validation(inner: Callable[..., Any] | None) -> Callable[..., Any]:
+    def validate_inputs(cls: Any, **values: Any) -> bool | str:
+        described, sent = cls.INPUT_TYPES(), sent_inputs()
+        unknown = refusal(lambda: check_choices(described, values, sent))
+        # The node's own sentences know better than the bounds of a widget.
+        own = True if inner is None or unknown is not True else inner(cls, **values)
+        said = next((each for each in (unknown, own) if each is not True), True)
+        said = refusal(lambda: check_numbers(described, values, sent)) if said is True else said
+        if said is not True and not values:
+            # The host names an answer after the inputs that it handed over, and drops it where there were none.
+            raise InvalidInputError(str(said))
+        return said
+
+    return validate_inputs
+
+
+def _given(
+    described: Mapping[str, Any], values: Mapping[str, Any], sent: Mapping[str, Any] | None, prefix: str
+) -> Iterator[_Given]:
+    """Every input of a node, those that the chosen options bring included."""
+    for group in ("required", "optional"):
+        for name, (kind, options) in ((name, each[:2]) for name, each in described.get(group, {}).items()):
+            full, value = prefix + name, values.get(name)
+            raw = (sent or {}).get(full)
+            linked = isinstance(raw, list)
+            if kind != _DYNAMIC:
+                yield _Given(full, kind, options, group == "required", value, linked)
+                continue
+            brought = value if isinstance(value, Mapping) else {}
+            key = brought.get(name) if brought else value
+            # What is not offered the host has dropped: only the prompt still has it.
+            key = raw if key is None and not linked else key
+            yield _Given(full, kind, options, group == "required" or linked, key, linked)
+            option = next((each for each in options["options"] if each["key"] == key), None)
+            if option is not None:
+                yield from _given(option["inputs"], brought, sent, f"{full}.")
+
+
+def _must_be_there(given: _Given, sent: Mapping[str, Any] | None) -> bool:
+    """A value from elsewhere is not known before it is run; without the prompt, only a dynamic choice is."""
+    return given.kind == _DYNAMIC or (sent is not None and "." in given.name)
+
+
+def _offered(given: _Given) -> str:
+    if given.kind not in (_DYNAMIC, _CHOICE):
+        return f"given: it belongs to {given.name.rpartition('.')[0]}"
+    keys = [str(key) for key in _keys(given)]
+    more = "" if len(keys) <= _LISTED else f" and {len(keys) - _LISTED} more"
+    return f"one of {', '.join(keys[:_LISTED])}{more}"
+
+
+def _absent(given: _Given) -> str:
+    return "a value from another node; choose it in this one" if given.linked else "nothing"
+
+
+def _keys(given: _Given) -> list[Any]:
+    return [each["key"] if given.kind == _DYNAMIC else each for each in given.options.get("options", [])]
+
+
+def _described(described: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    for group in ("required", "optional"):
+        yield from ((each[0], each[1]) for each in described.get(group, {}).values())

@@ -1,0 +1,56 @@
+"""Sentences for the person at the browser, as a toast, beside the log and the history."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterable
+from typing import Any
+
+from .running import context, server
+
+__all__ = ["EVENT", "all_told", "shown_with", "tell_user"]
+
+EVENT = "physanimator.advice"
+"""Name of the message that nodes/web/js/host/advice.js shows as a toast."""
+
+
+def tell_user(node: Any, sentences: Iterable[str]) -> dict[str, list[str]]:
+    """Show sentences of a node that is being executed, at once: before long work, not after it.
+
+    The browser that queued the prompt shows them as toasts; the log has them too.
+
+    Args:
+        node: the node's class, as ``execute`` has it.
+        sentences: what the user should know; none for nothing.
+
+    Returns:
+        What belongs into the node's ``ui``, so that the history has the sentences for programs that queue prompts:
+        see :func:`shown_with`, or ``io.NodeOutput(..., ui=told or None)``. Empty without sentences.
+    """
+    told = list(dict.fromkeys(sentences))
+    if not told:
+        return {}
+    title = node.GET_SCHEMA().display_name
+    for sentence in told:
+        logging.warning("PhysAnimator, %s: %s", title, sentence)
+    host, running = server(), context()
+    client = getattr(host, "client_id", None)
+    if running is not None and client is not None:  # without a client it would reach every browser
+        host.send_sync(EVENT, {"node": str(running.node_id), "title": title, "sentences": told}, client)
+    return {"advice": told}
+
+
+def all_told(*told: dict[str, list[str]]) -> dict[str, list[str]]:
+    """What several calls of ``tell_user`` have returned, as one."""
+    sentences = [sentence for each in told for sentence in each.get("advice", [])]
+    return {"advice": sentences} if sentences else {}
+
+
+def shown_with(shown: Any, told: dict[str, list[str]]) -> dict[str, Any]:
+    """A node's ``ui``: what it shows, and what it has told.
+
+    Args:
+        shown: one of the host's ``ui`` classes, such as PreviewImage.
+        told: from ``tell_user``.
+    """
+    return {**shown.as_dict(), **told}

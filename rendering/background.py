@@ -1,0 +1,175 @@
+"""What is written where nothing moves: one rule for the command line, the library and the nodes.
+
+- ``picture``: the whole picture, opaque; where it is transparent, white shows.
+- a colour (a CSS name, #rgb or #rrggbb): the whole picture, opaque; where it is transparent, that colour shows.
+- ``transparent``: the whole picture with its own transparency, moving parts and all. A picture without any
+  transparency shows its moving parts alone.
+- ``parts``: the moving parts alone, on transparency.
+
+Unless something is said, a picture with transparency keeps it wherever the file can hold it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..physics.errors import InvalidInputError, require
+
+if TYPE_CHECKING:
+    from ..physics.motion import Motion
+    from .composite import LayeredRenderer
+    from .pixel_art import PixelArtRenderer
+
+__all__ = [
+    "WHITE",
+    "Background",
+    "background_of",
+    "is_transparent",
+    "over",
+    "renderer_of",
+    "shown_frame",
+    "usual_background",
+]
+
+Image = NDArray[Any]
+Colour = tuple[int, int, int]
+
+WHITE: Colour = (255, 255, 255)
+
+
+@dataclass(frozen=True)
+class Background:
+    """What is written where nothing moves.
+
+    Attributes:
+        kind: "picture", "transparent" or "parts".
+        colour: what shows through a picture's transparent places when the kind is "picture", 0 to 255.
+    """
+
+    kind: Literal["picture", "transparent", "parts"] = "picture"
+    colour: Colour = WHITE
+
+    @property
+    def has_alpha(self) -> bool:
+        """Whether frames have an alpha channel."""
+        return self.kind != "picture"
+
+
+def background_of(text: str) -> Background:
+    """A background by its name or colour.
+
+    Args:
+        text: picture, transparent, parts, or a colour as CSS writes it: a name, #rgb or #rrggbb.
+
+    Raises:
+        InvalidInputError: it is none of these.
+    """
+    from PIL import ImageColor
+
+    name = text.strip().lower()
+    if name in ("picture", "transparent", "parts"):
+        return Background(name)  # type: ignore[arg-type]
+    colour: tuple[int, ...] = ()
+    with suppress(ValueError):
+        colour = ImageColor.getrgb(name)
+    known = "picture, transparent, parts, or a colour such as white, #8cf or #87ceeb"
+    require("background", repr(text[:60]), len(colour) == 3, known)
+    return Background("picture", (colour[0], colour[1], colour[2]))
+
+
+def usual_background(*, transparent_picture: bool, file_has_alpha: bool, parts: bool = False) -> Background:
+    """The background when nothing is said.
+
+    Args:
+        transparent_picture: the illustration has transparent places.
+        file_has_alpha: what is written can hold transparency.
+        parts: a picture without transparency shows its moving parts alone.
+    """
+    if not file_has_alpha:
+        return Background()
+    if transparent_picture:
+        return Background("transparent")
+    return Background("parts" if parts else "picture")
+
+
+def is_transparent(image: Image) -> bool:
+    """Whether a picture has an alpha channel."""
+    return image.ndim == 3 and image.shape[2] == 4
+
+
+def over(image: Image, colour: Colour = WHITE) -> Image:
+    """A picture laid over a colour.
+
+    Args:
+        image: RGB or straight RGBA, uint8 or 0..1 float, shape [h, w, 3] or [h, w, 4]; RGB comes back as it is.
+        colour: red, green and blue, 0 to 255.
+
+    Returns:
+        RGB in the image's dtype, shape [h, w, 3].
+    """
+    if not is_transparent(image):
+        return image
+    if image.dtype == np.uint8:
+        beneath = np.array(colour, dtype=np.float32)
+        share = image[..., 3:].astype(np.float32) / np.float32(255)
+        mixed = beneath + share * (image[..., :3].astype(np.float32) - beneath)
+        return np.rint(mixed).astype(np.uint8)
+    share, below = image[..., 3:], np.array(colour, dtype=image.dtype) / image.dtype.type(255)
+    return np.asarray(share * image[..., :3] + (1 - share) * below)
+
+
+def renderer_of(
+    image: Image, masks: Sequence[Image], motion: Motion, *, plate: Image | None = None, pixel_art: bool = False
+) -> LayeredRenderer | PixelArtRenderer:
+    """What draws a motion of an illustration.
+
+    Args:
+        image: RGB or straight RGBA, uint8 or float32 in 0 to 1.
+        masks: one for each body of the motion.
+        motion: of the bodies.
+        plate: what is behind all bodies, of the image's dtype; its transparency is dropped where the image has none.
+        pixel_art: see :class:`pixel_art.PixelArtRenderer`.
+
+    Raises:
+        InvalidInputError: these do not fit together.
+    """
+    if plate is not None and not is_transparent(image):
+        plate = over(plate)
+    if pixel_art:
+        from .pixel_art import PixelArtRenderer
+
+        return PixelArtRenderer(image, masks, motion, plate=plate)
+    from .composite import LayeredRenderer
+
+    return LayeredRenderer(image, masks, motion, plate=plate)
+
+
+def shown_frame(renderer: LayeredRenderer | PixelArtRenderer, t: int, background: Background) -> Image:
+    """Frame ``t`` over a background: RGB, or straight RGBA where it has alpha, dtype of the illustration.
+
+    Raises:
+        InvalidInputError: there is no such frame.
+    """
+    if background.kind == "parts" or (background.kind == "transparent" and not is_transparent(renderer.plate)):
+        return renderer.cutout(t)
+    frame = renderer.frame(t)
+    return over(frame, background.colour) if background.kind == "picture" else frame
+
+
+def check_in_betweens(background: Background, every: int) -> None:
+    """Refuse in-betweens of transparent frames.
+
+    Raises:
+        InvalidInputError: both are asked for.
+    """
+    if background.has_alpha and every > 1:
+        raise InvalidInputError(
+            "transparent frames must be drawn one by one; leave in-betweens out or choose an opaque background."
+            " Got: in-betweens as well"
+        )

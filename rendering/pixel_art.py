@@ -1,0 +1,291 @@
+"""The renderer for pixel art: whole pixels change their places, and no colours are mixed.
+
+Every frame is a choice among pixels of the illustration and of the plate, so that it holds no colour that they do not
+hold. Where art has been enlarged, so that each of its pixels is a block, blocks are what moves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..physics.errors import InvalidInputError, require
+from ..physics.flow import layer_order
+from ..physics.masks import coverage_of, fitted
+from ..physics.mesh import TriangleMesh
+from ..physics.motion import Motion
+from ..physics.pixel_box import PixelBox, bounding_box
+from ..physics.raster import interpolate, triangle_ids
+from .apron import ApronedMesh, canvas_of
+from .background import is_transparent
+from .beyond_border import on_canvas
+from .pixels import check_picture
+
+__all__ = ["PixelArtRenderer", "block_size", "looks_like_pixel_art", "pixel_art_hint", "pixel_plate"]
+
+FloatImage = NDArray[np.float32]
+Places = NDArray[np.int32]
+Mask = NDArray[np.bool_]
+
+# Art of fewer pixels on a side is rather a picture of large squares.
+_FEWEST_BLOCKS = 16
+_REACH = 1.5
+_LEAST_REACH = 12
+_NOWHERE = -1e6
+# Pixel art has few colours and is small, once its blocks are counted as pixels.
+_MOST_COLOURS = 64
+_LONGEST_SIDE = 320
+
+
+class PixelArtRenderer:
+    """Draws any frame of a motion with whole pixels; takes and gives what ``LayeredRenderer`` does.
+
+    Attributes:
+        motion: what is drawn.
+        plate: the illustration without its bodies, in its dtype and channels, shape [h, w, 3] or [h, w, 4].
+        block: width and height of what moves as one pixel [px].
+    """
+
+    def __init__(
+        self, image: NDArray[Any], masks: Sequence[ArrayLike], motion: Motion, *, plate: NDArray[Any] | None = None
+    ) -> None:
+        """Take the illustration apart.
+
+        Args:
+            image: RGB or straight RGBA, uint8 or float32 in 0 to 1, shape [h, w, 3] or [h, w, 4].
+            masks: one for each body of the motion, in its order, shape [h, w]; a pixel is a body's from one half on.
+            motion: of the bodies.
+            plate: what is behind all bodies, of the image's shape and dtype; None puts in the nearest pixels.
+
+        Raises:
+            InvalidInputError: sizes, dtypes or the number of masks do not fit together.
+        """
+        check_picture(image[..., :3] if is_transparent(image) else image)
+        height, width = image.shape[:2]
+        expected = (motion.width, motion.height)
+        require(
+            "image", f"{width} x {height} px", (width, height) == expected, f"as large as the motion's, {expected} px"
+        )
+        require("masks", len(masks), len(masks) == len(motion.bodies), f"one for each of {len(motion.bodies)} bodies")
+        self.motion, self.block = motion, block_size(image)
+        self._order = layer_order(motion)
+        self._image = self._blocks(image)
+        wanted = {k: self._blocks(fitted(coverage_of(masks[k]), width, height)) > 0.5 for k in self._order}
+        carried = {k: _CarriedPixels(motion.bodies[k].mesh, wanted[k], self.block) for k in self._order}
+        inside = [wanted[k] & carried[k].covered for k in self._order]
+        if plate is None:
+            self._behind = pixel_plate(self._image, np.logical_or.reduce(inside))
+        else:
+            self._behind = self._blocks(_like(plate, image))
+        self.plate = self._enlarged(self._behind)
+        self._layers = []
+        for number, k in enumerate(self._order):
+            in_front = np.logical_or.reduce([np.zeros_like(inside[number]), *inside[number + 1 :]])
+            self._layers.append((carried[k], _own_pixels(inside[number], inside[number] & ~in_front)))
+
+    def __len__(self) -> int:
+        """Number of frames."""
+        return len(self.motion)
+
+    def frame(self, t: int) -> NDArray[Any]:
+        """Frame ``t`` in the dtype and channels of the illustration, shape [h, w, 3] or [h, w, 4].
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
+        return self._over_plate(self._places(t))
+
+    def alpha(self, t: int) -> FloatImage:
+        """Where moving bodies are in frame ``t``, 0 or 1, shape [h, w].
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
+        return self._covered(self._places(t))
+
+    def frame_and_alpha(self, t: int) -> tuple[NDArray[Any], FloatImage]:
+        """``frame`` and ``alpha`` of one frame.
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
+        places = self._places(t)
+        return self._over_plate(places), self._covered(places)
+
+    def uncovered(self, t: int) -> FloatImage:
+        """Where bodies are in the drawing and not in frame ``t``, 0 or 1, shape [h, w].
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
+        rest = np.concatenate([body.mesh.vertices for body in self.motion.bodies]).astype(np.float32)
+        at_rest = self._laid(Motion(self.motion.bodies, rest[None], self.motion.frame_rate), 0)
+        return np.clip(self._covered(at_rest) - self.alpha(t), 0, 1)
+
+    def cutout(self, t: int) -> NDArray[Any]:
+        """The moving bodies of frame ``t`` alone: straight RGB and alpha, dtype of the image, shape [h, w, 4].
+
+        Raises:
+            InvalidInputError: there is no such frame.
+        """
+        places = self._places(t)
+        own = self._image.reshape(-1, self._image.shape[2])
+        opaque = 255 if own.dtype == np.uint8 else 1
+        pixels = own if own.shape[1] == 4 else np.pad(own, ((0, 0), (0, 1)), constant_values=opaque)
+        return self._enlarged(np.where((places >= 0)[..., None], pixels[places], np.zeros(4, own.dtype)))
+
+    def _over_plate(self, places: Places) -> NDArray[Any]:
+        own = self._image.reshape(-1, self._image.shape[2])
+        return self._enlarged(np.where((places >= 0)[..., None], own[places], self._behind))
+
+    def _covered(self, places: Places) -> FloatImage:
+        return self._enlarged((places >= 0).astype(np.float32))
+
+    def _places(self, t: int) -> Places:
+        """Which pixel of the illustration each pixel of a frame shows, -1 for the plate's."""
+        require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
+        return self._laid(self.motion, t)
+
+    def _laid(self, motion: Motion, t: int) -> Places:
+        places = np.full(self._image.shape[:2], -1, dtype=np.int32)
+        for (carried, pixels), k in zip(self._layers, self._order, strict=True):
+            shown = carried.moved(pixels, motion.of_body(k)[t], motion.width, motion.height)
+            np.copyto(places, shown, where=shown >= 0)
+        return places
+
+    def _blocks(self, image: NDArray[Any]) -> NDArray[Any]:
+        """One pixel for each block: that in its middle."""
+        half = self.block // 2
+        return np.ascontiguousarray(image[half :: self.block, half :: self.block])
+
+    def _enlarged(self, image: NDArray[Any]) -> NDArray[Any]:
+        return image if self.block == 1 else image.repeat(self.block, axis=0).repeat(self.block, axis=1)
+
+
+class _CarriedPixels:
+    """A body's mesh with an apron, and how it carries pixels along."""
+
+    def __init__(self, mesh: TriangleMesh, mask: Mask, block: int) -> None:
+        edges = mesh.vertices[mesh.boundary_edges]
+        length = float(np.median(np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1)))
+        reach = max(_LEAST_REACH, 2 * block, int(np.ceil(_REACH * length)))
+        canvas = canvas_of(mesh, reach=reach)
+        shape = mask.astype(np.float32).repeat(block, axis=0).repeat(block, axis=1)
+        self._mesh = ApronedMesh.around(mesh, on_canvas(shape, canvas), canvas, reach=reach)
+        self._block = block
+        whole = PixelBox(0, 0, mesh.width, mesh.height)
+        half = block // 2
+        self.covered = (triangle_ids(self._mesh.rest, self._mesh.triangles, whole) >= 0)[half::block, half::block]
+
+    def moved(self, pixels: Places, vertices: NDArray[np.float32], width: int, height: int) -> Places:
+        """The pixels with the mesh moved, -1 where the body is not.
+
+        Args:
+            pixels: which pixel of the illustration the body shows at rest, -1 where it is not, shape [h, w] in blocks.
+            vertices: positions of the body's vertices [px], shape [v, 2].
+            width: of the picture [px].
+            height: of the picture [px].
+        """
+        found = np.full(pixels.shape, -1, dtype=np.int32)
+        points, block = self._mesh.positions(vertices), self._block
+        box = bounding_box(points).clipped(width, height)
+        if not (box.width and box.height):
+            return found
+        x, y = interpolate(points, self._mesh.triangles, self._mesh.rest - points, box, fill=_NOWHERE)
+        half = block // 2
+        # The blocks whose middle lies in the box.
+        rows = np.arange(-((half - box.top) // block), -((half - box.bottom) // block))
+        columns = np.arange(-((half - box.left) // block), -((half - box.right) // block))
+        at = np.ix_(rows * block + half - box.top, columns * block + half - box.left)
+        # Beyond the picture's border the body goes on as it is there; beyond the mesh there is nothing.
+        row, column = (
+            np.clip(np.rint(way[at] / block + here), 0, count - 1).astype(np.int64)
+            for way, here, count in ((y, rows[:, None], pixels.shape[0]), (x, columns[None], pixels.shape[1]))
+        )
+        found[np.ix_(rows, columns)] = np.where(x[at] > _NOWHERE / 2, pixels[row, column], -1)
+        return found
+
+
+def _own_pixels(inside: Mask, visible: Mask) -> Places:
+    """Which pixel stands for each of a body's: itself, or the nearest one that is not hidden; -1 elsewhere."""
+    return np.where(inside, _nearest(visible if visible.any() else inside), np.int32(-1))
+
+
+def block_size(image: NDArray[Any]) -> int:
+    """Side of the squares of one colour that a picture is made of [px]; 1 where it is not.
+
+    Args:
+        image: shape [h, w, c].
+    """
+    height, width = image.shape[:2]
+    down = np.flatnonzero((image[1:] != image[:-1]).any(axis=(1, 2))) + 1
+    across = np.flatnonzero((image[:, 1:] != image[:, :-1]).any(axis=(0, 2))) + 1
+    block = int(np.gcd.reduce([height, width, *down, *across]))
+    # A picture of a few large shapes tells nothing about its pixels.
+    return block if block * _FEWEST_BLOCKS <= min(height, width) else 1
+
+
+def looks_like_pixel_art(image: NDArray[Any]) -> bool:
+    """Whether a picture is small, once its blocks are counted as pixels, and has few colours.
+
+    Args:
+        image: RGB or RGBA, shape [h, w, c].
+    """
+    block = block_size(image)
+    small = np.ascontiguousarray(image[::block, ::block])
+    if max(small.shape[:2]) > _LONGEST_SIDE:
+        return False
+    return len(np.unique(small.reshape(-1, small.shape[2]), axis=0)) <= _MOST_COLOURS
+
+
+def pixel_art_hint(image: NDArray[Any], *, option: str) -> list[str]:
+    """A sentence for a picture that looks like pixel art and is not treated as such.
+
+    Args:
+        image: RGB or RGBA, shape [h, w, c].
+        option: what would do so.
+    """
+    if not looks_like_pixel_art(image):
+        return []
+    height, width = image.shape[:2]
+    return [f"the picture looks like pixel art ({width} x {height} px, few colours); {option} keeps its pixels hard"]
+
+
+def pixel_plate(image: NDArray[Any], hole: Mask) -> NDArray[Any]:
+    """A picture with the nearest pixel outside in place of each one in a hole.
+
+    Args:
+        image: shape [h, w, c].
+        hole: shape [h, w].
+
+    Raises:
+        InvalidInputError: the hole leaves nothing of the picture.
+    """
+    if hole.all():
+        raise InvalidInputError("masks must leave some of the picture as background. Got: they cover all of it")
+    return image.reshape(-1, image.shape[2])[_nearest(~hole)] if hole.any() else image.copy()
+
+
+def _nearest(where: Mask) -> Places:
+    """Number of the nearest true pixel, counted row by row, shape [h, w]."""
+    _, labels = cv2.distanceTransformWithLabels(
+        (~where).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    numbers = np.zeros(int(labels.max()) + 1, dtype=np.int32)
+    numbers[labels[where]] = np.flatnonzero(where)
+    return numbers[labels]
+
+
+def _like(plate: NDArray[Any], image: NDArray[Any]) -> NDArray[Any]:
+    """A plate with the image's channels."""
+    if is_transparent(image) and not is_transparent(plate) and plate.dtype == image.dtype:
+        opaque = 255 if plate.dtype == np.uint8 else 1
+        plate = np.pad(plate, ((0, 0), (0, 0), (0, 1)), constant_values=opaque)
+    if plate.shape != image.shape or plate.dtype != image.dtype:
+        expected = f"{image.shape} and dtype {image.dtype}"
+        raise InvalidInputError(f"plate must have the image's shape {expected}. Got: {plate.shape}, {plate.dtype}")
+    return plate

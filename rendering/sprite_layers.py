@@ -1,0 +1,207 @@
+"""An illustration with transparency taken apart: a clean plate that is transparent itself, and a layer for each body.
+
+All is as for an opaque illustration (layers.py), P = T + (1 - a) B, with premultiplied colours and their alpha as a
+fourth one. Textures have a, how much a body covers of what is behind it, as a fifth channel. Where nothing is behind,
+that is the illustration's own alpha, which is known and need not be solved for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from ..physics.errors import InvalidInputError
+from ..physics.mesh import TriangleMesh
+from .background import over
+from .beyond_border import on_canvas
+from .bleeding import carried_on
+from .clean_plate import fill_hole
+from .layers import Layer, _beneath, _covered
+from .line_continuation import continue_lines
+from .mask_edges import FAINT, SQUARE, WIDE, grown
+from .matte import fitting_plate, mixed_rim, soft_alpha, with_outline
+from .pixel_windows import window_around
+from .premultiplied import premultiplied
+
+__all__ = ["sprite_hole", "sprite_plate", "take_sprite_apart"]
+
+FloatImage = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+_OPAQUE = 0.95
+_HALF = 0.5
+# Colours nearer than this to the silhouette are those of its outline [px].
+_OUTLINE = 4
+# Strips beside a mask that are no wider than this belong to it when nothing but transparency lies beyond [px].
+_STRIP = 3
+# A guessed silhouette is looked at with this much around it [px]. How sharply it may bend goes by the depth of the
+# hole, up to a limit [px]; so many times it is rounded.
+_AROUND = 60
+_ROUNDNESS = 5.0
+_LARGEST_BEND = 12.0
+_ROUNDINGS = 12
+# A share as near to 1 as this is 1: what is left could not be told from rounding.
+_ALL = np.float32(1e-4)
+
+
+def take_sprite_apart(
+    picture: FloatImage, masks: Sequence[FloatImage], meshes: Sequence[TriangleMesh], *, plate: FloatImage | None
+) -> tuple[FloatImage, list[Layer]]:
+    """Peel the bodies off a picture with transparency, the front one first; see :func:`layers.take_apart`.
+
+    Args:
+        picture: straight RGBA in 0 to 1, shape [h, w, 4].
+        masks: soft mask of each body, from back to front, shape [h, w] each.
+        meshes: mesh of each body, from back to front.
+        plate: what is behind all bodies, straight RGBA, shape [h, w, 4], or RGB, shape [h, w, 3], whose transparency
+            is then found; None makes a clean plate.
+
+    Returns:
+        The plate, premultiplied RGBA, equal to the picture wherever no body is; and a layer for each body, from back
+        to front.
+    """
+    flat = over(picture)
+    supports = [_with_strips(with_outline(flat, mask), picture[..., 3]) for mask in masks]
+    hole = sprite_hole(masks, supports)
+    if plate is None or plate.shape[2] == 3:
+        plate = _filled(picture, hole, plate)
+    shown, behind = premultiplied(picture), premultiplied(plate)
+    layers: list[Layer] = []
+    for number in range(len(masks) - 1, -1, -1):
+        beneath = np.dstack(
+            [
+                _beneath(shown[..., :3], behind[..., :3], masks, supports, number),
+                _beneath(_thrice(shown[..., 3]), _thrice(behind[..., 3]), masks, supports, number)[..., 0],
+            ]
+        )
+        share = soft_alpha(_over_white(shown), _over_white(beneath), masks[number], supports[number])
+        share = _fitting_share(share, shown[..., 3], beneath[..., 3])
+        mesh, canvas, covered = _covered(meshes[number], share)
+        share = np.where(covered, share, np.float32(0))
+        below = fitting_plate(shown, beneath, share)
+        below[..., :3] = np.minimum(below[..., :3], below[..., 3:])
+        texture = on_canvas(shown - (1 - share[..., None]) * below, canvas)
+        layers.insert(0, Layer(mesh, canvas, np.dstack([texture, on_canvas(share, canvas)])))
+        shown = below
+    return shown, layers
+
+
+def sprite_hole(masks: Sequence[FloatImage], supports: Sequence[Mask]) -> Mask:
+    """All pixels that may show something of a body, shape [h, w].
+
+    Raises:
+        InvalidInputError: these are all of the picture.
+    """
+    hole = np.logical_or.reduce([each | mixed_rim(mask, each) for mask, each in zip(masks, supports, strict=True)])
+    if hole.all():
+        raise InvalidInputError("masks must leave some of the picture as background. Got: they cover all of it")
+    return hole
+
+
+def sprite_plate(picture: FloatImage, mask: FloatImage) -> FloatImage:
+    """A picture without what a mask shows: see :func:`clean_plate.clean_plate`.
+
+    Args:
+        picture: straight RGBA in 0 to 1, shape [h, w, 4].
+        mask: soft mask in 0 to 1, shape [h, w].
+
+    Returns:
+        Straight RGBA, shape [h, w, 4].
+
+    Raises:
+        InvalidInputError: the mask leaves nothing of the picture.
+    """
+    support = _with_strips(with_outline(over(picture), mask), picture[..., 3])
+    return _filled(picture, sprite_hole([mask], [support]), None)
+
+
+def _filled(picture: FloatImage, hole: Mask, given: FloatImage | None) -> FloatImage:
+    """The picture with its hole filled, straight RGBA; with colours that are given instead, if they are."""
+    if not hole.any():
+        return picture
+    opacity = np.where(hole, _continued_silhouette(picture[..., 3], hole), picture[..., 3])
+    colours = _filled_colours(picture, hole) if given is None else given
+    return np.dstack([np.where(hole[..., None], colours, picture[..., :3]), opacity])
+
+
+def _filled_colours(picture: FloatImage, hole: Mask) -> FloatImage:
+    """Colours continued into a hole from the opaque surroundings alone, shape [h, w, 3]."""
+    colours, opaque = picture[..., :3], (picture[..., 3] > _OPAQUE) & ~hole
+    if not opaque.any():
+        return colours
+    # Beyond the silhouette its outline must not go on, which would run into the hole from there.
+    inner = cv2.erode(opaque.astype(np.uint8) | hole, np.ones((2 * _OUTLINE + 1,) * 2, np.uint8)) > 0
+    known = opaque & inner
+    known = known if known.any() else opaque
+    around = np.where((opaque | hole)[..., None], colours, carried_on(colours, known.astype(np.float32)))
+    return fill_hole(around, hole)
+
+
+def _continued_silhouette(opacity: FloatImage, hole: Mask) -> FloatImage:
+    """Alpha in a hole, shape [h, w]: silhouettes that enter and leave it go on, else that of the nearest pixel.
+
+    The edge is rounded where it bends more sharply than a part behind would, and one pixel wide.
+    """
+    continued, window = opacity.copy(), window_around(hole, margin=_AROUND)
+    around, inside = opacity[window], hole[window]
+    lined, lines = continue_lines(_thrice(around), inside)
+    opaque, known = lined[..., 0] >= _HALF, ~inside | lines
+    solid, clear = known & opaque, known & ~opaque
+    if not (solid.any() and clear.any()):
+        continued[hole] = solid.any()
+        return continued
+    to_solid, to_clear = (
+        cv2.distanceTransform((~each).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE) for each in (solid, clear)
+    )
+    bend = float(np.clip(np.minimum(to_solid, to_clear).max() / _ROUNDNESS, 1, _LARGEST_BEND))
+    shape = _rounded((to_solid < to_clear).astype(np.float32), known, bend)
+    slope = np.float32(np.sqrt(2 * np.pi))
+    soft = np.clip(_HALF + (cv2.GaussianBlur(shape, (0, 0), 1.0) - _HALF) * slope, 0, 1)
+    continued[window] = np.where(inside, np.where(soft > 1 - _ALL, np.float32(1), soft), around)
+    return continued
+
+
+def _rounded(shape: FloatImage, known: Mask, bend: float) -> FloatImage:
+    """A shape with its edge shortened where it is unknown, the faster the more it bends.
+
+    Source: Merriman, Bence and Osher, "Diffusion Generated Motion by Mean Curvature" (1992).
+    """
+    for _ in range(_ROUNDINGS):
+        blurred = cv2.GaussianBlur(shape, (0, 0), bend)
+        shape = np.where(known, shape, (blurred > _HALF).astype(np.float32))
+    return shape
+
+
+def _with_strips(support: Mask, opacity: FloatImage) -> Mask:
+    """A part with the narrow strips between it and transparency, which a mask that is a little too small leaves."""
+    rest = (opacity > FAINT) & ~support
+    wide = grown(cv2.erode(rest.astype(np.uint8), np.ones((_STRIP + 2,) * 2, np.uint8)) > 0, WIDE)
+    strips = rest & ~wide & grown(opacity <= FAINT, WIDE)
+    joined = support.copy()
+    for _ in range(_STRIP):
+        joined |= strips & grown(joined, SQUARE)
+    return joined
+
+
+def _fitting_share(share: FloatImage, opacity: FloatImage, behind: FloatImage) -> FloatImage:
+    """How much a body covers of what is behind it: at least what the alpha there leaves over.
+
+    Its own transparency lets through what will be behind it elsewhere; only where it is all but opaque, and so is what
+    is behind, may it cover more.
+    """
+    least = np.clip((opacity - behind) / np.maximum(1 - behind, np.float32(1e-6)), 0, 1)
+    most = np.where(opacity > _OPAQUE, 1 - (1 - opacity) * (1 - behind), opacity)
+    share = np.minimum(np.maximum(share, least), most)
+    return np.where(share > 1 - _ALL, np.float32(1), share)
+
+
+def _over_white(image: FloatImage) -> FloatImage:
+    """Premultiplied RGBA over white, shape [h, w, 3]."""
+    return np.asarray(image[..., :3] + (1 - image[..., 3:]), dtype=np.float32)
+
+
+def _thrice(plane: FloatImage) -> FloatImage:
+    return np.repeat(plane[..., None], 3, axis=2)

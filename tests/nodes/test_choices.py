@@ -1,0 +1,137 @@
+"""Choices and numbers that a node does not offer, for every input of every node, without a host.
+
+The schemas are the report of a real host; tests/host/test_choices.py posts the same to one.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from physanimator.nodes import choices
+from physanimator.nodes.choices import check_choices, check_numbers, checked
+from physanimator.physics.errors import InvalidInputError
+
+SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
+UNKNOWN = "no such thing"
+Path_ = tuple[tuple[str, str], ...]
+
+
+def named(described: dict[str, Any]) -> Iterator[tuple[str, str, dict[str, Any]]]:
+    for group in ("required", "optional"):
+        for name, (kind, options) in described.get(group, {}).items():
+            yield name, kind, options
+
+
+def usual(described: dict[str, Any], chosen: Path_ = ()) -> dict[str, Any]:
+    """Usable values for every input; for dynamic choices the named options, else the first ones."""
+    values: dict[str, Any] = {}
+    for name, kind, options in named(described):
+        if kind == "COMFY_DYNAMICCOMBO_V3":
+            key = dict(chosen).get(name, options["options"][0]["key"])
+            option = next(each for each in options["options"] if each["key"] == key)
+            values[name] = {**usual(option["inputs"], chosen), name: key}
+        elif kind == "COMBO":
+            values[name] = options["options"][0]
+        else:
+            values[name] = options.get("default", object())
+    return values
+
+
+def inputs(described: dict[str, Any], chosen: Path_ = ()) -> Iterator[tuple[Path_, str, str, dict[str, Any]]]:
+    """Every input, with the options that lead to it."""
+    for name, kind, options in named(described):
+        yield chosen, name, kind, options
+        if kind == "COMFY_DYNAMICCOMBO_V3":
+            for option in options["options"]:
+                yield from inputs(option["inputs"], (*chosen, (name, option["key"])))
+
+
+EVERY = [(node, *found) for node, schema in SCHEMAS.items() for found in inputs(schema["input"])]
+CHOICES = [each[:3] for each in EVERY if each[3] in ("COMBO", "COMFY_DYNAMICCOMBO_V3")]
+NUMBERS = [(*each[:3], each[4]) for each in EVERY if each[3] in ("INT", "FLOAT")]
+
+
+def placed(values: dict[str, Any], chosen: Path_, name: str, value: Any) -> dict[str, Any]:
+    """The values with one of them replaced, below the options that lead to it."""
+    inner = values
+    for key, _ in chosen:
+        inner = inner[key]
+    inner[name] = value
+    return values
+
+
+def test_there_is_something_to_try() -> None:
+    assert len(CHOICES) > 30
+    assert any(len(each[1]) > 0 for each in CHOICES)
+    assert len(NUMBERS) > 100
+
+
+@pytest.mark.parametrize(("node", "chosen", "name"), CHOICES)
+def test_an_unknown_choice_is_refused(node: str, chosen: Path_, name: str) -> None:
+    described = SCHEMAS[node]["input"]
+    check_choices(described, usual(described, chosen), None)
+    with pytest.raises(InvalidInputError, match=rf"{name} must be one of .*Got: 'no such thing'$"):
+        check_choices(described, placed(usual(described, chosen), chosen, name, UNKNOWN), None)
+
+
+@pytest.mark.parametrize(("node", "chosen", "name", "options"), NUMBERS)
+def test_a_number_out_of_its_range_is_refused(node: str, chosen: Path_, name: str, options: dict[str, Any]) -> None:
+    described = SCHEMAS[node]["input"]
+    check_numbers(described, usual(described, chosen), None)
+    for wrong in (options["min"] - 1, options["max"] + 1, float("nan"), "many"):
+        with pytest.raises(InvalidInputError, match=rf"{name} must be a number from"):
+            check_numbers(described, placed(usual(described, chosen), chosen, name, wrong), None)
+
+
+@pytest.mark.parametrize("sent", [{"renderer": UNKNOWN}, {"renderer": 3}, {"renderer": True}, {"renderer": ["9", 0]}])
+def test_a_choice_that_the_host_has_dropped_is_found_in_the_prompt(sent: dict[str, Any]) -> None:
+    described = SCHEMAS["PhysAnimator_Render"]["input"]
+    values = {"image": object(), "motion": object()}
+    check_choices(described, values, None)
+    check_choices(described, values, {"image": ["1", 0], "motion": ["2", 0]})
+    with pytest.raises(InvalidInputError, match=r"^renderer must be one of composite, sketch-guided SVD\. Got: "):
+        check_choices(described, values, sent)
+
+
+def test_what_a_choice_needs_must_be_there_but_may_come_from_another_node() -> None:
+    described = SCHEMAS["PhysAnimator_RigPoint"]["input"]
+    values = {"position": "[[1, 1]]", "motion": {"motion": "pinned"}, "body": 0}
+    region = {"region": {"region": "circle", "radius": None}}
+    check_choices(described, values | region, {"region": "circle", "region.radius": ["4", 0]})
+    with pytest.raises(InvalidInputError, match=r"^region\.radius must be given: it belongs to region\. Got: nothing"):
+        check_choices(described, values | region, {"region": "circle"})
+    with pytest.raises(InvalidInputError, match=r"^region must be one of circle, polygon, mask\. Got: nothing"):
+        check_choices(described, values, {"motion": "pinned"})
+
+
+class Node:
+    """The least that a V3 node is."""
+
+    ran: tuple[str, ...] = ()
+
+    @classmethod
+    def INPUT_TYPES(cls) -> dict[str, Any]:
+        return SCHEMAS["PhysAnimator_Material"]["input"]
+
+    @classmethod
+    def execute(cls, preset: dict[str, Any] | None = None) -> str:
+        return preset["preset"] if preset else "hair"
+
+
+def test_every_way_into_a_node_is_guarded(monkeypatch: pytest.MonkeyPatch) -> None:
+    sent: dict[str, Any] = {}
+    monkeypatch.setattr(choices, "sent_inputs", lambda: sent)
+    node = checked(type("Material", (Node,), {"execute": Node.__dict__["execute"]}))
+    assert checked(node) is node
+    good = {"preset": usual(Node.INPUT_TYPES())["preset"]}
+    assert node.execute(**good) == "hair"
+    assert node.validate_inputs(**good) is True
+    sent["preset"] = UNKNOWN
+    for way in (node.execute, node.validate_inputs):  # nothing but the prompt knows of it: raised, or the host drops it
+        with pytest.raises(InvalidInputError, match=r"^preset must be one of hair"):
+            way()
+    assert "preset must be one of hair" in node.validate_inputs(other=1)
