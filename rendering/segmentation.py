@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..physics.errors import InvalidInputError, require
-from .noise import without_noise
+from .noise import noise_of, without_noise
 from .outline_cuts import cut_by_majority, grab_cut, window_of
 from .prompts import Box, checked_box, checked_points
 from .sketch import extract_sketch
@@ -77,7 +77,8 @@ def segment(
     at = np.minimum((seeds * small_size / (width, height)).astype(int), np.array(small_size) - 1)
 
     trimap = trimap_from_points(lab, at, positive, small_limit, tolerance, has_box=box is not None)
-    found = cut_by_majority(without_noise(lab), trimap, iterations, at[positive])
+    lab = without_noise(lab, noise_of(lab, trimap == cv2.GC_FGD))
+    found = cut_by_majority(lab, trimap, iterations, at[positive])
     mask = cv2.resize(found.astype(np.float32), (width, height), interpolation=cv2.INTER_LINEAR) > 0.5
     mask = _sharpened(picture, mask, reach=max(2, round(2 / scale)))
     mask = _with_outline(picture, mask) & limit
@@ -114,7 +115,8 @@ def _sharpened(picture: NDArray[np.uint8], mask: Mask, *, reach: int) -> Mask:
     trimap[mask] = cv2.GC_PR_FGD
     trimap[core] = cv2.GC_FGD
     rows, columns = window_of(rim, margin=0)
-    lab = without_noise(cv2.cvtColor(np.ascontiguousarray(picture[rows, columns]), cv2.COLOR_RGB2Lab))
+    lab = cv2.cvtColor(np.ascontiguousarray(picture[rows, columns]), cv2.COLOR_RGB2Lab)
+    lab = without_noise(lab, noise_of(lab, core[rows, columns]))
     found = np.zeros(mask.shape, dtype=bool)
     found[rows, columns] = grab_cut(lab, trimap[rows, columns], 1)
     return found

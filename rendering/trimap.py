@@ -1,6 +1,7 @@
 """What surely and what probably belongs to an object, from a few clicks on it: the start of a GrabCut.
 
-Pictures are made of regions of slowly changing colour, so each point stands for the whole region around it; the colours of these regions then tell what is probable elsewhere.
+Pictures are made of regions of slowly changing colour, so each point stands for the whole region around it; the
+colours of these regions then tell what is probable elsewhere.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from .clicked_regions import looks_at, region_of_click
+from .clicked_regions import Looks
 
 __all__ = ["trimap_from_points"]
 
@@ -39,10 +40,10 @@ def trimap_from_points(
 
 def _grown(lab: Lab, at: NDArray[np.int_], positive: NDArray[np.bool_], tolerance: int) -> tuple[Mask, Mask]:
     """The regions around the positive and around the negative points, without what both reach."""
-    looks = looks_at(lab)
+    looks = Looks(lab)
     regions = {True: np.zeros(lab.shape[:2], bool), False: np.zeros(lab.shape[:2], bool)}
     for point, label in zip(at, positive, strict=True):
-        regions[bool(label)] |= region_of_click(looks, point, at[positive != label], tolerance)
+        regions[bool(label)] |= looks.region(point, at[positive != label], tolerance)
     both = regions[True] & regions[False]
     for label in (False, True):
         regions[label] &= ~both

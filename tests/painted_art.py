@@ -1,4 +1,4 @@
-"""Pictures without outlines, drawn by a program: paint, watercolour, coloured pencil, airbrush; and damage to any picture.
+"""Pictures without outlines, drawn by a program: paint, watercolour, coloured pencil, airbrush; and damage to pictures.
 
 Each picture shows one part (a head of hair, a wing or a skirt) before other things, with the part's true mask.
 """
@@ -117,7 +117,9 @@ def _brush(layers: list[tuple[Mask, tuple[int, int, int]]], generator: np.random
     return cv2.GaussianBlur(picture, (0, 0), 0.7) * (1 + 0.03 * weave) + 4 * _grain((height, width), generator, 0.6)
 
 
-def _watercolour(layers: list[tuple[Mask, tuple[int, int, int]]], generator: np.random.Generator) -> NDArray[np.float32]:
+def _watercolour(
+    layers: list[tuple[Mask, tuple[int, int, int]]], generator: np.random.Generator
+) -> NDArray[np.float32]:
     """Washes that bleed into each other, darker along their edges, on granular paper."""
     height, width = layers[0][0].shape
     picture = np.full((height, width, 3), 244, np.float32)
