@@ -162,6 +162,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     from .physics.advice import advice
     from .pipeline import animate
     from .rendering.command_outputs import background_for, report, write_outputs
+    from .rendering.cut_judgement import judge_points
     from .rendering.images import load_image
     from .rendering.pixel_art import pixel_art_hint
 
@@ -183,7 +184,9 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             pixel_art=options.pixel_art,
             **inputs,
         )
-        for sentence in advice(animation.scene):
+        points = inputs.get("points") or ()
+        cut = animation.parts[len(animation.parts) - len(points) :]
+        for sentence in [*judge_points(cut, points), *advice(animation.scene)]:
             print(f"physanimator: warning: {sentence}", file=sys.stderr)
         write_outputs(options, animation, progress)
     if options.verbose:

@@ -25,7 +25,9 @@ _LARGEST_REGION = 0.25
 # was so if it grows by more than the area of a pixel does from one look to the next.
 _TEXTURE, _GROWTH = 16, 4.0
 _SHORTEST = 24
-_LOOKS = 4
+_LOOKS = 3
+_STROKES = 7
+"""Twice the width of the strokes that the coarsest look averages [px]."""
 _SPREADS = (20, 16, 12, 9, 6)
 """Lightness around the click's in which a flood through texture is held, narrower where it leaks [8-bit Lab]. Light and
 shade change it more than they change the two other channels, which are held to half as much."""
@@ -65,7 +67,7 @@ class Looks:
         height, width = self._lab.shape[:2]
         chosen = self._finest(point, others, tolerance)
         leaked = chosen.mean() >= _LARGEST_REGION
-        textured = _noise_around(self._lab, point) >= LEAST_NOISE
+        textured = _noise_around(self._lab, point, _STROKES) >= LEAST_NOISE
         for look in self._coarser:
             ratio = np.array([look.shape[1] / width, look.shape[0] / height])
             coarse = _held(look, (point * ratio).astype(int), (others * ratio).astype(int), tolerance)
@@ -87,10 +89,10 @@ class Looks:
         return _held(self._without[noise], point, others, tolerance)
 
 
-def _noise_around(lab: Lab, point: NDArray[np.int_]) -> float:
+def _noise_around(lab: Lab, point: NDArray[np.int_], size: int = 3) -> float:
     reach = max(4, max(lab.shape) // 32)
     left, top = np.maximum(point - reach, 0)
-    return noise_of(np.ascontiguousarray(lab[top : point[1] + reach + 1, left : point[0] + reach + 1]))
+    return noise_of(np.ascontiguousarray(lab[top : point[1] + reach + 1, left : point[0] + reach + 1]), size=size)
 
 
 def _held(look: Lab, point: NDArray[np.int_], others: NDArray[np.int_], tolerance: int) -> Mask:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .points import parse_points
 from .prompts import Box, Prompt
 
-__all__ = ["judge_cut", "judge_cuts"]
+__all__ = ["judge_cut", "judge_cuts", "judge_points"]
 
 Mask = NDArray[np.bool_]
 
@@ -66,6 +68,23 @@ def judge_cuts(masks: Sequence[Mask], prompts: Sequence[Prompt], *, instead: str
     return [*told, instead] if told and instead else told
 
 
+def judge_points(masks: Sequence[Mask], points: Sequence[Any]) -> list[str]:
+    """What is suspicious about masks that were cut each from points as they are read.
+
+    Args:
+        masks: shape [h, w] each.
+        points: for each mask what ``parse_points`` reads.
+
+    Returns:
+        Sentences, with the number of the mask where there are several.
+    """
+    prompts = []
+    for mask, given in zip(masks, points, strict=True):
+        clicked = parse_points(given, width=mask.shape[1], height=mask.shape[0])
+        prompts.append(Prompt([(each.x, each.y) for each in clicked], [each.positive for each in clicked]))
+    return judge_cuts(masks, prompts)
+
+
 def _specks(mask: Mask, cells: NDArray[np.int_]) -> str:
     """About the points on the part around which hardly anything was cut."""
     _, labels, statistics, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
@@ -73,11 +92,14 @@ def _specks(mask: Mask, cells: NDArray[np.int_]) -> str:
     small = areas <= max(1.0, _SPECK * mask.size)
     if not small.any():
         return ""
-    what = "The point on the part" if len(cells) == 1 else f"{small.sum()} of {len(cells)} points on the part"
+    what, itself = "The point on the part", "itself"
+    if len(cells) > 1:
+        what = f"{small.sum()} of {len(cells)} points on the part"
+        itself = "itself" if small.sum() == 1 else "themselves"
     places = ", ".join(f"({x}, {y})" for x, y in cells[small][:3]) + (", ..." if small.sum() > 3 else "")
     return (
-        f"{what} cut out hardly more than itself, at {places}: {int(areas.sum())} px in all. Move it off lines and"
-        " edges, put more points on other colours of the part, or draw a box around it."
+        f"{what} cut out hardly more than {itself}, at {places}: {int(areas[small].max())} px at most. Put points"
+        " off lines and edges, more of them on other colours of the part, or draw a box around it."
     )
 
 

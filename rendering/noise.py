@@ -18,16 +18,17 @@ LEAST_NOISE = 2.0
 _REACH = 9
 
 
-def noise_of(lab: Lab, where: Mask | None = None) -> float:
+def noise_of(lab: Lab, where: Mask | None = None, *, size: int = 3) -> float:
     """Standard deviation of what changes from pixel to pixel over most of a picture or of a part of it [8-bit steps].
 
     Flat art gives 0, however many lines it holds, as long as they cover the lesser part of it.
 
     Args:
         lab: shape [h, w, 3].
+        size: twice that of the coarsest texture which counts, odd [px].
         where: the part, shape [h, w]; the whole picture where it is empty or left out.
     """
-    rest = cv2.absdiff(lab, cv2.medianBlur(lab, 3)).max(axis=2)
+    rest = cv2.absdiff(lab, cv2.medianBlur(lab, size)).max(axis=2)
     return float(_NORMAL * np.median(rest[where] if where is not None and where.any() else rest))
 
 
