@@ -7,8 +7,8 @@ import sys
 
 __all__ = ["segmenter_advice"]
 
-# SAM, SAM2, sam_3, "Segment Anything", but not Sampler or Sample.
-_NAME = re.compile(r"(?<![A-Za-z])SAM[ _-]?(HQ)?[23]?(\.1)?(?![a-z])|segment[ _-]?anything", re.IGNORECASE)
+# SAM3_Detect, Sam2Segmentation, "SAM Predictor", "Segment Anything", but not Sampler or Sample.
+_NAME = re.compile(r"(?<![A-Za-z])(SAM|Sam|sam)(?![a-z])|[Ss]egment[ _-]?[Aa]nything")
 _CUTS = re.compile(r"detect|segment|predict", re.IGNORECASE)
 _MOST = 3
 
