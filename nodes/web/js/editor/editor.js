@@ -235,7 +235,7 @@ export class Editor {
     this.stale = false;
     const { history, selection, document } = this.store;
     const { empty = "" } = this.options;
-    if (empty) this.notes.keep("empty", document.query_points.length ? "" : empty);
+    if (empty) this.notes.keep("empty", document.query_points?.length ? "" : empty);
     const pressed = { ...this.shown, expand: this.dialog.open };
     for (const id of this.tools.keys()) Object.assign(pressed, { [id]: id === this.tool.id });
     const [past, future] = [history.past.length > 0, history.future.length > 0];
