@@ -168,7 +168,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
 
     plate = load_image(options.plate, alpha=True) if options.plate else None
     background_for(options, image)
-    if not options.pixel_art:
+    if not (options.pixel_art or options.quiet):
         for sentence in pixel_art_hint(image, option="--pixel-art"):
             print(f"physanimator: hint: {sentence}", file=sys.stderr)
     with ExitStack() as bars:

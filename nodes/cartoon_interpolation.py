@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..physics.errors import InvalidInputError, require
 from ..rendering.tooncrafter.options import InterpolationOptions
-from .computing import dtype_of, host_placement
+from .computing import dtype_of
+from .networks import Networks, kept_networks
 from .progress import host_preview, host_progress
 from .tooncrafter_files import TOONCRAFTER, model_file, sketch_model_file
 from .tooncrafter_inputs import AREAS
@@ -39,12 +38,13 @@ def tooncrafter_backend(choice: dict[str, Any]) -> ToonCrafterInterpolator:
     from ..rendering.tooncrafter.interpolator import ToonCrafterInterpolator
 
     device = model_management.get_torch_device()
-    models = _models(choice, device)
+    networks = _networks(choice, device)
+    models = _with_kept_prompt(networks.held, choice)
     _check_encoders(choice, models)
     return ToonCrafterInterpolator(
         models,
         options=_options(choice),
-        placement=host_placement(device),
+        placement=networks.placement(device),
         look=_look(choice.get("clip_vision")),
         prompts=_prompts(choice, models),
         **_watched(device),
@@ -76,7 +76,9 @@ def _options(choice: dict[str, Any]) -> InterpolationOptions:
     return InterpolationOptions(area=area, seed=seed, frame_rate=choice["fs"], **chosen)
 
 
-def _models(choice: dict[str, Any], device: torch.device) -> InterpolationModels:
+def _networks(choice: dict[str, Any], device: torch.device) -> Networks[InterpolationModels]:
+    from ..rendering.tooncrafter.models import load_models
+
     model, sketch = model_file(choice["tooncrafter_model"]), None
     if model is None:
         raise InvalidInputError(_missing("tooncrafter_model", choice["tooncrafter_model"]))
@@ -84,26 +86,21 @@ def _models(choice: dict[str, Any], device: torch.device) -> InterpolationModels
         sketch = sketch_model_file(choice["sketch_model"])
         if sketch is None:
             raise InvalidInputError(_missing("sketch_model", choice["sketch_model"]))
-    times = tuple(file.stat().st_mtime for file in (model, sketch) if file)
-    models = _loaded(model, sketch, times, dtype_of(choice["precision"], device))
-    return models if models.empty_prompt is not None else _with_kept_prompt(models, model)
+    dtype = dtype_of(choice["precision"], device)
+    key = model, sketch, tuple(file.stat().st_mtime for file in (model, sketch) if file), dtype
+    return kept_networks("interpolation", key, lambda: load_models(model, sketch=sketch, dtype=dtype))
 
 
-def _with_kept_prompt(models: InterpolationModels, model: Path) -> InterpolationModels:
-    """With the empty prompt that an earlier run has kept beside the model's file, if any."""
+def _with_kept_prompt(models: InterpolationModels, choice: dict[str, Any]) -> InterpolationModels:
+    """With the empty prompt that an earlier run has kept beside the model's file, where that file has none."""
     from ..rendering.tooncrafter.kept_prompt import kept_prompt
 
+    model = model_file(choice["tooncrafter_model"])
+    if models.empty_prompt is not None or model is None:
+        return models
     config = models.unet.config
     kept = kept_prompt(model, (1, config.text_tokens, config.context_dim))
     return replace(models, empty_prompt=None if kept is None else kept.to(models.dtype))
-
-
-@lru_cache(maxsize=1)
-def _loaded(model: Path, sketch: Path | None, _: tuple[float, ...], dtype: torch.dtype) -> InterpolationModels:
-    """The networks that were used last, as long as their files stay as they are."""
-    from ..rendering.tooncrafter.models import load_models
-
-    return load_models(model, sketch=sketch, dtype=dtype)
 
 
 def _prompts(choice: dict[str, Any], models: InterpolationModels) -> tuple[torch.Tensor, torch.Tensor] | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from functools import wraps
+from inspect import signature
 from typing import Any, NamedTuple
 
 from ..physics.errors import InvalidInputError
@@ -110,7 +111,7 @@ def _checking_validation(inner: Callable[..., Any] | None) -> Callable[..., Any]
         described, sent = cls.INPUT_TYPES(), sent_inputs()
         unknown = refusal(lambda: check_choices(described, values, sent))
         # The node's own sentences know better than the bounds of a widget.
-        own = True if inner is None or unknown is not True else inner(cls, **values)
+        own = True if inner is None or unknown is not True else inner(cls, **_taken(inner, values))
         said = next((each for each in (unknown, own) if each is not True), True)
         said = refusal(lambda: check_numbers(described, values, sent)) if said is True else said
         if said is not True and not values:
@@ -119,6 +120,15 @@ def _checking_validation(inner: Callable[..., Any] | None) -> Callable[..., Any]
         return said
 
     return validate_inputs
+
+
+def _taken(function: Callable[..., Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """The values that a function has parameters for."""
+    parameters = signature(function).parameters.values()
+    if any(each.kind is each.VAR_KEYWORD for each in parameters):
+        return dict(values)
+    names = {each.name for each in parameters}
+    return {name: value for name, value in values.items() if name in names}
 
 
 def _given(

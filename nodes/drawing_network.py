@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
 from ..rendering.drawings.files import DRAWING_FILES
-from .computing import PRECISIONS, dtype_of, host_placement
+from .computing import PRECISIONS, dtype_of
+from .networks import kept_networks
 
 if TYPE_CHECKING:
-    import torch
     from numpy.typing import NDArray
-
-    from ..rendering.drawings.models import LineDrawer
 
 __all__ = ["drawing_network_inputs", "missing_drawing_file", "network_sketch"]
 
@@ -77,22 +74,17 @@ def network_sketch(picture: NDArray[Any], choice: dict[str, Any], **kept: Any) -
 
     from ..physics.errors import InvalidInputError
     from ..rendering.drawings.extractor import STRIP_PIXELS, draw_sketch
+    from ..rendering.drawings.models import load_drawer
 
     path = _file(choice["model"])
     if path is None:
         raise InvalidInputError(missing_drawing_file(choice))
     device = model_management.get_torch_device()
-    drawer = _loaded(path, path.stat().st_mtime, dtype_of(choice["precision"], device))
-    with host_placement(device).at_work(drawer, working_bytes=STRIP_PIXELS * _BYTES_A_PIXEL):
-        return draw_sketch(picture, drawer, working_size=choice["working_size"], **kept)
-
-
-@lru_cache(maxsize=1)
-def _loaded(path: Path, _: float, dtype: torch.dtype) -> LineDrawer:
-    """The network that was used last, as long as its file stays as it is."""
-    from ..rendering.drawings.models import load_drawer
-
-    return load_drawer(path, dtype=dtype)
+    dtype = dtype_of(choice["precision"], device)
+    key = path, path.stat().st_mtime, dtype
+    networks = kept_networks("line drawings", key, lambda: load_drawer(path, dtype=dtype))
+    with networks.at_work(device, [networks.held], working_bytes=STRIP_PIXELS * _BYTES_A_PIXEL):
+        return draw_sketch(picture, networks.held, working_size=choice["working_size"], **kept)
 
 
 def _choices() -> list[str]:

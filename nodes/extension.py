@@ -17,6 +17,7 @@ from .preview_server import register_routes
 from .render_nodes import Interpolate, Render
 from .rig_nodes import RigPoint
 from .running import watch_prompts
+from .save_nodes import SaveAnimation
 from .scene_editor_nodes import SceneEditor
 from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
 from .sketch_nodes import ExtractSketch, WarpSketch
@@ -50,6 +51,7 @@ NODES: list[type[io.ComfyNode]] = [
     ExtractSketch,
     WarpSketch,
     Render,
+    SaveAnimation,
     Interpolate,
     Metrics,
     WarpedVideo,

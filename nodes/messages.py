@@ -30,7 +30,7 @@ def tell_user(node: Any, sentences: Iterable[str]) -> dict[str, list[str]]:
     told = list(dict.fromkeys(sentences))
     if not told:
         return {}
-    title = node.GET_SCHEMA().display_name
+    title = node.define_schema().display_name  # GET_SCHEMA would write to the class, which is locked by now
     for sentence in told:
         logging.warning("PhysAnimator, %s: %s", title, sentence)
     host, running = server(), context()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from comfy_api.latest import io
 
 from ..physics.errors import require
+from .background_inputs import background_chosen, background_inputs
 from .batches import announce_batch
 from .cartoon_interpolation import missing_tooncrafter_files, tooncrafter_backend
 from .literals import chosen, refusal, whole_numbers_of
@@ -16,7 +17,7 @@ from .progress import host_progress
 from .running import is_wanted, not_made
 from .sketch_video import missing_sketch_video_files, sketch_video_frames
 from .sketch_video_inputs import sketch_video_inputs
-from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of, pictures_of
+from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_with_alpha, pictures_of
 from .tooncrafter_inputs import tooncrafter_inputs
 from .wires import MaskedMotion, MotionWire
 
@@ -25,7 +26,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..physics.motion import Motion
+    from ..rendering.background import Background
     from ..rendering.composite import LayeredRenderer
+    from ..rendering.pixel_art import PixelArtRenderer
     from .tensors import FrameBatch
 
 __all__ = ["Interpolate", "Render"]
@@ -63,21 +66,25 @@ class Render(io.ComfyNode):
                     optional=True,
                     tooltip="The picture without the moving parts. Painted automatically when left out.",
                 ),
+                *background_inputs(),
             ],
             outputs=[
                 io.Image.Output(display_name="frames", tooltip="One picture a frame: for Create Video."),
                 io.Mask.Output(
                     display_name="alpha",
-                    tooltip="White where the moving parts are, one mask a frame; made only where it is connected.",
+                    tooltip="White where the moving parts are, one mask a frame; of transparent frames the alpha. Made"
+                    " only where it is connected.",
                 ),
                 io.Image.Output("plate", display_name="clean_plate", tooltip="The picture without the moving parts."),
             ],
         )
 
     @classmethod
-    def validate_inputs(cls, renderer: dict[str, Any] | None = None, **others: Any) -> bool | str:
+    def validate_inputs(
+        cls, renderer: dict[str, Any] | None = None, background: dict[str, Any] | None = None, **others: Any
+    ) -> bool | str:
         # Before the simulation, not after it. The host hands over what a choice brings only if every input is taken.
-        return missing_sketch_video_files(renderer or {}) or True
+        return missing_sketch_video_files(renderer or {}) or refusal(lambda: background_chosen(background))
 
     @classmethod
     def fingerprint_inputs(cls, **inputs: Any) -> list[bool]:
@@ -90,38 +97,53 @@ class Render(io.ComfyNode):
         motion: MaskedMotion,
         renderer: dict[str, Any] | None = None,
         clean_plate: torch.Tensor | None = None,
+        background: dict[str, Any] | None = None,
+        image_alpha: torch.Tensor | None = None,
+        pixel_art: bool = False,
     ) -> io.NodeOutput:
-        from ..rendering.composite import LayeredRenderer
+        from ..rendering.background import over, renderer_of
 
-        picture, plate = picture_of(image), None if clean_plate is None else picture_of(clean_plate, name="clean_plate")
-        by_model = renderer is not None and renderer["renderer"] == _SKETCH_VIDEO
+        behind, by_model = background_chosen(background), renderer is not None and renderer["renderer"] == _SKETCH_VIDEO
+        picture = picture_with_alpha(image, image_alpha)
+        plate = None if clean_plate is None else picture_with_alpha(clean_plate, name="clean_plate")
+        if by_model:
+            transparent = behind.has_alpha or pixel_art
+            require("background", behind.kind, not transparent, "opaque, and pixel_art off, with sketch-guided SVD")
+            picture, plate = over(picture, behind.colour), plate if plate is None else over(plate, behind.colour)
         count, (height, width) = len(motion.motion), picture.shape[:2]
         frames = picture_batch(count) if is_wanted(_FRAMES) else None
         alpha = mask_batch(count) if is_wanted(_ALPHA) else None
+        channels = (3 + behind.has_alpha) * (frames is not None) + (alpha is not None)
         instead = "" if by_model else "use Save Animation, which holds one frame at a time"
-        channels = 3 * (frames is not None) + (alpha is not None)
         told = announce_batch(cls, count, width, height, channels=channels, instead=instead)
-        layers = LayeredRenderer(picture, motion.masks, motion.motion, plate=plate)
+        layers = renderer_of(picture, motion.masks, motion.motion, plate=plate, pixel_art=pixel_art)
         if by_model and frames is not None:
             for frame in sketch_video_frames(picture, layers, renderer):
                 frames.put(frame)
-        _compose(layers, None if by_model else frames, alpha)
-        made = [
-            not_made(name) if each is None else each.tensor for name, each in (("frames", frames), ("alpha", alpha))
-        ]
+        _compose(layers, behind, None if by_model else frames, alpha)
+        both = (("frames", frames), ("alpha", alpha))
+        made = [not_made(name) if batch is None else batch.tensor for name, batch in both]
         return io.NodeOutput(*made, batch_of_pictures([layers.plate], 1), ui=told or None)
 
 
-def _compose(layers: LayeredRenderer, frames: FrameBatch | None, alpha: FrameBatch | None) -> None:
+def _compose(
+    layers: LayeredRenderer | PixelArtRenderer,
+    background: Background,
+    frames: FrameBatch | None,
+    alpha: FrameBatch | None,
+) -> None:
     """Draw into the batches that there are."""
+    from ..rendering.background import shown_frame, shown_frame_and_alpha
+
     report = host_progress()
     for number in range(len(layers) if frames or alpha else 0):
-        if alpha is None or frames is None:
-            drawn = (layers.alpha(number),) if frames is None else (layers.frame(number),)
-        else:
-            drawn = layers.frame_and_alpha(number)
-        for batch, picture in zip((each for each in (frames, alpha) if each is not None), drawn, strict=True):
-            batch.put(picture)
+        if alpha is None and frames is not None:
+            frames.put(shown_frame(layers, number, background))
+        elif alpha is not None:
+            frame, covered = shown_frame_and_alpha(layers, number, background)
+            alpha.put(covered)
+            if frames is not None:
+                frames.put(frame)
         report(number + 1, len(layers))
 
 

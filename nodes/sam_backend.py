@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,11 +11,10 @@ from comfy_api.latest import io
 
 from ..physics.errors import InvalidInputError
 from .computing import PRECISIONS, dtype_of
+from .networks import kept_networks
 from .sam_files import missing_sam_model, sam_choices, sam_file
 
 if TYPE_CHECKING:
-    import torch
-
     from ..rendering.sam.segmenter import SamSegmenter
 
 __all__ = ["missing_sam_files", "sam_inputs", "sam_network"]
@@ -56,19 +54,18 @@ def sam_network(choice: dict[str, Any]) -> Iterator[SamSegmenter]:
     from comfy import model_management
 
     from ..rendering.sam.segmenter import SamSegmenter
+    from ..rendering.sam.weights import load_network
 
     path = sam_file(choice["sam_model"])
     if path is None:
         raise InvalidInputError(missing_sam_model(choice["sam_model"]))
     device = model_management.get_torch_device()
-    network, family = _loaded(path, _changed(path), dtype_of(choice["precision"], device))
+    dtype = dtype_of(choice["precision"], device)
+    networks = kept_networks("segment anything", (path, _changed(path), dtype), lambda: load_network(path, dtype=dtype))
+    network, family = networks.held
     size = sum(each.numel() * each.element_size() for each in network.parameters())
-    model_management.free_memory(3 * size, device)
-    try:
-        yield SamSegmenter(network.to(device), family, device)
-    finally:
-        network.to("cpu")
-        model_management.soft_empty_cache()
+    with networks.at_work(device, [network], working_bytes=2 * size):
+        yield SamSegmenter(network, family, device)
 
 
 def _changed(path: Path) -> float:
@@ -76,11 +73,3 @@ def _changed(path: Path) -> float:
     return (
         max((each.stat().st_mtime for each in path.iterdir()), default=0.0) if path.is_dir() else path.stat().st_mtime
     )
-
-
-@lru_cache(maxsize=1)
-def _loaded(path: Path, _: float, dtype: torch.dtype) -> tuple[Any, Any]:
-    """The network that was used last, as long as its files stay as they are."""
-    from ..rendering.sam.weights import load_network
-
-    return load_network(path, dtype=dtype)

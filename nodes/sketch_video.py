@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Iterator
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,8 +14,9 @@ from numpy.typing import NDArray
 from ..rendering.still_parts import keep_still_parts, moving_region
 from ..rendering.svd.frame_layout import CLIP_FRAMES
 from ..rendering.svd.options import SketchVideoOptions
-from .computing import dtype_of, host_placement
+from .computing import dtype_of
 from .model_files import SKETCH_VIDEO, lvcd_file, svd_file
+from .networks import Networks, kept_networks
 from .progress import host_preview, host_progress
 from .sketch_video_inputs import AREAS
 from .tensors import pictures_of
@@ -57,11 +57,8 @@ def sketch_video_frames(image: FloatImage, layers: LayeredRenderer, choice: dict
     if device.type == "cuda":
         torch.cuda.reset_peak_memory_stats(device)
     began = time.perf_counter()
-    renderer = SketchVideoRenderer(
-        _models(*files, dtype_of(choice["precision"], device)),
-        options=_options(choice),
-        placement=host_placement(device),
-    )
+    networks = _networks(*files, dtype_of(choice["precision"], device))
+    renderer = SketchVideoRenderer(networks.held, options=_options(choice), placement=networks.placement(device))
     region = None
     if choice["keep_still_parts"]:
         alphas = (layers.alpha(number) for number in range(len(layers)))
@@ -96,16 +93,11 @@ def _files(choice: dict[str, Any]) -> tuple[Path, Path]:
     return svd, lvcd
 
 
-def _models(svd: Path, lvcd: Path, dtype: torch.dtype) -> SketchVideoModels:
-    return _loaded(svd, svd.stat().st_mtime, lvcd, lvcd.stat().st_mtime, dtype)
-
-
-@lru_cache(maxsize=1)
-def _loaded(svd: Path, _: float, lvcd: Path, __: float, dtype: torch.dtype) -> SketchVideoModels:
-    """The networks that were used last, as long as their files stay as they are."""
+def _networks(svd: Path, lvcd: Path, dtype: torch.dtype) -> Networks[SketchVideoModels]:
     from ..rendering.svd.models import load_models
 
-    return load_models(svd, lvcd, dtype=dtype)
+    key = svd, svd.stat().st_mtime, lvcd, lvcd.stat().st_mtime, dtype
+    return kept_networks("sketch video", key, lambda: load_models(svd, lvcd, dtype=dtype))
 
 
 def _watched(device: torch.device) -> dict[str, Any]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError, require
+from ..rendering.background import over
 
 if TYPE_CHECKING:
     import torch
@@ -21,6 +22,7 @@ __all__ = [
     "mask_of",
     "picture_batch",
     "picture_of",
+    "picture_with_alpha",
     "pictures_for",
     "pictures_of",
 ]
@@ -36,7 +38,8 @@ def pictures_of(images: torch.Tensor, *, name: str = "image") -> FloatImage:
         name: what the node calls the input.
 
     Returns:
-        RGB, float32, 0..1, shape [f, h, w, 3]; shares memory with ``images`` where it can, so only read it.
+        RGB, float32, 0..1, shape [f, h, w, 3]; shares memory with ``images`` where it can, so only read it. Pictures
+        with alpha are laid over white.
 
     Raises:
         InvalidInputError: the shape is another, or a value is not finite.
@@ -45,7 +48,8 @@ def pictures_of(images: torch.Tensor, *, name: str = "image") -> FloatImage:
         raise InvalidInputError(
             f"{name} must be a batch of RGB pictures of shape [f, h, w, 3]. Got: {tuple(images.shape)}"
         )
-    return images[..., :3].detach().cpu().float().numpy()
+    pictures = images.detach().cpu().float().numpy()
+    return pictures if pictures.shape[-1] == 3 else np.stack([over(np.clip(each, 0, 1)) for each in pictures])
 
 
 def picture_of(images: torch.Tensor, *, name: str = "image") -> FloatImage:
@@ -67,6 +71,40 @@ def picture_of(images: torch.Tensor, *, name: str = "image") -> FloatImage:
     if not np.isfinite(picture).all():
         raise InvalidInputError(f"{name} must hold finite colours. Got: NaN or infinity")
     return np.clip(picture, 0.0, 1.0)
+
+
+def picture_with_alpha(images: torch.Tensor, alpha: torch.Tensor | None = None, *, name: str = "image") -> FloatImage:
+    """A single picture that keeps its transparency: float32, 0..1, RGB, shape [h, w, 3], or straight RGBA, [h, w, 4].
+
+    Args:
+        images: the host's IMAGE with a batch of one, of 3 or 4 channels.
+        alpha: the host's MASK of the same size, white where the picture is transparent, as Load Image gives it; counts
+            instead of a fourth channel.
+        name: what the node calls the input.
+
+    Returns:
+        RGBA only where something is transparent; black where alpha is 0.
+
+    Raises:
+        InvalidInputError: the batch holds more than one picture, or shapes or sizes do not fit.
+    """
+    picture = picture_of(images, name=name)
+    if alpha is not None:
+        opacity = 1 - mask_of(alpha, name=f"{name}_alpha")
+        # Load Image gives a small empty mask with a picture that has no alpha.
+        if opacity.shape != picture.shape[:2] and opacity.min() == 1:
+            return picture
+        got = f"{opacity.shape[1]} x {opacity.shape[0]} px"
+        size = f"{picture.shape[1]} x {picture.shape[0]} px"
+        require(f"{name}_alpha", got, opacity.shape == picture.shape[:2], f"of the picture's size, {size}")
+    elif images.shape[-1] == 4:
+        opacity = np.clip(images[0, ..., 3].detach().cpu().float().numpy(), 0.0, 1.0)
+    else:
+        return picture
+    if opacity.min() == 1:
+        return picture
+    colours = np.clip(images[0, ..., :3].detach().cpu().float().numpy(), 0.0, 1.0)
+    return np.dstack([np.where(opacity[..., None] > 0, colours, np.float32(0)), opacity])
 
 
 def pictures_for(images: torch.Tensor, width: int, height: int, *, frames: int, name: str = "image") -> FloatImage:
@@ -130,7 +168,7 @@ class FrameBatch:
         self._done = 0
 
     def put(self, frame: NDArray[Any]) -> None:
-        """Add a frame: uint8, bool, or float in 0..1, shape [h, w, 3] or [h, w]."""
+        """Add a frame: uint8, bool, or float in 0..1, shape [h, w, 3], [h, w, 4] or [h, w]."""
         import torch
 
         grey = self._channels is not None and frame.ndim == 2
@@ -145,7 +183,7 @@ class FrameBatch:
 
     @property
     def tensor(self) -> torch.Tensor:
-        """The full batch, float32, shape [f, h, w, 3] or [f, h, w].
+        """The full batch, float32, shape [f, h, w, 3 or 4] or [f, h, w].
 
         Raises:
             InvalidInputError: frames are missing.
@@ -166,7 +204,7 @@ def mask_batch(count: int) -> FrameBatch:
 
 
 def batch_of_pictures(frames: Iterable[NDArray[Any]], count: int) -> torch.Tensor:
-    """The host's IMAGE, shape [f, h, w, 3], from RGB or grey frames that are made one at a time."""
+    """The host's IMAGE, shape [f, h, w, 3 or 4], from RGB, RGBA or grey frames that are made one at a time."""
     return _filled(picture_batch(count), frames)
 
 

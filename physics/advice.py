@@ -57,8 +57,9 @@ def stillness(motion: Motion) -> list[str]:
     farthest = float(np.hypot(moved[..., 0], moved[..., 1]).max(initial=0.0))
     if len(motion) < 2 or farthest >= _UNSEEN:
         return []
+    what = f"nothing moves by more than {farthest:.2f} px" if farthest >= 0.01 else "nothing moves at all"
     return [
-        f"nothing moves by more than {farthest:.2f} px in {len(motion)} frames: is everything held, do strokes and wind"
+        f"{what} in {len(motion)} frames: is everything held, do strokes and wind"
         " reach the bodies, and are they strong and early enough?"
     ]
 

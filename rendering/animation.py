@@ -119,7 +119,7 @@ class Animation:
         chosen = self.background("transparent" if transparent and background is None else background)
         if background is None and not transparent and every > 1:
             chosen = Background()
-        check_in_betweens(chosen, every)
+        check_in_betweens(chosen, every, pixel_art=self.pixel_art)
         pictures: Iterable[Image]
         if every > 1:
             pictures = self._with_in_betweens(every, chosen)

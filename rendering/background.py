@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError, require
+from .pixels import as_float
 
 if TYPE_CHECKING:
     from ..physics.motion import Motion
@@ -30,10 +31,12 @@ __all__ = [
     "WHITE",
     "Background",
     "background_of",
+    "check_in_betweens",
     "is_transparent",
     "over",
     "renderer_of",
     "shown_frame",
+    "shown_frame_and_alpha",
     "usual_background",
 ]
 
@@ -162,12 +165,34 @@ def shown_frame(renderer: LayeredRenderer | PixelArtRenderer, t: int, background
     return over(frame, background.colour) if background.kind == "picture" else frame
 
 
-def check_in_betweens(background: Background, every: int) -> None:
-    """Refuse in-betweens of transparent frames.
+def shown_frame_and_alpha(
+    renderer: LayeredRenderer | PixelArtRenderer, t: int, background: Background
+) -> tuple[Image, NDArray[np.float32]]:
+    """``shown_frame``, and its alpha in 0 to 1, shape [h, w]; of an opaque frame where moving parts are.
+
+    Raises:
+        InvalidInputError: there is no such frame.
+    """
+    if background.has_alpha:
+        frame = shown_frame(renderer, t, background)
+        return frame, as_float(frame[..., 3])
+    frame, alpha = renderer.frame_and_alpha(t)
+    return over(frame, background.colour), alpha
+
+
+def check_in_betweens(background: Background, every: int, *, pixel_art: bool = False) -> None:
+    """Refuse in-betweens, which mix colours, of transparent frames and of pixel art.
+
+    Args:
+        background: of the frames.
+        every: each so many-th frame is drawn, and the others are filled in.
+        pixel_art: pixels are moved whole.
 
     Raises:
         InvalidInputError: both are asked for.
     """
+    if pixel_art and every > 1:
+        raise InvalidInputError("frames of pixel art must be drawn one by one. Got: in-betweens as well")
     if background.has_alpha and every > 1:
         raise InvalidInputError(
             "transparent frames must be drawn one by one; leave in-betweens out or choose an opaque background."

@@ -22,14 +22,13 @@ def check_outputs(options: argparse.Namespace) -> None:
     """
     from ..physics.errors import InvalidInputError
     from ..physics.tracks import check_track_options
-    from .background import background_of, check_in_betweens
+    from .background import Background, background_of, check_in_betweens
     from .text_files import check_text_output
     from .video import check_output
 
     said = options.background and background_of(options.background)
     check_output(options.output, alpha=bool(said and said.has_alpha))
-    if said:
-        check_in_betweens(said, options.interpolate)
+    check_in_betweens(said or Background(), options.interpolate, pixel_art=options.pixel_art)
     if options.width is not None and not 16 <= options.width <= 8192:
         raise InvalidInputError(f"--width must be 16 to 8192 px. Got: {options.width}")
     chosen = [options.output]

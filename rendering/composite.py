@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 from typing import Any
 
 import cv2
@@ -16,6 +17,7 @@ from ..physics.motion import Motion
 from ..physics.pixel_box import PixelBox
 from ..physics.progress import Progress
 from .background import is_transparent
+from .kept_layers import apart
 from .layers import take_apart
 from .pixels import as_dtype, as_float, check_picture
 from .premultiplied import straight
@@ -71,7 +73,8 @@ class LayeredRenderer:
             )
         self.motion = motion
         self._order = layer_order(motion)
-        background, self._layers = (take_sprite_apart if is_transparent(image) else take_apart)(
+        background, self._layers = apart(
+            take_sprite_apart if is_transparent(image) else take_apart,
             as_float(image),
             [fitted(coverage_of(masks[k]), *size) for k in self._order],
             [motion.bodies[k].mesh for k in self._order],
@@ -121,9 +124,17 @@ class LayeredRenderer:
         Raises:
             InvalidInputError: there is no such frame.
         """
+        return self.uncovered_by(self.alpha(t))
+
+    def uncovered_by(self, alpha: FloatImage) -> FloatImage:
+        """What is uncovered in a frame whose alpha is known, shape [h, w]; see ``uncovered``."""
+        return np.asarray(np.clip(self._at_rest - alpha, 0, 1), dtype=np.float32)
+
+    @cached_property
+    def _at_rest(self) -> FloatImage:
+        """How much of each pixel the bodies cover as drawn, shape [h, w]."""
         rest = np.concatenate([body.mesh.vertices for body in self.motion.bodies]).astype(np.float32)
-        at_rest = self._covered(self._laid(Motion(self.motion.bodies, rest[None], self.motion.frame_rate), 0))
-        return np.asarray(np.clip(at_rest - self.alpha(t), 0, 1), dtype=np.float32)
+        return self._covered(self._laid(Motion(self.motion.bodies, rest[None], self.motion.frame_rate), 0))
 
     def cutout(self, t: int) -> NDArray[Any]:
         """The moving bodies of frame ``t`` alone: straight RGB and alpha, dtype of the image, shape [h, w, 4].

@@ -59,13 +59,15 @@ def warped_frames(
     renderer = LayeredRenderer(image, masks, form.sampled(motion), plate=plate)
     square = np.ones((2 * grow + 1,) * 2, np.uint8)
     for t in range(len(renderer)):
-        frame = form.resized(as_float(renderer.frame(t)))
         if plate is not None:
+            frame = form.resized(as_float(renderer.frame(t)))
             yield frame, np.zeros(frame.shape[:2], dtype=np.float32)
             continue
-        missing = cv2.dilate((renderer.uncovered(t) > 0.5).astype(np.uint8), square).astype(np.float32)
+        drawn, alpha = renderer.frame_and_alpha(t)
+        frame = form.resized(as_float(drawn))
+        missing = cv2.dilate((renderer.uncovered_by(alpha) > 0.5).astype(np.uint8), square).astype(np.float32)
         # Moved parts lie over the hole, however far it was grown.
-        missing *= renderer.alpha(t) < 0.5
+        missing *= alpha < 0.5
         hole = (form.resized(missing) > _HOLE).astype(np.float32)
         yield np.where(hole[..., None] > 0, np.float32(_UNKNOWN), frame), hole
 

@@ -27,9 +27,10 @@ def premultiplied(image: NDArray[Any]) -> FloatImage:
 
 def straight(image: FloatImage) -> FloatImage:
     """The reverse: colours over alpha, in 0 to 1; black where there is no alpha. Shape [h, w, 4]."""
-    alpha = np.clip(image[..., 3:], 0, 1)
-    colours = np.clip(image[..., :3] / np.maximum(alpha, _NO_ALPHA), 0, 1)
-    return np.concatenate([np.where(alpha > _NO_ALPHA, colours, np.float32(0)), alpha], axis=2)
+    # Where resampling went beyond 1, colours went along: their ratio is right.
+    alpha = image[..., 3:]
+    colours = np.where(alpha > _NO_ALPHA, image[..., :3] / np.maximum(alpha, _NO_ALPHA), np.float32(0))
+    return np.clip(np.concatenate([colours, alpha], axis=2), 0, 1)
 
 
 def resized(picture: NDArray[Any], width: int, height: int, *, nearest: bool = False) -> NDArray[Any]:

@@ -78,7 +78,7 @@ def take_sprite_apart(
             ]
         )
         share = soft_alpha(_over_white(shown), _over_white(beneath), masks[number], supports[number])
-        share = _fitting_share(share, shown[..., 3], beneath[..., 3])
+        share = _fitting_share(share, shown[..., 3], beneath[..., 3], supports[number])
         mesh, canvas, covered = _covered(meshes[number], share)
         share = np.where(covered, share, np.float32(0))
         below = fitting_plate(shown, beneath, share)
@@ -178,7 +178,9 @@ def _rounded(shape: FloatImage, known: Mask, bend: float) -> FloatImage:
 def _with_strips(support: Mask, opacity: FloatImage) -> Mask:
     """A part with the narrow strips between it and transparency, which a mask that is a little too small leaves."""
     rest = (opacity > FAINT) & ~support
-    wide = grown(cv2.erode(rest.astype(np.uint8), np.ones((_STRIP + 2,) * 2, np.uint8)) > 0, WIDE)
+    square = np.ones((_STRIP + 2,) * 2, np.uint8)
+    # The corners of what is wide are no strips either.
+    wide = cv2.dilate(cv2.erode(rest.astype(np.uint8), square), square, iterations=3) > 0
     strips = rest & ~wide & grown(opacity <= FAINT, WIDE)
     joined = support.copy()
     for _ in range(_STRIP):
@@ -186,15 +188,15 @@ def _with_strips(support: Mask, opacity: FloatImage) -> Mask:
     return joined
 
 
-def _fitting_share(share: FloatImage, opacity: FloatImage, behind: FloatImage) -> FloatImage:
-    """How much a body covers of what is behind it: at least what the alpha there leaves over.
+def _fitting_share(share: FloatImage, opacity: FloatImage, behind: FloatImage, support: Mask) -> FloatImage:
+    """How much a body covers of what is behind it: in its support at least what the alpha there leaves over.
 
     Its own transparency lets through what will be behind it elsewhere; only where it is all but opaque, and so is what
     is behind, may it cover more.
     """
     least = np.clip((opacity - behind) / np.maximum(1 - behind, np.float32(1e-6)), 0, 1)
     most = np.where(opacity > _OPAQUE, 1 - (1 - opacity) * (1 - behind), opacity)
-    share = np.minimum(np.maximum(share, least), most)
+    share = np.minimum(np.where(support, np.maximum(share, least), share), most)
     return np.where(share > 1 - _ALL, np.float32(1), share)
 
 

@@ -12,6 +12,7 @@ from ..physics.errors import require
 from ..physics.motion import Motion
 from ..physics.resampling import frame_at, sample_times
 from ..physics.tracks import FITS, Fit
+from .number_checks import check_whole
 from .track_overlay import fitted
 
 __all__ = ["FRAME_STEP", "SIZE_STEP", "VideoFormat"]
@@ -39,10 +40,12 @@ class VideoFormat:
     fit: Fit = "crop"
 
     def __post_init__(self) -> None:
+        check_whole("frames", self.frames, 1, 100_001)
         whole = self.frames >= 1 and self.frames % FRAME_STEP == 1
         require("frames", self.frames, whole, "4 k + 1, such as 49 or 81: Wan knows no other length")
         for name in ("width", "height"):
             side = getattr(self, name)
+            check_whole(name, side, SIZE_STEP, 16_384, unit=" px")
             require(name, f"{side} px", side >= SIZE_STEP and side % SIZE_STEP == 0, "a multiple of 16 px")
         require("fit", self.fit, self.fit in FITS, f"one of {', '.join(FITS)}")
 

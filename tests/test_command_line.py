@@ -16,6 +16,7 @@ import pytest
 from physanimator.__main__ import EXAMPLE, main
 from physanimator.physics.material import PRESETS
 from physanimator.rendering.images import load_image, save_image
+from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[1]
 WIDTH, HEIGHT = 160, 120
@@ -99,6 +100,76 @@ def test_webm_is_transparent_unless_told_otherwise(folder: Path) -> None:
             assert ("1" in container.streams.video[0].metadata.values()) == expected
 
 
+@pytest.fixture
+def sprite(folder: Path) -> Path:
+    """A picture with transparency: a body with a strip across its silhouette, colours hidden under alpha 0."""
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
+    strip, body = (np.abs(x - 70) < 10) & (y > 15) & (y < 95), (np.abs(x - 60) < 30) & (y > 50)
+    image = np.zeros((HEIGHT, WIDTH, 4), np.uint8)
+    image[..., :3] = (255, 0, 255)
+    image[body], image[strip] = (200, 160, 90, 255), (70, 40, 30, 255)
+    Image.fromarray(image).save(folder / "sprite.png")
+    return folder / "sprite.png"
+
+
+@pytest.mark.parametrize(
+    ("background", "corner", "on_body"),
+    [
+        (None, [0, 0, 0, 0], [200, 160, 90, 255]),
+        ("transparent", [0, 0, 0, 0], [200, 160, 90, 255]),
+        ("parts", [0, 0, 0, 0], [0, 0, 0, 0]),
+        ("picture", [255, 255, 255], [200, 160, 90]),
+        ("#204060", [32, 64, 96], [200, 160, 90]),
+    ],
+)
+def test_a_sprite_on_every_background(
+    sprite: Path, background: str | None, corner: list[int], on_body: list[int]
+) -> None:
+    said = ["--background", background] if background else []
+    arguments = ["animate", "sprite.png", "--mask", "hair.png", "--frames", "2", "--quiet", *said]
+    assert status(*arguments, "--output", "frames/") == 0
+    frame = np.array(Image.open("frames/frame_0001.png"))
+    assert frame[2, 2].tolist() == corner
+    assert frame[110, 40].tolist() == on_body
+    assert frame[60, 70, :3].tolist() == [70, 40, 30]
+
+
+def test_a_sprite_keeps_its_transparency_where_the_file_can(sprite: Path, capsys: Output) -> None:
+    arguments = ["animate", "sprite.png", "--mask", "hair.png", "--frames", "2", "--quiet"]
+    for name in ("a.webm", "a.webp", "a.gif", "a.apng"):
+        assert status(*arguments, "--output", name) == 0
+    with av.open("a.webm") as container:
+        assert "1" in container.streams.video[0].metadata.values()
+    for name in ("a.webp", "a.gif", "a.apng"):
+        with Image.open(name) as clip:
+            assert np.array(clip.convert("RGBA"))[2, 2, 3] == 0
+    assert status(*arguments, "--output", "a.mp4", "--save-svg", "a.svg", "--preview", "b.gif") == 0
+    with av.open("a.mp4") as container:
+        first = next(container.decode(video=0)).to_ndarray(format="rgb24")
+    assert first[2, 2].min() > 245  # white, not what is hidden there
+    assert status(*arguments, "--output", "c.webm", "--interpolate", "2") == 2
+    assert "one by one" in capsys.readouterr().err
+
+
+def test_pixel_art_stays_pixel_art(folder: Path, capsys: Output) -> None:
+    art = np.full((32, 32, 3), (90, 150, 220), np.uint8)
+    art[20:], art[4:24, 12:17] = (70, 160, 70), (90, 50, 20)
+    mask = np.zeros((32, 32), np.uint8)
+    mask[4:24, 12:17] = 255
+    save_image("hero.png", art)
+    save_image("strand.png", mask)
+    arguments = ["animate", "hero.png", "--mask", "strand.png", "--frames", "20", "--wind", "4", "--width", "96"]
+    assert status(*arguments, "--pixel-art", "--output", "pixels/") == 0
+    frames = [np.array(Image.open(path)) for path in sorted(Path("pixels").glob("*.png"))]
+    assert (frames[0] == art.repeat(3, axis=0).repeat(3, axis=1)).all()
+    assert len(np.unique(np.concatenate(frames).reshape(-1, 3), axis=0)) == 3
+    assert any((frame != frames[0]).any() for frame in frames)
+    assert "looks like pixel art" not in capsys.readouterr().err
+    assert status(*arguments, "--output", "smooth/") == 0
+    assert "--pixel-art keeps its pixels hard" in capsys.readouterr().err
+    assert status(*arguments, "--pixel-art", "--interpolate", "2", "--output", "c.gif") == 2
+
+
 def test_data_for_other_programs(folder: Path) -> None:
     arguments = "animate girl.png --mask hair.png --frames 6 --skip 2 --width 80 --quiet --output o.mp4"
     arguments += " --save-tracks tracks.json --track-points 5 --track-static 3 --track-frames 9"
@@ -142,6 +213,9 @@ def test_quiet_says_nothing(folder: Path, capsys: Output) -> None:
         ("animate girl.png --mask hair.png --output o.avi", "output must end in .mp4"),
         ("animate girl.png --mask hair.png --output none/o.mp4", "folder for none/o.mp4 must exist"),
         ("animate girl.png --mask hair.png --output o.mp4 --background transparent", "must end in .webm"),
+        ("animate girl.png --mask hair.png --output o.mp4 --background parts", "must end in .webm"),
+        ("animate girl.png --mask hair.png --output o.mp4 --background purpel", "background must be picture"),
+        ("animate girl.png --mask hair.png --output o.gif --background parts --interpolate 2", "one by one"),
         ("animate girl.png --mask hair.png --output o.mp4 --preview p.txt", "output must end in .mp4"),
         ("animate girl.png --mask hair.png --output o.mp4 --preview o.mp4", "its own name"),
         ("animate girl.png --mask hair.png --output o.mp4 --preset steel", "preset must be one of"),

@@ -13,6 +13,7 @@ from physanimator.physics.errors import InvalidInputError, PhysAnimatorError
 from physanimator.physics.material import PRESETS
 from physanimator.pipeline import animate
 from physanimator.rendering.animation import Animation
+from PIL import Image
 
 WIDTH, HEIGHT = 160, 120
 FRAMES = 13
@@ -201,6 +202,35 @@ def test_bad_input_is_refused_in_one_sentence(changes: dict[str, Any], words: st
         animate(**inputs)
     assert isinstance(caught.value, PhysAnimatorError)
     assert "\n" not in str(caught.value)
+
+
+def sprite() -> np.ndarray:
+    """The strip before a body narrower than it is long, on transparency."""
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
+    image = np.zeros((HEIGHT, WIDTH, 4), np.uint8)
+    image[(np.abs(x - 60) < 30) & (y > 50)] = (200, 160, 90, 255)
+    image[strip()] = (70, 40, 30, 255)
+    return image
+
+
+def test_a_picture_with_transparency_moves_on_it(tmp_path: Path) -> None:
+    animation = animate(sprite(), [strip()], frames=FRAMES, wind_strength=3.0)
+    frames = list(animation.frames())
+    assert (frames[0] == sprite()).all()
+    assert (frames[-1] != frames[0]).any(axis=2).sum() > 50
+    assert all(frame[2:10].max() == 0 for frame in frames)
+    assert [each.shape[2] for each in (next(animation.previews()), next(animation.frames(background="white")))] == [
+        3,
+        3,
+    ]
+    assert next(animation.sketches()).min() < 0.5
+    for name, channels in (("clip/", 4), ("white/", 3)):
+        animation.save(f"{tmp_path}/{name}", background=None if channels == 4 else "white", width=81)
+        assert np.array(Image.open(tmp_path / name / "frame_0003.png")).shape == (61, 81, channels)
+    animation.save(tmp_path / "clip.mp4")
+    animation.save(tmp_path / "sparse.gif", every=3)
+    with pytest.raises(InvalidInputError, match="one by one"):
+        animation.save(tmp_path / "sparse.webm", every=3, background="parts")
 
 
 def test_in_betweens_cannot_be_transparent(windy: Animation) -> None:

@@ -13,7 +13,7 @@ from math import log
 
 from ...physics.errors import require
 
-__all__ = ["CLIP_FRAMES", "OVERLAP", "FrameLayout", "KeyFrames"]
+__all__ = ["CLIP_FRAMES", "LEAST_OVERLAP", "OVERLAP", "FrameLayout", "KeyFrames"]
 
 CLIP_FRAMES = 14
 """Frames that the network was trained to make together."""
@@ -21,7 +21,7 @@ CLIP_FRAMES = 14
 OVERLAP = 4
 """Frames that one segment shares with the next in LVCD."""
 
-_EARLIER = 3
+LEAST_OVERLAP = 3
 """So many frames before themselves lie the keys of a later segment's new frames."""
 
 
@@ -94,11 +94,11 @@ class FrameLayout:
         runs = (
             KeyFrames(tuple(range(references))),
             KeyFrames(tuple(again), tuple(frame - overlap for frame in again), log(amplification)),
-            KeyFrames(tuple(frame - _EARLIER for frame in new), (0,) * len(new)),
+            KeyFrames(tuple(frame - LEAST_OVERLAP for frame in new), (0,) * len(new)),
         )
         return cls(references, runs)
 
 
 def _references(overlap: int) -> int:
-    require("overlap", overlap, _EARLIER <= overlap < CLIP_FRAMES, f"{_EARLIER} to {CLIP_FRAMES - 1} frames")
+    require("overlap", overlap, LEAST_OVERLAP <= overlap < CLIP_FRAMES, f"{LEAST_OVERLAP} to {CLIP_FRAMES - 1} frames")
     return 1 + overlap

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...physics.errors import require
-from .frame_layout import OVERLAP
-from .working_size import TRAINED_HEIGHT, TRAINED_WIDTH
+from ..number_checks import check_number, check_whole
+from .frame_layout import CLIP_FRAMES, LEAST_OVERLAP, OVERLAP
+from .working_size import LARGEST_AREA, SMALLEST_AREA, TRAINED_HEIGHT, TRAINED_WIDTH
 
 __all__ = ["DECODED_TOGETHER", "SketchVideoOptions"]
 
@@ -39,7 +39,11 @@ class SketchVideoOptions:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        require("steps", self.steps, self.steps >= 2, "2 or more")
-        require("motion_bucket", self.motion_bucket, 1 <= self.motion_bucket <= 255, "1 to 255")
-        require("frames_per_second", self.frames_per_second, self.frames_per_second >= 1, "1 or more")
-        require("picture_noise", self.picture_noise, self.picture_noise >= 0, "0 or more")
+        check_whole("steps", self.steps, 2, 1000)
+        check_whole("motion_bucket", self.motion_bucket, 1, 255)
+        check_whole("frames_per_second", self.frames_per_second, 1, 1000)
+        check_number("picture_noise", self.picture_noise, 0, 10)
+        check_whole("overlap", self.overlap, LEAST_OVERLAP, CLIP_FRAMES - 1, unit=" frames")
+        check_whole("area", self.area, SMALLEST_AREA, LARGEST_AREA, unit=" px^2")
+        check_whole("decoded_together", self.decoded_together, 1, 10_000, unit=" frames")
+        check_whole("seed", self.seed, -(2**63), 2**64 - 1)

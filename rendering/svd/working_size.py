@@ -11,12 +11,15 @@ from numpy.typing import NDArray
 
 from ...physics.errors import require
 
-__all__ = ["TRAINED_HEIGHT", "TRAINED_WIDTH", "Frame"]
+__all__ = ["LARGEST_AREA", "SMALLEST_AREA", "TRAINED_HEIGHT", "TRAINED_WIDTH", "Frame"]
 
 TRAINED_WIDTH, TRAINED_HEIGHT = 576, 320
 """What LVCD was trained with [px]."""
 
 _SIDE = 64
+
+SMALLEST_AREA, LARGEST_AREA = _SIDE * _SIDE, 8192 * 8192
+"""Between these the networks have something to see, and finding a size for them ends [px^2]."""
 
 FloatImage = NDArray[np.float32]
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
-from ...physics.errors import require
+from ...physics.errors import InvalidInputError, require
 
 __all__ = [
     "AutoencoderConfiguration",
@@ -26,7 +26,8 @@ class _FromValues:
         """From values by name, such as a JSON document's; lists become tuples."""
         if isinstance(values, cls):
             return values
-        assert isinstance(values, Mapping)
+        if not isinstance(values, Mapping):
+            raise InvalidInputError(f"configuration must hold values by name. Got: {type(values).__name__}")
         known = {field.name for field in fields(cls)}  # type: ignore[arg-type]
         unknown = sorted(set(values) - known)
         require("configuration", unknown, not unknown, f"made of {', '.join(sorted(known))}")

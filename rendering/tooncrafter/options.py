@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...physics.errors import require
+from ..number_checks import check_number, check_whole
+from ..svd.working_size import LARGEST_AREA, SMALLEST_AREA
 
 __all__ = ["CLIP_GAP", "SOLVERS", "TRAINED_HEIGHT", "TRAINED_WIDTH", "InterpolationOptions"]
 
@@ -49,12 +51,14 @@ class InterpolationOptions:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        require("steps", self.steps, 1 <= self.steps <= 1000, "1 to 1000")
         require("solver", self.solver, self.solver in SOLVERS, f"one of {', '.join(SOLVERS)}")
-        require("eta", self.eta, 0 <= self.eta <= 1, "0 to 1")
-        require("guidance", self.guidance, self.guidance >= 1, "1 or more")
-        require("guidance_rescale", self.guidance_rescale, 0 <= self.guidance_rescale <= 1, "0 to 1")
-        require("frame_rate", self.frame_rate, self.frame_rate >= 1, "1 or more")
-        require("control_scale", self.control_scale, self.control_scale >= 0, "0 or more")
-        require("pairs_together", self.pairs_together, self.pairs_together >= 1, "1 or more")
-        require("decoded_together", self.decoded_together, self.decoded_together >= 1, "1 or more")
+        check_whole("steps", self.steps, 1, 1000)
+        check_number("eta", self.eta, 0, 1)
+        check_number("guidance", self.guidance, 1, 1000)
+        check_number("guidance_rescale", self.guidance_rescale, 0, 1)
+        check_whole("frame_rate", self.frame_rate, 1, 1000)
+        check_number("control_scale", self.control_scale, 0, 1000)
+        check_whole("area", self.area, SMALLEST_AREA, LARGEST_AREA, unit=" px^2")
+        check_whole("pairs_together", self.pairs_together, 1, 10_000)
+        check_whole("decoded_together", self.decoded_together, 1, 10_000)
+        check_whole("seed", self.seed, -(2**63), 2**64 - 1)

@@ -35,6 +35,7 @@ browser = _sibling("browser")
 editor_page = _sibling("editor_page")
 _sibling("frame_interpolation_graph")
 _sibling("graphs")
+_sibling("small_graphs")
 _sibling("video_model_graphs")
 
 

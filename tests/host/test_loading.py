@@ -59,7 +59,9 @@ def test_the_entrypoint_gives_every_node_and_loads_nothing_heavy_too_early(host:
 
 
 def test_the_recorded_schemas_are_those_of_this_host(host: Any) -> None:
-    assert nodes_of(host) == SCHEMAS, "run tests/host/export_workflows.py"
+    # Newer hosts tell more of every node than 0.8.0, which has written the record.
+    told = {name: {key: node[key] for key in SCHEMAS.get(name, node)} for name, node in nodes_of(host).items()}
+    assert told == SCHEMAS, "run tests/host/export_workflows.py"
 
 
 def test_every_input_and_output_has_a_tooltip(host: Any) -> None:

@@ -39,7 +39,7 @@ class Server:
 
 class Simulate:
     @classmethod
-    def GET_SCHEMA(cls) -> Any:
+    def define_schema(cls) -> Any:
         return types.SimpleNamespace(display_name="Simulate")
 
 

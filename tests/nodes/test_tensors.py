@@ -10,6 +10,7 @@ from physanimator.nodes.tensors import (
     batch_of_pictures,
     mask_of,
     picture_of,
+    picture_with_alpha,
     pictures_of,
 )
 from physanimator.physics.errors import InvalidInputError
@@ -20,9 +21,40 @@ def test_picture_keeps_its_colours_exactly() -> None:
     assert np.array_equal(picture_of(image), image[0].numpy())
 
 
-def test_picture_drops_the_alpha_channel() -> None:
-    image = torch.rand(1, 5, 7, 4)
-    assert np.array_equal(picture_of(image), image[0, ..., :3].numpy())
+def test_hidden_colours_are_never_shown() -> None:
+    image = torch.rand(2, 5, 7, 4)
+    image[..., 3] = torch.tensor([0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.25])
+    for shown, given in zip(pictures_of(image), image.numpy(), strict=True):
+        assert (shown[:, [0, 2, 4]] == 1).all()
+        assert np.array_equal(shown[:, [1, 3, 5]], given[:, [1, 3, 5], :3])
+        assert np.allclose(shown[:, 6], 0.25 * given[:, 6, :3] + 0.75)
+    assert np.array_equal(picture_of(image[:1]), pictures_of(image)[0])
+
+
+def test_a_picture_keeps_its_alpha_where_that_is_wanted() -> None:
+    image = torch.rand(1, 5, 7, 4) * 0.5 + 0.25
+    image[0, 2, 3, 3] = 0
+    kept = picture_with_alpha(image)
+    assert kept.shape == (5, 7, 4)
+    assert kept[2, 3].tolist() == [0, 0, 0, 0]
+    elsewhere = np.ones((5, 7), bool)
+    elsewhere[2, 3] = False
+    assert np.array_equal(kept[elsewhere], image[0].numpy()[elsewhere])
+    image[..., 3] = 1
+    assert np.array_equal(picture_with_alpha(image), image[0, ..., :3].numpy())
+
+
+def test_the_mask_of_load_image_is_a_picture_s_transparency() -> None:
+    image, mask = torch.rand(1, 5, 7, 3), torch.zeros(1, 5, 7)
+    mask[0, :, 4:] = 1
+    kept = picture_with_alpha(image, mask)
+    assert np.array_equal(kept[..., 3], 1 - mask[0].numpy())
+    assert np.array_equal(kept[:, :4, :3], image[0, :, :4].numpy())
+    assert (kept[:, 4:] == 0).all()
+    # With an opaque file the host gives an empty mask of 64 x 64 px.
+    assert np.array_equal(picture_with_alpha(image, torch.zeros(1, 64, 64)), image[0].numpy())
+    with pytest.raises(InvalidInputError, match=r"^image_alpha must be of the picture's size, 7 x 5 px. Got: 8 x 8 px"):
+        picture_with_alpha(image, torch.ones(1, 8, 8))
 
 
 def test_picture_is_clipped_to_displayable_colours() -> None:

@@ -10,6 +10,7 @@ from physanimator.physics.meshing import mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
 from physanimator.rendering.control_video import first_and_last, line_frames, warped_frames
+from physanimator.rendering.layers import Layer
 from physanimator.rendering.video_format import VideoFormat
 
 WIDTH, HEIGHT = 160, 96
@@ -91,3 +92,11 @@ def test_first_and_last_frame_come_in_the_wanted_size() -> None:
     assert end[24, 42, 0] > 0.8
     with pytest.raises(InvalidInputError, match="last_frame"):
         first_and_last(image(), [MASK], motion(), form, last=3)
+
+
+def test_every_layer_is_drawn_once_a_frame_and_once_at_rest(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[int] = []
+    whole = Layer.drawn
+    monkeypatch.setattr(Layer, "drawn", lambda *given: (drawn.append(1), whole(*given))[1])
+    assert len(list(warped_frames(image(), [MASK], motion(), FORM))) == 5
+    assert len(drawn) == 5 + 1

@@ -43,6 +43,17 @@ def test_transparent_areas_are_laid_over_white(tmp_path: Path) -> None:
     assert np.abs(loaded[6] - (drawing()[6] * 128.0 + 255 * 127.0) / 255).max() <= 1
 
 
+def test_alpha_is_kept_where_it_is_wanted_and_there_is_some(tmp_path: Path) -> None:
+    pixels = np.array([[[200, 100, 50, 255], [10, 20, 30, 128], [250, 0, 250, 0]]], np.uint8)
+    Image.fromarray(pixels).save(tmp_path / "clear.png")
+    assert load_image(tmp_path / "clear.png", alpha=True).tolist() == [
+        [[200, 100, 50, 255], [10, 20, 30, 128], [0] * 4]
+    ]
+    pixels[..., 3] = 255
+    Image.fromarray(pixels).save(tmp_path / "full.png")
+    assert load_image(tmp_path / "full.png", alpha=True).tolist() == pixels[..., :3].tolist()
+
+
 def test_palette_with_a_transparent_colour(tmp_path: Path) -> None:
     picture = Image.fromarray(np.array([[0, 1], [1, 0]], np.uint8)).convert("P")
     picture.putpalette([10, 20, 30, 200, 100, 50])

@@ -306,6 +306,8 @@ def test_every_backend_describes_itself() -> None:
         ({"backend": "magic"}, "backend must be one of motion, flow, blend. Got: 'magic'"),
         ({"indices": [0]}, r"indices must be one per keyframe \(2\). Got: 1"),
         ({"indices": [5, 5]}, "indices must be increasing"),
+        ({"indices": [-3, 5]}, "indices must be increasing frame numbers from 0"),
+        ({"indices": [0, 4.5]}, "indices must be increasing frame numbers from 0"),
         ({"indices": [0, 11]}, "indices must be within the motion's frames 0 to 10"),
         ({"keyframes": []}, "keyframes must be at least one"),
         ({"masks": [0, 0]}, r"masks must be none or one per body \(1\)"),
@@ -324,3 +326,9 @@ def test_bad_input_raises_at_once(
 def test_bad_keyframe_plans(count: int, every: int) -> None:
     with pytest.raises(InvalidInputError, match="must be at least 1 frame"):
         keyframe_indices(count, every)
+
+
+def test_a_clip_may_begin_with_a_later_keyframe() -> None:
+    dark, light = np.zeros((8, 8, 3), np.uint8), np.full((8, 8, 3), 200, np.uint8)
+    frames = list(interpolate([dark, light], [3, 7], backend="blend"))
+    assert [int(frame[0, 0, 0]) for frame in frames] == [0, 50, 100, 150, 200]
