@@ -205,6 +205,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     from .pipeline import animate
     from .rendering.command_messages import say, warn
     from .rendering.command_outputs import background_for, report, write_outputs
+    from .rendering.cut_judgement import judge_points
     from .rendering.images import load_image
     from .rendering.pixel_art import pixel_art_hint
 
@@ -227,8 +228,10 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             max_minutes=options.max_minutes,
             **inputs,
         )
-        told = [*advice(animation.scene, masks=not getattr(options, "mask", None)), *stillness(animation.motion)]
-        for sentence in told:
+        points = inputs.get("points") or ()
+        cut = animation.masks[len(animation.masks) - len(points) :]
+        told = [*judge_points(cut, points), *advice(animation.scene, masks=not getattr(options, "mask", None))]
+        for sentence in [*told, *stillness(animation.motion)]:
             warn(f"physanimator: warning: {sentence}")
         write_outputs(options, animation, progress)
     if options.verbose:

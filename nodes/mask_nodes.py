@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from comfy_api.latest import io, ui
 
-from ..physics.errors import MeshingError
+from ..physics.errors import InvalidInputError, MeshingError
 from ..rendering.points import parse_points
 from .defaults import default_of
 from .literals import boxes_of, chosen, refusal
 from .messages import shown_with, tell_user
+from .other_segmenters import segmenter_advice
+from .running import sent_inputs
 from .sam_backend import missing_sam_files, sam_inputs, sam_network
 from .tensors import batch_of_masks, batch_of_pictures, mask_of, picture_of
 from .wires import MaskedMesh, MeshWire
@@ -20,11 +22,18 @@ from .wires import MaskedMesh, MeshWire
 if TYPE_CHECKING:
     import torch
 
+    from ..physics.query_points import QueryPoint
+
 __all__ = ["MaskToMesh", "SegmentByPoints"]
 
 _EMPTY = (
     "mask has no white: nothing would move. Load Image gives such a mask when its file has no transparency; paint one"
     " in the mask editor, or connect Segment by Points."
+)
+
+_NO_POINTS = (
+    "points is empty: click on what shall move (+ puts a point on it, - beside it), or give points such as"
+    " [[x, y, 1], ...], or a box."
 )
 
 _GRABCUT, _SAM = "grabcut", "segment anything"
@@ -43,10 +52,10 @@ class SegmentByPoints(io.ComfyNode):
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 io.String.Input(
                     "points",
-                    default="[[640, 360, 1]]",
+                    default="",
                     multiline=True,
-                    tooltip="Points in pixels as JSON: [[x, y, 1], ...] with 1 on the part and 0 beside it, and for"
-                    " several parts [[x, y, 1, part], ...] with the part's number, from 0;"
+                    tooltip="Click on the picture, or give points in pixels as JSON: [[x, y, 1], ...] with 1 on the"
+                    " part, 0 beside it; and for several parts [[x, y, 1, part], ...] with the part's number, from 0;"
                     ' also [{"x": .., "y": ..}] and {"positive": [...], "negative": [...]} from point editors,'
                     " and a scene document with query_points.",
                 ),
@@ -101,9 +110,10 @@ class SegmentByPoints(io.ComfyNode):
         cls, points: str | None = None, box: str | None = None, backend: dict[str, Any] | None = None, **others: Any
     ) -> bool | str:
         # The host hands over the inputs that a choice brings only to a function that takes every input.
+        unread = points is None or isinstance((sent_inputs() or {}).get("box"), list)
         checks = [lambda: boxes_of(box or "", name="box")]
-        if points is not None and (points.strip() or not box):
-            checks.append(lambda: parse_points(points, width=1 << 19, height=1 << 19))
+        if points is not None:
+            checks.append(lambda: _points_of(points, 1 << 19, 1 << 19, needed=not (unread or (box or "").strip())))
         return missing_sam_files(backend or {}) or refusal(*checks)
 
     @classmethod
@@ -117,6 +127,7 @@ class SegmentByPoints(io.ComfyNode):
         largest_hole: int = 0,
         smoothing: float = 0.0,
     ) -> io.NodeOutput:
+        from ..rendering.cut_judgement import judge_cuts
         from ..rendering.images import to_uint8
         from ..rendering.part_masks import segment_parts
         from ..rendering.prompts import prompts_of
@@ -124,14 +135,23 @@ class SegmentByPoints(io.ComfyNode):
         picture = picture_of(image)
         height, width = picture.shape[:2]
         boxes = boxes_of(box, name="box")
-        prompts = prompts_of(parse_points(points, width=width, height=height) if points.strip() else [], boxes)
+        prompts = prompts_of(_points_of(points, width, height, needed=not boxes), boxes)
         name, choice = chosen(backend or {"backend": _GRABCUT}, "backend", (_GRABCUT, _SAM))
         cleaning = {"smallest_speck": smallest_speck, "largest_hole": largest_hole, "smoothing": smoothing}
         with sam_network(choice) if name == _SAM else nullcontext() as network:
             masks = segment_parts(to_uint8(picture), prompts, network=network, **cleaning)
+        told = tell_user(cls, judge_cuts(masks, prompts, instead=segmenter_advice() if name == _GRABCUT else ""))
         faded = np.where(np.logical_or.reduce(masks)[..., None], picture, 0.75 + 0.25 * picture)
         preview = batch_of_pictures([faded], 1)
-        return io.NodeOutput(batch_of_masks(masks, len(masks)), preview, ui=ui.PreviewImage(preview))
+        return io.NodeOutput(batch_of_masks(masks, len(masks)), preview, ui=shown_with(ui.PreviewImage(preview), told))
+
+
+def _points_of(text: str, width: int, height: int, *, needed: bool) -> list[QueryPoint]:
+    """The points in the text; none where it is empty, unless they are needed."""
+    found = parse_points(text, width=width, height=height) if text.strip() else []
+    if needed and not found:
+        raise InvalidInputError(_NO_POINTS)
+    return found
 
 
 class MaskToMesh(io.ComfyNode):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-__all__ = ["missing_sam_model", "sam_choices", "sam_file"]
+__all__ = ["has_sam_model", "missing_sam_model", "sam_choices", "sam_file"]
 
 _KIND = "sams"
 _USUAL = ("sam2.1-hiera-base-plus/", "sam_vit_b_01ec64.pth")
@@ -15,6 +15,11 @@ _FILES = (".pth", ".safetensors")
 def sam_choices() -> list[str]:
     """Folders, written with a stroke at their end, and files; the usual names are always among them."""
     return list(dict.fromkeys([*(name for name, _ in _found()), *_USUAL]))
+
+
+def has_sam_model() -> bool:
+    """Whether there is any file or folder to choose from."""
+    return next(_found(), None) is not None
 
 
 def sam_file(choice: str) -> Path | None:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from .sketch import extract_sketch
 
-__all__ = ["cut_by_majority", "grab_cut", "window_of"]
+__all__ = ["cut_by_majority", "grab_cut", "window_of", "without_foreign_lines"]
 
 Mask = NDArray[np.bool_]
 Lab = NDArray[np.uint8]
@@ -72,6 +72,30 @@ def window_of(mask: Mask, *, margin: int) -> tuple[slice, slice]:
     """Rows and columns that hold the mask and a margin [px]."""
     left, top, columns, rows = cv2.boundingRect(mask.astype(np.uint8))
     return slice(max(0, top - margin), top + rows + margin), slice(max(0, left - margin), left + columns + margin)
+
+
+def without_foreign_lines(mask: Mask, lines: Mask, *, widest: int) -> Mask:
+    """The mask without drawn lines that only begin in it: a line that goes on outside belongs to the neighbour.
+
+    Torn off, such an end would move with the part as a dark speck and be missing from the neighbour's outline.
+
+    Args:
+        mask: shape [h, w].
+        lines: the drawn lines, shape [h, w].
+        widest: half the width of what is no more than a line [px].
+    """
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * widest + 1, 2 * widest + 1))
+    # Beyond the picture's border the part goes on.
+    core = cv2.dilate(cv2.erode(mask.astype(np.uint8), disc, borderValue=1), disc)
+    body = cv2.dilate(core, _SQUARE, iterations=2) > 0
+    count, labels = cv2.connectedComponents((mask & ~body).astype(np.uint8), connectivity=8)
+    sizes = np.bincount(labels.ravel(), minlength=count)
+    drawn = np.bincount(labels[lines], minlength=count)
+    outside = cv2.dilate((lines & ~mask).astype(np.uint8), _SQUARE) > 0
+    going_on = np.bincount(labels[outside], minlength=count) > 0
+    foreign = going_on & (2 * drawn > sizes)
+    foreign[0] = False
+    return mask & ~foreign[labels]
 
 
 def _drawn_lines(lab: Lab) -> Mask:

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..physics.errors import InvalidInputError, require
-from .outline_cuts import cut_by_majority, grab_cut, window_of
+from .noise import noise_of, without_noise
+from .outline_cuts import cut_by_majority, grab_cut, window_of, without_foreign_lines
 from .pixels import as_picture, as_uint8
 from .prompts import Box, checked_box, checked_points
 from .sketch import extract_sketch
@@ -25,6 +26,8 @@ __all__ = ["segment"]
 Mask = NDArray[np.bool_]
 Lab = NDArray[np.uint8]
 
+# A part of a picture smaller than this may be a few pixels: too few to tell its colours, its lines and its edge apart.
+_ENOUGH = 256
 _LINE = 0.25  # a sketch is darker than this on a line, not on its soft rim
 
 
@@ -50,7 +53,7 @@ def segment(
         box: x0, y0, x1, y1 [px]; nothing outside it is selected. May replace the positive points.
         tolerance: how much colour may change from pixel to pixel within one region [8-bit Lab steps].
         iterations: rounds of GrabCut.
-        largest_hole: gaps in the mask up to this share of the picture are closed.
+        largest_hole: gaps in the mask up to this share of the picture are closed, and islands without a point left out.
         working_size: longest side at which regions and colours are weighed [px].
 
     Returns:
@@ -63,6 +66,9 @@ def segment(
     height, width = picture.shape[:2]
     seeds, positive = checked_points(points, labels, width, height)
     require("points", f"{len(seeds)} points", bool(positive.any()) or box is not None, "at least one positive point")
+    if (factor := _ENOUGH // max(width, height)) > 1:
+        options = {"tolerance": tolerance, "iterations": iterations, "largest_hole": largest_hole}
+        return _enlarged(picture, seeds, positive, box, factor, options)
     limit = _box_mask(box, width, height)
     for index in np.flatnonzero(positive):
         x, y = seeds[index].astype(int)
@@ -77,15 +83,36 @@ def segment(
     at = np.minimum((seeds * small_size / (width, height)).astype(int), np.array(small_size) - 1)
 
     trimap = trimap_from_points(lab, at, positive, small_limit, tolerance, has_box=box is not None)
+    lab = without_noise(lab, noise_of(lab, trimap == cv2.GC_FGD))
     found = cut_by_majority(lab, trimap, iterations, at[positive])
     mask = cv2.resize(found.astype(np.float32), (width, height), interpolation=cv2.INTER_LINEAR) > 0.5
     mask = _sharpened(picture, mask, reach=max(2, round(2 / scale)))
     mask = _with_outline(picture, mask) & limit
-    return _honouring(_filled(mask, largest_hole) & limit, seeds.astype(int), positive)
+    cells = seeds.astype(int)
+    mask = _without_crumbs(_filled(mask, largest_hole) & limit, largest_hole, cells[positive])
+    return _honouring(mask, cells, positive)
 
 
 def _as_uint8(image: NDArray[Any]) -> NDArray[np.uint8]:
     return np.ascontiguousarray(as_uint8(as_picture(image)))
+
+
+def _enlarged(
+    picture: NDArray[np.uint8],
+    seeds: NDArray[np.float64],
+    positive: NDArray[np.bool_],
+    box: Box | None,
+    factor: int,
+    options: dict[str, Any],
+) -> Mask:
+    """The mask of a tiny picture, such as a sprite: cut with every pixel drawn as a square, and counted by squares."""
+    large = picture.repeat(factor, axis=0).repeat(factor, axis=1)
+    middles = (np.floor(seeds) + 0.5) * factor
+    frame = None if box is None else (box[0] * factor, box[1] * factor, box[2] * factor, box[3] * factor)
+    mask = segment(large, middles, positive, box=frame, **options)
+    height, width = picture.shape[:2]
+    squares = mask.reshape(height, factor, width, factor).mean(axis=(1, 3))
+    return _honouring(squares > 0.5, seeds.astype(int), positive)
 
 
 def _box_mask(box: Box | None, width: int, height: int) -> Mask:
@@ -110,13 +137,14 @@ def _sharpened(picture: NDArray[np.uint8], mask: Mask, *, reach: int) -> Mask:
     trimap[core] = cv2.GC_FGD
     rows, columns = window_of(rim, margin=0)
     lab = cv2.cvtColor(np.ascontiguousarray(picture[rows, columns]), cv2.COLOR_RGB2Lab)
+    lab = without_noise(lab, noise_of(lab, core[rows, columns]))
     found = np.zeros(mask.shape, dtype=bool)
     found[rows, columns] = grab_cut(lab, trimap[rows, columns], 1)
     return found
 
 
 def _with_outline(picture: NDArray[np.uint8], mask: Mask, *, widest: int = 2) -> Mask:
-    """The mask with the drawn line around it: the outline belongs to the object."""
+    """The mask with the drawn line around it, which belongs to the object, and without the lines of others."""
     if not mask.any():
         return mask
     rows, columns = window_of(mask, margin=4 * widest)
@@ -126,8 +154,16 @@ def _with_outline(picture: NDArray[np.uint8], mask: Mask, *, widest: int = 2) ->
     for _ in range(widest):
         grown |= cv2.dilate(grown, cross) & lines
     result = mask.copy()
-    result[rows, columns] = grown > 0
+    result[rows, columns] = without_foreign_lines(grown > 0, lines, widest=widest)
     return result
+
+
+def _without_crumbs(mask: Mask, least: float, cells: NDArray[np.int_]) -> Mask:
+    """The mask without islands below a share of the picture on which there is no point."""
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
+    keep = stats[:, cv2.CC_STAT_AREA] > least * mask.size
+    keep[labels[cells[:, 1], cells[:, 0]]] = True
+    return mask & keep[labels]
 
 
 def _filled(mask: Mask, largest_hole: float) -> Mask:

@@ -1,7 +1,7 @@
 """What surely and what probably belongs to an object, from a few clicks on it: the start of a GrabCut.
 
-Drawn art is made of regions of slowly changing colour between outlines, so each point stands for the whole region
-around it; the colours of these regions then tell what is probable elsewhere.
+Pictures are made of regions of slowly changing colour, so each point stands for the whole region around it; the
+colours of these regions then tell what is probable elsewhere.
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from .clicked_regions import Looks
+
 __all__ = ["trimap_from_points"]
 
 Mask = NDArray[np.bool_]
 Lab = NDArray[np.uint8]
 
-# A region that grows over more than this share of the picture has probably leaked: smaller steps are tried.
-_LARGEST_REGION = 0.25
 _COLOUR_BINS = 24
 
 
@@ -40,10 +40,10 @@ def trimap_from_points(
 
 def _grown(lab: Lab, at: NDArray[np.int_], positive: NDArray[np.bool_], tolerance: int) -> tuple[Mask, Mask]:
     """The regions around the positive and around the negative points, without what both reach."""
-    smooth = cv2.bilateralFilter(lab, 5, 20, 3)
+    looks = Looks(lab)
     regions = {True: np.zeros(lab.shape[:2], bool), False: np.zeros(lab.shape[:2], bool)}
     for point, label in zip(at, positive, strict=True):
-        regions[bool(label)] |= _region(smooth, point, at[positive != label], tolerance)
+        regions[bool(label)] |= looks.region(point, at[positive != label], tolerance)
     both = regions[True] & regions[False]
     for label in (False, True):
         regions[label] &= ~both
@@ -53,21 +53,6 @@ def _grown(lab: Lab, at: NDArray[np.int_], positive: NDArray[np.bool_], toleranc
         regions[not label][row, column] = False
         regions[label][row, column] = True
     return regions[True], regions[False]
-
-
-def _region(smooth: Lab, point: NDArray[np.int_], others: NDArray[np.int_], tolerance: int) -> Mask:
-    """Pixels reached from a point over small steps of colour, fewer if that runs into a point of the other kind."""
-    height, width = smooth.shape[:2]
-    for step in range(tolerance, 0, -1):
-        reached = np.zeros((height + 2, width + 2), np.uint8)
-        flags = 4 | cv2.FLOODFILL_MASK_ONLY | (1 << 8)
-        seed = (int(point[0]), int(point[1]))
-        cv2.floodFill(smooth, reached, seed, (0, 0, 0), (step,) * 3, (step,) * 3, flags)
-        region = reached[1:-1, 1:-1] > 0
-        trusted = step == 1 or region.mean() < _LARGEST_REGION
-        if trusted and not region[others[:, 1], others[:, 0]].any():
-            return region
-    return np.zeros((height, width), dtype=bool)
 
 
 def _likely(lab: Lab, foreground: Mask, background: Mask) -> Mask:

@@ -8,7 +8,10 @@ it the example that comes with the pack is measured. Printed is the intersection
 - "clicked": from the points of --points (at most five, chosen by looking at the pictures), and its least and median
   when every point is moved at random by up to --jitter pixels;
 - "simulated": after each of --clicks clicks of the usual protocol, which puts the next click at the deepest place of
-  the largest mistake (Xu et al., Deep interactive object selection, 2016).
+  the largest mistake (Xu et al., Deep interactive object selection, 2016);
+- with --grid "grid" instead: from 1, 3 and 12 random points, with and without as many beside, on art without outlines
+  that a program draws, and on the samples as they are, painted over, noisy, blurred, compressed, scaled, posterised:
+  the least, the median, and how many cuts are specks (below a twentieth of the part) or swollen (above twice the part).
 """
 
 from __future__ import annotations
@@ -22,11 +25,13 @@ from typing import Any
 
 import cv2
 import numpy as np
-import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
+import source_tree  # loads this source tree as the package physanimator
 from physanimator.physics.errors import PhysAnimatorError
 from physanimator.rendering.images import load_image, load_mask
 from physanimator.rendering.segmentation import segment
 
+art = source_tree.helper("painted_art")
+DAMAGES, PARTS, TECHNIQUES, painted, points_in = art.DAMAGES, art.PARTS, art.TECHNIQUES, art.painted, art.points_in
 EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example"
 POINTS = Path(__file__).with_name("segmentation_points.json")
 
@@ -84,6 +89,38 @@ def simulated(image: np.ndarray, truth: np.ndarray, clicks: int) -> list[float]:
     return result
 
 
+def cases(folder: Path) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+    """Kind, picture and mask of everything in the grid."""
+    for technique in TECHNIQUES:
+        for seed, part in enumerate(PARTS):
+            yield technique, *painted(technique, part, width=640, height=480, seed=seed)
+    for _, image, truth in samples(folder):
+        for name, damage in DAMAGES.items():
+            yield f"sample, {name}", *damage(image, truth)
+
+
+def grid(folder: Path, seeds: int) -> dict[str, dict[str, Any]]:
+    """IoU of cuts from random points, by kind of picture and number of points on and beside the part."""
+    found: dict[str, list[tuple[float, float]]] = {}
+    for kind, image, truth in cases(folder):
+        for on, beside in ((1, 0), (1, 1), (3, 0), (3, 3), (12, 0), (12, 12)):
+            for seed in range(seeds):
+                points = points_in(truth, on, beside, seed=seed)
+                mask = segment(image, points[:, :2], points[:, 2])
+                pair = iou(mask, truth), float(mask.sum() / truth.sum())
+                for key in ("all", kind, f"{on} on, {beside} beside"):
+                    found.setdefault(key, []).append(pair)
+    return {key: summed(np.array(pairs)) for key, pairs in found.items()}
+
+
+def summed(pairs: np.ndarray) -> dict[str, Any]:
+    """What is printed of several cuts: IoU, and size as a share of the part's."""
+    overlap, size = pairs.T
+    quantiles = {"least": overlap.min(), "tenth": np.quantile(overlap, 0.1), "median": np.median(overlap)}
+    row = {key: round(float(value), 3) for key, value in quantiles.items()}
+    return {"cuts": len(pairs), **row, "specks": int((size < 0.05).sum()), "swollen": int((size > 2).sum())}
+
+
 def main() -> None:
     """Read the command line, measure, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -93,7 +130,14 @@ def main() -> None:
     parser.add_argument("--jitter", type=float, default=6, help="how far points are moved [px] (default 6)")
     parser.add_argument("--times", type=int, default=20, help="how often points are moved (default 20)")
     parser.add_argument("--json", action="store_true", help="print the whole document")
+    parser.add_argument("--grid", action="store_true", help="measure the grid of pictures and points instead")
+    parser.add_argument(
+        "--seeds", type=int, default=1, help="sets of random points for each cell of the grid (default 1)"
+    )
     options = parser.parse_args()
+    if options.grid:
+        print(json.dumps({"grid": grid(options.folder, options.seeds)}, indent=2))
+        return
     points = json.loads(options.points.read_text(encoding="utf-8"))
     document: dict[str, dict[str, Any]] = {"clicked": {}, "simulated": {}}
     for name, image, truth in samples(options.folder):

@@ -131,6 +131,26 @@ def test_bad_query_points_are_refused_before_any_work(host: Any, points: str) ->
     assert "points" in answer["node_errors"]["cut"]["errors"][0]["details"]
 
 
+@pytest.mark.parametrize("points", ["", "[]", '{"version": 2, "width": 320, "height": 180, "query_points": []}'])
+def test_no_points_ask_for_a_click_before_any_work(host: Any, points: str) -> None:
+    prompt = bar() | {"cut": ours("SegmentByPoints", image=["picture", 0], points=points)} | seen("cut", 0)
+    status, answer = host.post("/prompt", {"prompt": prompt})
+    assert status == 400
+    assert "click on what shall move" in answer["node_errors"]["cut"]["errors"][0]["details"]
+
+
+def test_an_unknown_backend_is_refused_before_any_work(host: Any) -> None:
+    cut = ours("SegmentByPoints", image=["picture", 0], points="[[40, 10]]", backend="sam2")
+    status, answer = host.post("/prompt", {"prompt": bar() | {"cut": cut} | seen("cut", 0)})
+    assert status == 400
+    assert "sam2" in json.dumps(answer)
+
+
+def test_most_of_the_picture_from_one_point_is_told(host: Any) -> None:
+    prompt = bar() | {"cut": ours("SegmentByPoints", image=["picture", 0], points="[[5, 5]]")} | seen("cut", 0)
+    assert "of the picture from one point" in " ".join(host.run(prompt)["cut"]["advice"])
+
+
 def test_a_point_outside_the_picture(host: Any) -> None:
     prompt = bar() | {"cut": ours("SegmentByPoints", image=["picture", 0], points="[[400, 10]]")} | seen("cut", 0)
     assert "points[0] must lie inside the picture of 320 x 180 px. Got: (400, 10)" in host.error_of(prompt)

@@ -70,11 +70,6 @@ def opened(page: Any, canvas: str, file: str, node_type: str) -> EditorPage:
 def test_points_are_clicked_on_the_picture_before_anything_has_run(host: Any, page: Any, canvas: str) -> None:
     editor = opened(page, canvas, uploaded(host, 600, 400), "SegmentByPoints")
     assert editor.ask("[editor.document.width, editor.document.height]") == [600, 400]
-    editor.press("select")
-    editor.focus()
-    for _ in range(editor.ask("editor.document.query_points.length")):
-        editor.ask("editor.select({ list: 'query_points', index: 0 })")
-        editor.keys("Delete")
     editor.press("query-positive")
     editor.click(120, 200)
     editor.press("query-negative")
@@ -91,6 +86,22 @@ def test_points_are_clicked_on_the_picture_before_anything_has_run(host: Any, pa
     mask = Image.open(io.BytesIO(host.view(host.run(prompt)["save"]["images"][0]))).convert("L")
     assert mask.getpixel((120, 200)) > 200
     assert mask.getpixel((450, 100)) < 50
+    assert page.problems == []
+
+
+def test_an_empty_picker_asks_for_a_click_and_a_strange_cut_is_told_in_the_node(
+    host: Any, page: Any, canvas: str
+) -> None:
+    editor = opened(page, canvas, uploaded(host, 600, 400), "SegmentByPoints")
+    assert editor.ask("node.widgets.find((one) => one.name === 'points').value") == ""
+    assert editor.selector('[data-note="empty"]').inner_text() == "Click on what shall move."
+    editor.press("query-positive")
+    editor.click(120, 200)
+    assert editor.selector('[data-note="empty"]').count() == 0
+    editor.ask("editor.advise(['The cut is 90 % of the picture.'])")
+    assert "90 %" in editor.selector('[data-note="advice"]').inner_text()
+    editor.click(150, 220)
+    assert editor.selector('[data-note="advice"]').count() == 0
     assert page.problems == []
 
 

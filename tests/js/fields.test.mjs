@@ -69,6 +69,7 @@ test("points are read in every form that the node takes, and written as a scene 
   const document = POINTS.read('{"version": 2, "width": 9, "height": 8, "query_points": [{"x": 1, "y": 2}]}');
   assert.deepEqual(JSON.parse(POINTS.write(document)), { version: 2, width: 9, height: 8, query_points: [{ x: 1, y: 2 }] });
   assert.throws(() => POINTS.read("12 13"), /not JSON/);
+  assert.deepEqual(POINTS.read("").query_points, []);
 });
 
 function graphOf(nodes, links) {

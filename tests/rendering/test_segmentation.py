@@ -9,8 +9,10 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from painted_art import DAMAGES, PARTS, TECHNIQUES, painted, points_in
 from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.images import load_image, load_mask
+from physanimator.rendering.outline_cuts import without_foreign_lines
 from physanimator.rendering.segmentation import segment
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example"
@@ -183,3 +185,83 @@ def test_strands_between_drawn_lines_are_one_lock() -> None:
     for x in range(30, 103, 12):
         picture[20:130, x - 1 : x + 1] = (60, 20, 20)
     assert overlap(segment(picture, [(36, 70), (60, 70), (96, 70), (170, 70)], [1, 1, 1, 0]), lock) > 0.9
+
+
+def test_a_line_that_goes_on_outside_stays_with_its_neighbour() -> None:
+    """A dark shape that a dark line of another thing runs into: the line is left out, a tip of the shape is not."""
+    mask, lines = disc(90, 70, 40), np.zeros((HEIGHT, WIDTH), bool)
+    lines[69:72, 125:190] = True  # runs on to the right
+    lines[20:35, 89:92] = True  # ends in a tip
+    cut = mask.copy()
+    cut[69:72, 125:145] = True
+    cut[20:35, 89:92] = True
+    kept = without_foreign_lines(cut, lines, widest=2)
+    assert not kept[69:72, 136:145].any()
+    assert kept[20:35, 89:92].all()
+    assert kept[mask].all()
+
+
+def test_crumbs_without_a_click_are_left_out() -> None:
+    """Dark lines of a neighbour that has the part's colour, next to it but not of it."""
+    picture, shape = page(), disc(70, 70, 40)
+    picture[shape] = (40, 24, 30)
+    for x in (118, 126, 134):
+        picture[60:66, x : x + 2] = (40, 24, 30)
+    mask = segment(picture, [(70, 70)], [1])
+    assert overlap(mask, shape) > 0.95
+    assert not mask[:, 116:].any()
+
+
+@pytest.mark.parametrize("scale", [1, 2, 5])
+def test_parts_of_a_few_pixels_are_cut_from_a_sprite(scale: int) -> None:
+    sprite, parts = np.full((32, 32, 3), (92, 148, 252), np.uint8), {}
+    sprite[24:] = (0, 168, 0)
+    sprite[8:26, 10:22] = (248, 184, 136)
+    places = {
+        "gem": (15, 18, 3, 3, (216, 40, 200)),
+        "eye": (12, 14, 2, 2, (0, 0, 0)),
+        "foot": (10, 26, 4, 3, (60,) * 3),
+    }
+    for name, (x, y, columns, rows, colour) in places.items():
+        parts[name] = np.zeros((32, 32), bool)
+        parts[name][y : y + rows, x : x + columns] = True
+        sprite[parts[name]] = colour
+    large = sprite.repeat(scale, axis=0).repeat(scale, axis=1)
+    for name, (x, y, columns, rows, _) in places.items():
+        click = ((x + columns / 2) * scale, (y + rows / 2) * scale)
+        truth = parts[name].repeat(scale, axis=0).repeat(scale, axis=1)
+        assert overlap(segment(large, [click], [1]), truth) > (0.99 if scale < 5 else 0.75), name
+
+
+def test_a_box_in_a_sprite() -> None:
+    sprite = np.full((32, 32, 3), (92, 148, 252), np.uint8)
+    sprite[10:16, 10:16] = (216, 40, 200)
+    mask = segment(sprite, np.zeros((0, 2)), [], box=(8, 8, 18, 18))
+    assert mask.sum() == 36
+
+
+@pytest.mark.parametrize("technique", TECHNIQUES)
+@pytest.mark.parametrize("part", PARTS)
+def test_art_without_outlines_gives_a_usable_first_cut(technique: str, part: str) -> None:
+    picture, truth = painted(technique, part, width=240, height=180, seed=5)
+    for on, beside, least in ((1, 0, 0.3), (7, 7, 0.7)):
+        points = points_in(truth, on, beside, seed=on)
+        assert overlap(segment(picture, points[:, :2], points[:, 2]), truth) > least, (on, beside)
+
+
+@pytest.mark.parametrize("damage", ["repainted", "noisy", "photo", "jpeg20", "posterised"])
+def test_damaged_art_gives_a_usable_cut(damage: str) -> None:
+    picture, shape = page(), disc(90, 70, 40)
+    picture[shape] = (220, 80, 70)
+    damaged, _ = DAMAGES[damage](picture, shape)
+    assert overlap(segment(damaged, [(90, 70)], [1]), shape) > 0.85
+
+
+def test_strokes_of_a_brush_are_no_regions() -> None:
+    """Texture of three pixels, which no filter of single pixels takes for noise."""
+    picture, shape = page(), disc(90, 70, 40)
+    picture[shape] = (120, 70, 50)
+    strokes = np.random.default_rng(3).normal(0, 30, (HEIGHT // 3, WIDTH // 3)).repeat(3, axis=0).repeat(3, axis=1)
+    picture = np.clip(picture + np.pad(strokes, ((0, 0), (0, WIDTH - strokes.shape[1])))[..., None], 0, 255)
+    mask = segment(picture.astype(np.uint8), [(90, 70), (70, 60), (100, 90)], [1, 1, 1])
+    assert overlap(mask, shape) > 0.8

@@ -9,6 +9,7 @@
  * @property {{read: (text: string) => SceneDocument, write: (document: SceneDocument) => string}} format  of the value
  * @property {string[][]} groups  of buttons
  * @property {boolean} moves  whether there is time and motion
+ * @property {string} [empty]  what to do while there are no points
  * @property {import("../preview/client.js").Fetch} fetch
  * @property {(text: string) => void} onChange  a new value
  * @property {() => void} onKept  the same, a moment later where something is about to move
@@ -131,6 +132,11 @@ export class Editor {
     this.notes.say(sentence);
   }
 
+  /** @param {string[]} sentences about what the node has made; they stay until something changes or it runs again */
+  advise(sentences) {
+    this.notes.show("advice", sentences.join("\n"));
+  }
+
   redraw() {
     this.scheduler.request();
   }
@@ -228,6 +234,8 @@ export class Editor {
   #showPanels() {
     this.stale = false;
     const { history, selection, document } = this.store;
+    const { empty = "" } = this.options;
+    if (empty) this.notes.keep("empty", document.query_points?.length ? "" : empty);
     const pressed = { ...this.shown, expand: this.dialog.open };
     for (const id of this.tools.keys()) Object.assign(pressed, { [id]: id === this.tool.id });
     const [past, future] = [history.past.length > 0, history.future.length > 0];
@@ -262,6 +270,7 @@ export class Editor {
     this.simulate();
     this.text = this.options.format.write(this.document);
     this.notes.show("value", "");
+    this.notes.show("advice", "");
     this.resize(this.document);
     this.options.onChange(this.text);
     // What the host does about a change can take longer than the simulation of the first frames, which it would hold up.

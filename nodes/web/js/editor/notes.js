@@ -27,6 +27,16 @@ export class Notes {
     if (passing) setTimeout(() => this.shown.get(name) === note && this.show(name, ""), PASSING);
   }
 
+  /**
+   * Show a sentence where it is not shown yet: screen readers say a new one each time.
+   *
+   * @param {string} name
+   * @param {string} text  empty: nothing
+   */
+  keep(name, text) {
+    if ((this.shown.get(name)?.textContent ?? "") !== text) this.show(name, text);
+  }
+
   /** @param {string} sentence that goes away by itself */
   say(sentence) {
     this.show("said", sentence, { passing: true });

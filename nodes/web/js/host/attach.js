@@ -7,6 +7,7 @@
  * @property {string[][]} groups
  * @property {boolean} moves
  * @property {[number, number]} size  of a new node, at least
+ * @property {string} [empty]  what to do while there are no points
  */
 
 import { Editor } from "../editor/editor.js";
@@ -118,6 +119,7 @@ function follow(app, api, node, value, editor) {
   };
   const ran = (/** @type {any} */ output) => {
     const [info] = output?.[OUTPUT] ?? [];
+    editor.advise(output?.advice ?? []);
     if (info) editor.backdrop.setRun(runOf(api, info)).catch((error) => editor.say(error.message));
   };
   chain(node, "onConfigure", () => queueMicrotask(look));

@@ -1,0 +1,117 @@
+"""Whether a mask that was cut from points can be what was meant, in sentences for the person who clicked."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .points import parse_points
+from .prompts import Box, Prompt
+
+__all__ = ["judge_cut", "judge_cuts", "judge_points"]
+
+Mask = NDArray[np.bool_]
+
+# Of the picture: a hundredth of a percent is 9 x 10 px of 1280 x 720, less than what is worth moving.
+_SPECK = 1e-4
+_LARGEST = 0.5
+
+
+def judge_cut(mask: Mask, points: ArrayLike, labels: ArrayLike, *, box: Box | None = None) -> list[str]:
+    """What is suspicious about a mask, given the points that it was cut from.
+
+    Args:
+        mask: shape [h, w].
+        points: x and y of each point [px], shape [k, 2].
+        labels: 1 for a point on the object, 0 for one beside it, shape [k].
+        box: x0, y0, x1, y1 [px] around the object, where one was given.
+
+    Returns:
+        Sentences, each with what to do; none where nothing is suspicious.
+    """
+    mask = np.asarray(mask, dtype=bool)
+    height, width = mask.shape
+    if not mask.any():
+        return ["Nothing was cut: put points on the middle of what shall move, or draw a box around it."]
+    cells = np.asarray(points, np.float64).reshape(-1, 2).astype(int)
+    cells = np.clip(cells, 0, (width - 1, height - 1))
+    positive = np.asarray(labels).reshape(-1).astype(bool)
+    found = [_specks(mask, cells[positive]), _holes(mask, cells[~positive])]
+    share = float(mask.mean())
+    if share > _LARGEST and box is None and positive.sum() == 1:
+        found.append(
+            f"The cut is {100 * share:.0f} % of the picture from one point, most likely the background too: put points"
+            " with 0 on what shall stay, or draw a box around what shall move."
+        )
+    return [each for each in found if each]
+
+
+def judge_cuts(masks: Sequence[Mask], prompts: Sequence[Prompt], *, instead: str = "") -> list[str]:
+    """What is suspicious about the masks of several parts.
+
+    Args:
+        masks: shape [h, w] each.
+        prompts: what was asked for, in the same order.
+        instead: what else cuts, named where anything is suspicious: a sentence.
+
+    Returns:
+        Sentences, with the number of the part where there are several.
+    """
+    told = []
+    for number, (mask, prompt) in enumerate(zip(masks, prompts, strict=True)):
+        part = f"Part {number}: " if len(masks) > 1 else ""
+        told += [part + each for each in judge_cut(mask, prompt.points, prompt.labels, box=prompt.box)]
+    return [*told, instead] if told and instead else told
+
+
+def judge_points(masks: Sequence[Mask], points: Sequence[Any]) -> list[str]:
+    """What is suspicious about masks that were cut each from points as they are read.
+
+    Args:
+        masks: shape [h, w] each.
+        points: for each mask what ``parse_points`` reads.
+
+    Returns:
+        Sentences, with the number of the mask where there are several.
+    """
+    prompts = []
+    for mask, given in zip(masks, points, strict=True):
+        clicked = parse_points(given, width=mask.shape[1], height=mask.shape[0])
+        prompts.append(Prompt([(each.x, each.y) for each in clicked], [each.positive for each in clicked]))
+    return judge_cuts(masks, prompts)
+
+
+def _specks(mask: Mask, cells: NDArray[np.int_]) -> str:
+    """About the points on the part around which hardly anything was cut."""
+    _, labels, statistics, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
+    areas = np.where(mask[cells[:, 1], cells[:, 0]], statistics[labels[cells[:, 1], cells[:, 0]], cv2.CC_STAT_AREA], 0)
+    small = areas <= max(1.0, _SPECK * mask.size)
+    if not small.any():
+        return ""
+    what, itself = "The point on the part", "itself"
+    if len(cells) > 1:
+        what = f"{small.sum()} of {len(cells)} points on the part"
+        itself = "itself" if small.sum() == 1 else "themselves"
+    places = ", ".join(f"({x}, {y})" for x, y in cells[small][:3]) + (", ..." if small.sum() > 3 else "")
+    return (
+        f"{what} cut out hardly more than {itself}, at {places}: {int(areas[small].max())} px at most. Put points"
+        " off lines and edges, more of them on other colours of the part, or draw a box around it."
+    )
+
+
+def _holes(mask: Mask, cells: NDArray[np.int_]) -> str:
+    """About the points beside the part that the cut surrounds, as if they had not been said."""
+    padded = np.pad(mask, 1)
+    rings = [padded[y : y + 3, x : x + 3].sum() - mask[y, x] for x, y in cells]
+    inside = np.array([ring == 8 or mask[y, x] for ring, (x, y) in zip(rings, cells, strict=True)], dtype=bool)
+    if not inside.any():
+        return ""
+    places = ", ".join(f"({x}, {y})" for x, y in cells[inside][:3]) + (", ..." if inside.sum() > 3 else "")
+    return (
+        f"The cut goes around {inside.sum()} of {len(cells)} points beside the part, at {places}: put more points with"
+        " 0 there, or draw a box around the part."
+    )
