@@ -45,7 +45,7 @@ def judge_cut(mask: Mask, points: ArrayLike, labels: ArrayLike, *, box: Box | No
     if share > _LARGEST and box is None and positive.sum() == 1:
         found.append(
             f"The cut is {100 * share:.0f} % of the picture from one point, most likely the background too: put points"
-            " with 0 on what shall stay, or draw a box around what shall move."
+            " beside it (0) on what shall stay, or draw a box around what shall move."
         )
     return [each for each in found if each]
 
@@ -112,6 +112,6 @@ def _holes(mask: Mask, cells: NDArray[np.int_]) -> str:
         return ""
     places = ", ".join(f"({x}, {y})" for x, y in cells[inside][:3]) + (", ..." if inside.sum() > 3 else "")
     return (
-        f"The cut goes around {inside.sum()} of {len(cells)} points beside the part, at {places}: put more points with"
-        " 0 there, or draw a box around the part."
+        f"The cut goes around {inside.sum()} of {len(cells)} points beside the part, at {places}: put more points"
+        " beside the part (0) there, or draw a box around the part."
     )
