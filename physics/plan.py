@@ -45,9 +45,6 @@ WIND_WORK = 4.0
 STROKE_WORK = 750.0
 """Work of finding the particles of one stroke in a tick, whether it has any or not, in triangle updates."""
 
-RIG_WORK = 100.0
-"""Work of leading one rig point in a tick, in triangle updates."""
-
 CONTACT_WORK = 1.3
 """Factor on the work of bodies that touch."""
 
@@ -69,8 +66,7 @@ class SimulationPlan:
         outline_points: points of the outlines of colliders, where bodies can come, about.
         crossings: pixel edges that the outlines of colliders' masks follow.
         work: triangle updates in all; flow particles count for some.
-        outside_work: the part of it that is not done on triangles and particles but on strokes, rig points, wind and
-            outlines.
+        outside_work: the part of it that is not done on triangles and particles but on strokes, wind and outlines.
         estimated_seconds: of computing, on one core of an ordinary machine.
         costliest_body: number of the body with the connected part that takes the most work.
         sway: what became of the sway frequencies that materials ask for.
@@ -130,7 +126,7 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
     counts = NO_OUTLINES if scene.contact is None else count_outlines(scene, outline_spacing(scene, system))
     outline_work = OUTLINE_WORK * counts.points + CROWDING_WORK * counts.crowding
     free, ticks = int(system.free.sum()), math.ceil(duration / TICK)
-    outside = STROKE_WORK * len(scene.strokes) + RIG_WORK * len(scene.rig_points) + outline_work
+    outside = STROKE_WORK * len(scene.strokes) + outline_work
     outside += WIND_WORK * free if scene.wind is not None else 0.0
     work = ticks * (float(elastic.sum()) + PARTICLE_WORK * alive * free + outside)
     return SimulationPlan(
