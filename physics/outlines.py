@@ -51,6 +51,7 @@ _FARTHEST = 4.0  # [side] at most: nobody sees what touches out there
 _SMALLEST_COLLIDER = 4.0  # [px^2]
 _PAIRS_AT_ONCE = 1 << 17  # of a point and an edge, each some 100 bytes
 _BANDS = 512
+_PIXELS_AT_ONCE = 1 << 22
 _POINTS_AT_ONCE = 64  # each may be near every edge
 
 
@@ -153,13 +154,23 @@ def _add_to(crowd: dict[tuple[int, int], float], places: FloatArray, share: floa
 
 def _crossing_places(mask: NDArray[np.bool_]) -> FloatArray:
     """Where the outline of a mask passes between two pixels, in its pixels, shape [n, 2]."""
-    right, below = np.nonzero(mask[:, 1:] != mask[:, :-1]), np.nonzero(mask[1:] != mask[:-1])
-    return np.concatenate([np.column_stack(each[::-1]) for each in (right, below)]).astype(np.float64)
+    places, rows = [np.zeros((0, 2))], max(1, _PIXELS_AT_ONCE // mask.shape[1])
+    for first in range(0, len(mask), rows):
+        checkpoint()
+        some = mask[first : first + rows + 1]
+        for found in (np.nonzero(some[:rows, 1:] != some[:rows, :-1]), np.nonzero(some[1:] != some[:-1])):
+            places.append(np.column_stack(found[::-1]) + [0.0, first])
+    return np.concatenate(places)
 
 
 def _crossings(mask: NDArray[np.bool_]) -> int:
     """Between how many neighbouring pixels a mask's outline passes."""
-    across = int(np.count_nonzero(mask[:, 1:] != mask[:, :-1])) + int(np.count_nonzero(mask[1:] != mask[:-1]))
+    across, rows = 0, max(1, _PIXELS_AT_ONCE // mask.shape[1])
+    for first in range(0, len(mask), rows):
+        checkpoint()
+        some = mask[first : first + rows + 1]
+        across += int(np.count_nonzero(some[1:] != some[:-1]))
+        across += int(np.count_nonzero(some[:rows, 1:] != some[:rows, :-1]))
     return across + int(sum(np.count_nonzero(border) for border in (mask[0], mask[-1], mask[:, 0], mask[:, -1])))
 
 

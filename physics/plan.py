@@ -45,9 +45,6 @@ WIND_WORK = 4.0
 STROKE_WORK = 750.0
 """Work of finding the particles of one stroke in a tick, whether it has any or not, in triangle updates."""
 
-RIG_WORK = 100.0
-"""Work of leading one rig point in a tick, in triangle updates."""
-
 CONTACT_WORK = 1.3
 """Factor on the work of bodies that touch."""
 
@@ -69,6 +66,7 @@ class SimulationPlan:
         outline_points: points of the outlines of colliders, where bodies can come, about.
         crossings: pixel edges that the outlines of colliders' masks follow.
         work: triangle updates in all; flow particles count for some.
+        outside_work: the part of it that is not done on triangles and particles but on strokes, wind and outlines.
         estimated_seconds: of computing, on one core of an ordinary machine.
         costliest_body: number of the body with the connected part that takes the most work.
         sway: what became of the sway frequencies that materials ask for.
@@ -84,6 +82,7 @@ class SimulationPlan:
     outline_points: int
     crossings: int
     work: float
+    outside_work: float
     estimated_seconds: float
     costliest_body: int
     sway: tuple[SwayPart, ...]
@@ -126,11 +125,10 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
     chosen = schedule(triangles, system.substeps, threads=None if scene.contact is None else 1)
     counts = NO_OUTLINES if scene.contact is None else count_outlines(scene, outline_spacing(scene, system))
     outline_work = OUTLINE_WORK * counts.points + CROWDING_WORK * counts.crowding
-    drawn_work = STROKE_WORK * len(scene.strokes) + RIG_WORK * len(scene.rig_points)
-    blown = WIND_WORK if scene.wind is not None else 0.0
-    forces = (PARTICLE_WORK * alive + blown) * int(system.free.sum())
-    in_a_tick = float(elastic.sum()) + forces + outline_work + drawn_work
-    work = math.ceil(duration / TICK) * in_a_tick
+    free, ticks = int(system.free.sum()), math.ceil(duration / TICK)
+    outside = STROKE_WORK * len(scene.strokes) + outline_work
+    outside += WIND_WORK * free if scene.wind is not None else 0.0
+    work = ticks * (float(elastic.sum()) + PARTICLE_WORK * alive * free + outside)
     return SimulationPlan(
         frames=frames,
         frame_rate=scene.frame_rate,
@@ -140,6 +138,7 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
         outline_points=counts.points,
         crossings=counts.crossings,
         work=work,
+        outside_work=ticks * outside,
         estimated_seconds=(work + CROSSING_WORK * counts.crossings) / UPDATES_PER_SECOND,
         costliest_body=int(system.bodies[system.starts[elastic.argmax(), 0]]),
         sway=system.sway,

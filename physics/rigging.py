@@ -37,6 +37,7 @@ EDGE = 1e-6
 
 
 _CORNERS_AT_ONCE = 64
+_PIXELS_OF_DISTANCES = 2**25  # larger masks are made coarser for distances from them
 
 
 class Points(NamedTuple):
@@ -223,5 +224,10 @@ def _outside_mask(mask: NDArray[np.bool_], mesh: TriangleMesh | Points) -> Float
     size = np.array([mask.shape[1], mask.shape[0]])
     scaled = mesh.vertices * (size / [mesh.width, mesh.height])
     column, row = np.clip(np.floor(scaled), 0, size - 1).astype(np.int64).T
+    coarse = math.ceil(math.sqrt(mask.size / _PIXELS_OF_DISTANCES))  # pixels that are taken together each way
+    if coarse > 1:
+        starts = [np.arange(0, length, coarse) for length in mask.shape]
+        mask = np.logical_or.reduceat(np.logical_or.reduceat(mask, starts[0], axis=0), starts[1], axis=1)
     distances = cv2.distanceTransform((~mask).view(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    return distances[row, column].astype(np.float64) * (mesh.longest_side / float(size.max()))
+    found = distances[row // coarse, column // coarse].astype(np.float64) * coarse
+    return found * (mesh.longest_side / float(size.max()))

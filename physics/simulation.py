@@ -38,6 +38,7 @@ OnFrame = Callable[[int, NDArray[np.float32]], None]
 """Called with the number of a frame and its positions [px], shape [v, 2]: to be read before it returns."""
 
 _LAUNCH_WORK = 2e6  # triangle updates: some 15 ms, for which a launch stops the other threads of the process
+_OUTSIDE_WORK = 3e7  # the same for what is not done on triangles
 _ON_TICK = 1e-6  # [ticks]
 
 
@@ -170,7 +171,11 @@ def _displacements(
     solid, size = _solid(scene, system, start), len(system.masses)
     done, _ = _ticks(first, scene.frame_rate)
     ticks = max(1.0, (planned.frames - 1) / (planned.frame_rate * TICK))
-    block = max(1, int(_LAUNCH_WORK * ticks / (planned.work + ticks * size)))
+    inside = planned.work - planned.outside_work
+    block = int(
+        min(_LAUNCH_WORK * ticks / (inside + ticks * size), _OUTSIDE_WORK * ticks / max(planned.outside_work, 1))
+    )
+    block = max(1, block)
     if scene.contact is None:
         state = State.at_rest(solid)._replace(displacement=start.copy())
         run = partial(_run, scene, solid, state, block=block)

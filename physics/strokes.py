@@ -172,7 +172,7 @@ class EnergyStroke:
         most = self.most_particles
         require(
             "interval",
-            f"{self.interval} s, with {most:.0f} particles under way at once",
+            f"{self.interval} s, with {most:.6g} particles under way at once",
             most <= MAX_PARTICLES_OF_STROKE,
             f"so long, or the speed ({self.speed} px/s) so high, that at most {MAX_PARTICLES_OF_STROKE} particles"
             f" are under way at once on a path of {self.polyline.length:.0f} px",
