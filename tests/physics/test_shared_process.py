@@ -135,7 +135,7 @@ def ended(code: str, folder: Path) -> list[str]:
     script = folder / "script.py"  # a file, because Taichi reads the source of kernels
     end = "\nimport hashlib\nfor result in results:\n    print('result', hashlib.sha256(result).hexdigest())\n"
     script.write_text(START + code + end, encoding="utf-8")
-    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=240)
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr[-2000:]
     return [line for line in done.stdout.splitlines() if line.startswith("result")]
 
@@ -158,7 +158,7 @@ def told(code: str, folder: Path) -> str:
     """What a script printed, where it ended well."""
     script = folder / "script.py"
     script.write_text(START + code, encoding="utf-8")
-    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=240)
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr[-2000:]
     return "".join(line for line in done.stdout.splitlines(True) if not line.startswith("[Taichi]"))
 
