@@ -23,10 +23,10 @@ MOST_TRIANGLES = 200_000
 """A mesh that would have more is refused."""
 
 _WANTED_TRIANGLES = 2000
+_MOST_PIXELS = 2**27  # of a mask that is continued past the border, with room around it
 _EQUILATERAL = np.sqrt(3) / 4
 # Bounds of the spacings that are chosen here, in pixels and in units. A unit is the longest side of a picture on which
 # white of this size is as large as a head of hair usually is: an empty margin around a drawing changes no mesh.
-_MOST_PIXELS = 2**27  # of a mask that is continued past the border, with room around it
 _USUAL_LENGTH = 0.46
 _LEAST_SPACING_PX, _LEAST_SPACING = 5.0, 0.0075
 _LEAST_FLOOR_PX, _MOST_FLOOR = 2.5, 0.0075
