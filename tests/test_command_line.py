@@ -207,7 +207,8 @@ def test_figures_are_written(folder: Path, capsys: Output, name: str) -> None:
 
 
 def test_quiet_says_nothing(folder: Path, capsys: Output) -> None:
-    assert status("animate", "girl.png", "--mask", "hair.png", "--frames", "2", "--quiet", "--output", "o.mp4") == 0
+    arguments = "animate girl.png --mask hair.png --frames 12 --wind 3 --quiet --output o.mp4"
+    assert status(*arguments.split()) == 0
     assert capsys.readouterr() == ("", "")
 
 
@@ -302,7 +303,8 @@ def test_full_disk_is_status_1_and_one_sentence(folder: Path, capsys: Output, mo
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr("physanimator.rendering.animation.write_animation", full)
-    assert status("animate", "girl.png", "--mask", "hair.png", "--frames", "2", "--quiet", "--output", "o.mp4") == 1
+    arguments = "animate girl.png --mask hair.png --frames 12 --wind 3 --quiet --output o.mp4"
+    assert status(*arguments.split()) == 1
     assert capsys.readouterr().err == "physanimator: [Errno 28] No space left on device\n"
 
 
