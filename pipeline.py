@@ -115,7 +115,7 @@ def animate(
     if frame_rate is not None:
         check_frame_rate(frame_rate)
     work_of_minutes(max_minutes)
-    if isinstance(scene, Mapping):
+    if scene is not None and not isinstance(scene, Scene):
         from .physics.scene_checking import check_document
 
         check_document(scene)

@@ -23,6 +23,7 @@ MOST_TRIANGLES = 200_000
 """A mesh that would have more is refused."""
 
 _WANTED_TRIANGLES = 2000
+_MOST_PIXELS = 2**27  # of a mask that is continued past the border, with room around it
 _EQUILATERAL = np.sqrt(3) / 4
 # Bounds of the spacings that are chosen here, in pixels and in units. A unit is the longest side of a picture on which
 # white of this size is as large as a head of hair usually is: an empty margin around a drawing changes no mesh.
@@ -98,6 +99,7 @@ def mesh_from_mask(
         times = int(np.ceil(_SMALL / length))
         coverage, corner = _enlarged(coverage, low, high, times)
         options, spacing = options.enlarged(times), spacing and spacing * times
+    _require_bounded(options, (high - low) * times, times)
     options = replace(options, unit=length * times / _USUAL_LENGTH)
     shape = _prepared(coverage, spacing, options) if spacing else _for_wanted_triangles(coverage, options)
     if shape.expected_triangles > MOST_TRIANGLES:
@@ -107,6 +109,18 @@ def mesh_from_mask(
         )
     points, triangles = _meshed(shape, options)
     return _in_morton_order(points / times, triangles, shape.origin / times + corner, width, height)
+
+
+def _require_bounded(options: _Options, sides: NDArray[np.int64], times: int) -> None:
+    """Refuse lengths that would continue a part with these sides [px] to an area that no memory holds."""
+    spacing, margin = options.spacing or 0.0, options.border_margin
+    reach = spacing + (2 * spacing if margin is None else margin)
+    if (int(sides[0]) + 2 * reach) * (int(sides[1]) + 2 * reach) > _MOST_PIXELS:
+        name, value = ("spacing", spacing) if margin is None or spacing >= margin else ("border_margin", margin)
+        height, width = sides // times
+        raise MeshingError(
+            f"{name} must be smaller than the part, which is {width} x {height} px. Got: {value / times:.4g} px"
+        )
 
 
 def _without_specks(coverage: NDArray[np.float32], smallest_part: float | None) -> NDArray[np.float32]:

@@ -73,10 +73,9 @@ def read_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
     Raises:
         InvalidInputError: a file cannot be read.
     """
-    from ..physics.json_text import read_json
     from .images import load_image
 
-    scene = read_json(_text(options.scene, "scene")) if options.scene else None
+    scene = _scene(options)
     image = load_image(options.image, alpha=True)
     height, width = image.shape[:2]
     return image, {
@@ -100,6 +99,17 @@ def _mask(path: str, name: str, width: int, height: int) -> Any:
     for note in found.notes:
         print(f"physanimator: warning: {note}", file=sys.stderr)
     return found.coverage
+
+
+def _scene(options: argparse.Namespace) -> dict[str, Any] | None:
+    """The scene file's document, which the simulation checks further."""
+    from ..physics.json_text import read_json
+    from ..physics.scene_checking import check_document
+
+    if not options.scene:
+        return None
+    document = read_json(_text(options.scene, "scene"))
+    return document if isinstance(document, dict) else check_document(document)
 
 
 def _contact(options: argparse.Namespace, scene: Any) -> Contact | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Iterator, Sequence
 from typing import NoReturn
 
@@ -20,12 +21,30 @@ class _Refused(Exception):
     """What argparse would have said before it ended the process."""
 
 
+_KINDS = {"int": "a whole number", "float": "a number"}
+
+_SENTENCES = (
+    (r"argument (?P<name>[^:]+): invalid (?P<kind>int|float) value: (?P<got>.*)", "{name} must be {kind}. Got: {got}"),
+    (
+        r"argument (?P<name>[^:]+): invalid choice: (?P<got>.*) \(choose from (?P<choices>.*)\)",
+        "{name} must be one of {choices}. Got: {got}",
+    ),
+    (r"argument (?P<name>[^:]+): expected (one|at least one) argument", "{name} must have a value. Got: none"),
+    (
+        r"the following arguments are required: (?P<name>.*)",
+        "{name} must be given, as --help tells. Got: nothing for it",
+    ),
+    (r"unrecognized arguments: (?P<got>.*)", "options must be among those of --help. Got: {got}"),
+)
+"""What argparse says, and the same in the words of our other messages."""
+
+
 class CommandParser(argparse.ArgumentParser):
-    """A parser whose messages stay in their line, whatever they quote."""
+    """A parser that refuses in one sentence, which stays in its line whatever it quotes."""
 
     def error(self, message: str) -> NoReturn:
         """Refuse the command."""
-        super().error(printable(message))
+        self.exit(2, f"{self.prog.split()[0]}: {printable(_sentence(message))}\n")
 
 
 class PictureParser(CommandParser):
@@ -74,6 +93,14 @@ class PictureParser(CommandParser):
             could = " or ".join(given[place] for _, place in found)
             self.error(f"{_PICTURE} must stand before the options where it could be {could}. Got: no {_PICTURE}")
         return found[0] if found else None
+
+
+def _sentence(message: str) -> str:
+    for pattern, sentence in _SENTENCES:
+        if found := re.fullmatch(pattern, message, flags=re.DOTALL):
+            words = found.groupdict()
+            return sentence.format_map({**words, "kind": _KINDS.get(words.get("kind", ""), "")})
+    return message
 
 
 def _runs(given: Sequence[str]) -> Iterator[tuple[str, int, int]]:

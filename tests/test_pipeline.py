@@ -91,6 +91,14 @@ def test_scene_document_with_its_own_mesh_needs_no_other() -> None:
     assert again.scene.bodies[0].mesh.content_hash == led.scene.bodies[0].mesh.content_hash
 
 
+@pytest.mark.parametrize(
+    "scene", [float("nan"), "calm", [1], 5, {"version": 2, "bodies": [5]}, {"version": 2, "bodies": 5}]
+)
+def test_what_is_no_scene_is_refused_before_the_work(scene: object) -> None:
+    with pytest.raises(InvalidInputError, match=r"must be|is missing"):
+        animate(picture(), [strip()], scene=scene, frames=2)  # type: ignore[arg-type]
+
+
 def test_caller_may_change_a_given_scene() -> None:
     changed = animate(picture(), [strip()], scene=document(), frames=2, frame_rate=30, preset="jelly", sway=3.0)
     assert changed.motion.frame_rate == 30

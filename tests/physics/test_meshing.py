@@ -547,3 +547,19 @@ def test_random_rings_become_conforming_meshes(
     mesh = mesh_from_mask(mask, spacing=spacing)
     assert deepest_intrusion(mesh) < 1e-7
     assert len(boundary_loops(mesh)) >= len(set(mesh.components.tolist()))
+
+
+@pytest.mark.parametrize(
+    "lengths", [{"spacing": 1e9}, {"spacing": 1e300}, {"spacing": 20000.0}, {"border_margin": 1e9}]
+)
+def test_lengths_that_no_memory_holds_are_refused(lengths: dict[str, float]) -> None:
+    mask = np.zeros((60, 80), np.uint8)
+    mask[20:, 30:60] = 255
+    with pytest.raises(MeshingError, match=f"{next(iter(lengths))} must be smaller than the part, which is 30 x 40 px"):
+        mesh_from_mask(mask, **lengths)
+
+
+def test_a_spacing_beyond_the_part_gives_its_coarsest_mesh() -> None:
+    mask = np.zeros((200, 200), np.uint8)
+    mask[60:140, 60:140] = 255
+    assert 1 < len(mesh_from_mask(mask, spacing=500.0).triangles) < 60
