@@ -126,7 +126,9 @@ def check_types(described: Mapping[str, Any], values: Mapping[str, Any], sent: M
 def _checking_execution(inner: Callable[..., Any]) -> Callable[..., Any]:
     @wraps(inner)
     def execute(cls: Any, **values: Any) -> Any:
-        check_choices(cls.INPUT_TYPES(), values, sent_inputs())
+        described, sent = cls.INPUT_TYPES(), sent_inputs()
+        check_choices(described, values, sent)
+        check_types(described, values, sent)  # the host's own bounds let NaN pass
         return inner(cls, **values)
 
     return execute
