@@ -16,9 +16,10 @@ from ..physics.errors import InvalidInputError
 from .literals import refusal
 from .running import sent_inputs
 
-__all__ = ["check_choices", "check_numbers", "checked"]
+__all__ = ["check_choices", "check_numbers", "check_types", "checked"]
 
 _DYNAMIC, _CHOICE, _NUMBERS = "COMFY_DYNAMICCOMBO_V3", "COMBO", ("INT", "FLOAT")
+_TYPED = (_DYNAMIC, _CHOICE, *_NUMBERS, "STRING", "BOOLEAN")
 _LISTED = 12
 
 
@@ -32,6 +33,7 @@ class _Given(NamedTuple):
         required: whether it must be there.
         value: None where it is left out, or comes from another node that has not run yet.
         linked: whether another node gives it.
+        typed: what the prompt has in its place otherwise, where it is known.
     """
 
     name: str
@@ -40,6 +42,7 @@ class _Given(NamedTuple):
     required: bool
     value: Any
     linked: bool
+    typed: Any = None
 
 
 def checked(node: Any) -> Any:
@@ -61,6 +64,8 @@ def checked(node: Any) -> Any:
 def check_choices(described: Mapping[str, Any], values: Mapping[str, Any], sent: Mapping[str, Any] | None) -> None:
     """Refuse a choice that is not offered, a dynamic one that is missing, and what a chosen one needs and lacks.
 
+    A value that was typed where only another node's output can be, such as a picture, is refused too.
+
     Args:
         described: the node's inputs as the host describes them: ``INPUT_TYPES()``.
         values: what the host hands over, by name; for a dynamic choice a mapping with what it brings.
@@ -70,11 +75,13 @@ def check_choices(described: Mapping[str, Any], values: Mapping[str, Any], sent:
         InvalidInputError: one sentence about the first.
     """
     for given in _given(described, values, sent, ""):
+        if given.kind not in _TYPED and given.typed is not None:
+            raise InvalidInputError(f"{given.name} must be connected to another node. Got: {_shown(given.typed)}")
         if given.value is None:
             if given.required and not (given.linked and given.kind != _DYNAMIC) and _must_be_there(given, sent):
                 raise InvalidInputError(f"{given.name} must be {_offered(given)}. Got: {_absent(given)}")
         elif given.kind in (_DYNAMIC, _CHOICE) and given.value not in _keys(given):
-            raise InvalidInputError(f"{given.name} must be {_offered(given)}. Got: {str(given.value)[:60]!r}")
+            raise InvalidInputError(f"{given.name} must be {_offered(given)}. Got: {_shown(given.value)}")
 
 
 def check_numbers(described: Mapping[str, Any], values: Mapping[str, Any], sent: Mapping[str, Any] | None) -> None:
@@ -92,15 +99,36 @@ def check_numbers(described: Mapping[str, Any], values: Mapping[str, Any], sent:
         if given.kind not in _NUMBERS or given.value is None:
             continue
         low, high = given.options.get("min", -math.inf), given.options.get("max", math.inf)
-        number = isinstance(given.value, int | float) and math.isfinite(given.value)
-        if not number or not low <= given.value <= high:
-            raise InvalidInputError(f"{given.name} must be a number from {low} to {high}. Got: {str(given.value)[:60]}")
+        if not _is_number(given.value) or not low <= given.value <= high:
+            raise InvalidInputError(f"{given.name} must be a number from {low} to {high}. Got: {_shown(given.value)}")
+
+
+def check_types(described: Mapping[str, Any], values: Mapping[str, Any], sent: Mapping[str, Any] | None) -> None:
+    """Refuse what is no number where one belongs, and no text where that belongs.
+
+    Args:
+        described: see :func:`check_choices`.
+        values: see :func:`check_choices`.
+        sent: see :func:`check_choices`.
+
+    Raises:
+        InvalidInputError: one sentence about the first.
+    """
+    for given in _given(described, values, sent, ""):
+        if given.value is None or given.linked:
+            continue
+        if given.kind in _NUMBERS and not _is_number(given.value):
+            raise InvalidInputError(f"{given.name} must be a finite number. Got: {_shown(given.value)}")
+        if given.kind == "STRING" and not isinstance(given.value, str):
+            raise InvalidInputError(f"{given.name} must be a text. Got: {_shown(given.value)}")
 
 
 def _checking_execution(inner: Callable[..., Any]) -> Callable[..., Any]:
     @wraps(inner)
     def execute(cls: Any, **values: Any) -> Any:
-        check_choices(cls.INPUT_TYPES(), values, sent_inputs())
+        described, sent = cls.INPUT_TYPES(), sent_inputs()
+        check_choices(described, values, sent)
+        check_types(described, values, sent)  # the host's own bounds let NaN pass
         return inner(cls, **values)
 
     return execute
@@ -109,7 +137,7 @@ def _checking_execution(inner: Callable[..., Any]) -> Callable[..., Any]:
 def _checking_validation(inner: Callable[..., Any] | None) -> Callable[..., Any]:
     def validate_inputs(cls: Any, **values: Any) -> bool | str:
         described, sent = cls.INPUT_TYPES(), sent_inputs()
-        unknown = refusal(lambda: check_choices(described, values, sent))
+        unknown = refusal(lambda: check_choices(described, values, sent), lambda: check_types(described, values, sent))
         # The node's own sentences know better than the bounds of a widget.
         own = True if inner is None or unknown is not True else inner(cls, **_taken(inner, values))
         said = next((each for each in (unknown, own) if each is not True), True)
@@ -139,9 +167,9 @@ def _given(
         for name, (kind, options) in ((name, each[:2]) for name, each in described.get(group, {}).items()):
             full, value = prefix + name, values.get(name)
             raw = (sent or {}).get(full)
-            linked = isinstance(raw, list)
+            linked = isinstance(raw, list) and len(raw) == 2
             if kind != _DYNAMIC:
-                yield _Given(full, kind, options, group == "required", value, linked)
+                yield _Given(full, kind, options, group == "required", value, linked, None if linked else raw)
                 continue
             brought = value if isinstance(value, Mapping) else {}
             key = brought.get(name) if brought else value
@@ -155,15 +183,32 @@ def _given(
 
 def _must_be_there(given: _Given, sent: Mapping[str, Any] | None) -> bool:
     """A value from elsewhere is not known before it is run; without the prompt, only a dynamic choice is."""
-    return given.kind == _DYNAMIC or (sent is not None and "." in given.name)
+    nothing_sent = sent is not None and given.name in sent and given.kind not in _TYPED  # a null, which the host takes
+    return given.kind == _DYNAMIC or nothing_sent or (sent is not None and "." in given.name)
 
 
 def _offered(given: _Given) -> str:
+    if given.kind not in _TYPED and "." not in given.name:
+        return "connected to another node"
     if given.kind not in (_DYNAMIC, _CHOICE):
         return f"given: it belongs to {given.name.rpartition('.')[0]}"
     keys = [str(key) for key in _keys(given)]
     more = "" if len(keys) <= _LISTED else f" and {len(keys) - _LISTED} more"
     return f"one of {', '.join(keys[:_LISTED])}{more}"
+
+
+def _is_number(value: Any) -> bool:
+    try:
+        return isinstance(value, int | float) and math.isfinite(value)
+    except OverflowError:  # a whole number that is too large for a float
+        return False
+
+
+def _shown(value: Any) -> str:
+    try:
+        return repr(value)[:60]
+    except ValueError:  # more digits than Python writes
+        return "a number of very many digits"
 
 
 def _absent(given: _Given) -> str:

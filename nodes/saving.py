@@ -16,6 +16,9 @@ FILE_TYPES = (*(suffix.removeprefix(".") for suffix in FORMATS), FRAMES)
 """The file types of the command line, and numbered pictures in a folder of their own."""
 
 
+_LONGEST_NAME = 200  # bytes; file systems take 255, a number and an ending among them
+
+
 class Place(NamedTuple):
     """A name that nothing has yet.
 
@@ -39,6 +42,11 @@ def check_prefix(filename_prefix: str) -> None:
     import folder_paths
 
     output = Path(folder_paths.get_output_directory()).resolve()
+    longest = max(len(os.fsencode(part)) for part in filename_prefix.replace("\\", "/").split("/"))
+    if longest > _LONGEST_NAME:
+        raise InvalidInputError(
+            f"filename_prefix must be of names with at most {_LONGEST_NAME} bytes each. Got: {longest} bytes"
+        )
     named = os.path.basename(os.path.normpath(filename_prefix)) not in ("", ".", "..")
     if not named or "\0" in filename_prefix or not (output / filename_prefix).resolve().is_relative_to(output):
         raise InvalidInputError(

@@ -203,6 +203,22 @@ def write_animation(
         every = map(bled, every)
     with replacing(path) as temporary:
         _encode(every, temporary, chosen, first.shape, exact_frame_rate(frame_rate), exact=exact)
+        if first.shape[2] == 4 and chosen.container == "webp":
+            _declare_alpha(temporary)
+
+
+def _declare_alpha(path: StrPath) -> None:
+    """Set the flag for transparency of an animated WebP, by which readers decide whether to look for any.
+
+    The encoder keeps of each frame the box of what it changes. Where all of those are opaque, such as one that holds a
+    rectangle, it takes the whole animation for opaque, and readers fill what lies around with the background's white.
+    Source: WebP Container Specification, "Extended File Format".
+    """
+    with open(path, "r+b") as file:
+        head = file.read(21)
+        if head[:4] == b"RIFF" and head[8:16] == b"WEBPVP8X":
+            file.seek(20)
+            file.write(bytes([head[20] | 0x10]))
 
 
 def exact_frame_rate(frame_rate: float | Fraction) -> Fraction:

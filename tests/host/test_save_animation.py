@@ -94,6 +94,7 @@ def test_parts_alone_are_transparent(host: Any) -> None:
         ({"file_type": "mov"}, "file_type must be one of mp4, webm"),
         ({"filename_prefix": "../outside"}, "filename_prefix must be a name in the output folder"),
         ({"filename_prefix": "/etc/outside"}, "filename_prefix must be a name in the output folder"),
+        ({"filename_prefix": "film/" + "x" * 300}, "filename_prefix must be of names with at most 200 bytes each"),
         ({"filename_prefix": ""}, "filename_prefix must be a name in the output folder"),
         ({"width": 20000}, "width must be a number from 0 to 16384"),
     ],

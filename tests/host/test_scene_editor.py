@@ -168,4 +168,4 @@ def test_query_points_of_a_document_cut_the_part_out(host: Any) -> None:
         "cut": ours("SegmentByPoints", image=["example", 0], points=json.dumps(without)),
         "shown": core("PreviewImage", images=["cut", 1]),
     }
-    assert "points must be at least one point, or a box" in host.error_of(prompt)
+    assert "click on what shall move" in host.error_of(prompt)

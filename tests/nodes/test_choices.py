@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from physanimator.nodes import choices
-from physanimator.nodes.choices import check_choices, check_numbers, checked
+from physanimator.nodes.choices import check_choices, check_numbers, check_types, checked
 from physanimator.physics.errors import InvalidInputError
 
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
@@ -106,6 +106,63 @@ def test_what_a_choice_needs_must_be_there_but_may_come_from_another_node() -> N
         check_choices(described, values | region, {"region": "circle"})
     with pytest.raises(InvalidInputError, match=r"^region must be one of circle, polygon, mask\. Got: nothing"):
         check_choices(described, values, {"motion": "pinned"})
+
+
+WIRES = [
+    each[:4] for each in EVERY if each[3] not in ("COMBO", "COMFY_DYNAMICCOMBO_V3", "INT", "FLOAT", "STRING", "BOOLEAN")
+]
+
+
+@pytest.mark.parametrize("wrong", ["hair", 3, True, {"a": 1}])
+@pytest.mark.parametrize(("node", "chosen", "name", "kind"), WIRES)
+def test_a_value_is_refused_where_only_a_link_can_be(
+    node: str, chosen: Path_, name: str, kind: str, wrong: Any
+) -> None:
+    described = SCHEMAS[node]["input"]
+    full = ".".join([*(key for key, _ in chosen), name])
+    values = placed(usual(described, chosen), chosen, name, wrong)
+    check_choices(described, values, {full: ["4", 0]})
+    with pytest.raises(InvalidInputError, match=rf"^{full} must be connected to another node\. Got: "):
+        check_choices(described, values, {full: wrong})
+
+
+TYPED = [each[:4] for each in EVERY if each[3] in ("INT", "FLOAT", "STRING")]
+
+
+@pytest.mark.parametrize(("node", "chosen", "name", "kind"), TYPED)
+def test_a_value_of_another_kind_is_refused(node: str, chosen: Path_, name: str, kind: str) -> None:
+    described = SCHEMAS[node]["input"]
+    check_types(described, usual(described, chosen), None)
+    asked = "a text" if kind == "STRING" else "a finite number"
+    for wrong in ([1, 2, 3], {}, float("nan"), 3 if kind == "STRING" else "many"):
+        with pytest.raises(InvalidInputError, match=rf"{name} must be {asked}\. Got: "):
+            check_types(described, placed(usual(described, chosen), chosen, name, wrong), None)
+
+
+@pytest.mark.parametrize("digits", [400, 5000])
+def test_a_number_of_very_many_digits_is_one_short_sentence(digits: int) -> None:
+    described = SCHEMAS["PhysAnimator_Simulate"]["input"]
+    values = usual(described) | {"frames": 10**digits}
+    with pytest.raises(InvalidInputError, match=r"^frames must be a finite number\. Got: .{10,80}$"):
+        check_types(described, values, None)
+    with pytest.raises(InvalidInputError, match=r"^frames must be a number from 1 to 100000\. Got: .{10,80}$"):
+        check_numbers(described, values, None)
+
+
+def test_a_list_that_is_no_link_is_refused() -> None:
+    described = SCHEMAS["PhysAnimator_SegmentByPoints"]["input"]
+    values = usual(described) | {"points": [1, 2, 3]}
+    check_types(described, values, {"points": ["4", 0]})
+    with pytest.raises(InvalidInputError, match=r"^points must be a text\. Got: \[1, 2, 3\]"):
+        check_types(described, values, {"points": [1, 2, 3]})
+
+
+def test_nothing_is_refused_where_a_link_is_needed() -> None:
+    described = SCHEMAS["PhysAnimator_Body"]["input"]
+    values = usual(described) | {"mesh": None, "bodies": None}
+    check_choices(described, values, {"mesh": ["4", 0], "bodies": None})
+    with pytest.raises(InvalidInputError, match=r"^mesh must be connected to another node\. Got: nothing"):
+        check_choices(described, values, {"mesh": None, "bodies": None})
 
 
 class Node:

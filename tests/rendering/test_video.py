@@ -321,3 +321,17 @@ def test_a_name_with_a_colon_is_read_again(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.chdir(tmp_path)
     write_animation(clip(3), "girl:v2.mp4", 24)
     assert len(list(read_clip("girl:v2.mp4"))) == 3
+
+
+@pytest.mark.parametrize("suffix", [".webp", ".apng", ".gif"])
+@pytest.mark.parametrize("step", [0, 4], ids=["still", "moving"])
+def test_an_opaque_rectangle_on_transparency_stays_one(tmp_path: Path, suffix: str, step: int) -> None:
+    sprite = np.zeros((48, 80, 4), np.uint8)
+    sprite[12:36, 20:44] = (200, 40, 40, 255)
+    path = tmp_path / f"clip{suffix}"
+    write_animation([np.roll(sprite, number * step, axis=1) for number in range(3)], path, 12.0)
+    with Image.open(path) as picture:
+        for number in range(getattr(picture, "n_frames", 1)):
+            picture.seek(number)
+            alpha = np.asarray(picture.convert("RGBA"))[..., 3]
+            assert (alpha == np.roll(sprite, number * step, axis=1)[..., 3]).all()
