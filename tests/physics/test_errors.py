@@ -57,7 +57,7 @@ def test_no_error_prints_what_it_should_not() -> None:
 @pytest.mark.parametrize(
     ("document", "message"),
     [
-        ({"a\nb": 1}, r"a\\nb: is not known here"),
+        ({"a\nb": 1}, r"\"a\\nb\": is not known here"),
         ({"version": 10**628}, r"\(629 digits\)"),
         ({"width": -(10**628)}, r"\(629 digits\)"),
         ({"strokes": [{"kind": "wi\tnd"}]}, r"wi\\tnd"),
