@@ -55,7 +55,7 @@ def _without_its_content(keyword: str) -> Callable[..., Iterator[ValidationError
     check = jsonschema.Draft202012Validator.VALIDATORS[keyword]
 
     def check_kind(validator: Any, value: Any, instance: Any, schema: Any) -> Iterator[ValidationError]:
-        empty = type(instance)() if isinstance(instance, list | dict) else instance
+        empty = [] if isinstance(instance, list) else {} if isinstance(instance, dict) else instance
         yield from check(validator, value, empty, schema) or ()
 
     return check_kind
