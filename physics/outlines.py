@@ -160,8 +160,9 @@ def _crossing_places(mask: NDArray[np.bool_]) -> FloatArray:
     for first in range(0, len(mask), rows):
         checkpoint()
         some = mask[first : first + rows + 1]
-        for found in (np.nonzero(some[:rows, 1:] != some[:rows, :-1]), np.nonzero(some[1:] != some[:-1])):
-            places.append(np.column_stack(found[::-1]) + [0.0, first])
+        for differing in (some[:rows, 1:] != some[:rows, :-1], some[1:] != some[:-1]):
+            row, column = np.divmod(np.flatnonzero(differing), max(1, differing.shape[1]))
+            places.append(np.column_stack([column, row + first]).astype(np.float64))
     return np.concatenate(places)
 
 
