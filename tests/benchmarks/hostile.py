@@ -31,7 +31,7 @@ from physanimator.physics.scene_json import scene_from_dict
 from physanimator.physics.simulation import simulate
 
 _mutations = source_tree.helper("mutations")
-_WORK = 2e6  # triangle updates of the simulation that follows
+_WORK = 1e8  # triangle updates of the simulation that follows, a second of them at most
 _TOLD_EVERY = 500
 _SLOW = 1.0  # [s]
 
