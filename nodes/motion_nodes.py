@@ -15,6 +15,7 @@ from .batches import announce_batch
 from .messages import all_told, shown_with, tell_user
 from .previews import animated
 from .progress import host_check, host_progress
+from .running import server
 from .tensors import picture_batch, pictures_for
 from .wires import MaskedMotion, MaskedScene, MotionWire, SceneWire
 
@@ -77,12 +78,15 @@ class Simulate(io.ComfyNode):
         cls, scene: MaskedScene, frames: int, loop: float = 0.0, max_minutes: float = DEFAULT_MINUTES
     ) -> io.NodeOutput:
         from ..physics.advice import advice, stillness
+        from ..physics.kernel_preparation import compile_aside
         from ..physics.simulation import simulate
 
         acting = replace(scene.scene, loop=loop) if loop else scene.scene
         told = tell_user(cls, advice(acting, masks=False))  # Mask to Mesh has spoken of those
         wanted = None if acting.loop else frames
         with interruptible(host_check()):
+            if server() is not None:  # which has to answer meanwhile
+                compile_aside(contact=acting.contact is not None)
             motion = simulate(acting, frames=wanted, progress=host_progress(), max_minutes=max_minutes)
         told = all_told(told, tell_user(cls, stillness(motion)))
         return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate, ui=told or None)

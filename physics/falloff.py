@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from .mesh import TriangleMesh
 from .rig import RigPoint
-from .rigging import distances_of
+from .rigging import coarseness_of, distances_of
 
 __all__ = ["FIRMNESS", "grip_at", "grips_of"]
 
@@ -41,9 +41,10 @@ def grips_of(
         Grip g, 0..1, shape [v], and the index of the rig point, int32, -1 where there is none, shape [v].
     """
     grips, grippers = np.zeros(len(mesh.vertices)), np.full(len(mesh.vertices), -1, dtype=np.int32)
+    coarse = coarseness_of(rig_points)
     for index, rig_point in enumerate(rig_points):
         if rig_point.falloff > 0 and rig_point.body in (None, body):
-            grip = grip_at(distances_of(rig_point, mesh), rig_point.falloff)
+            grip = grip_at(distances_of(rig_point, mesh, coarse=coarse), rig_point.falloff)
             firmer = (grip > 0) & (grip >= grips)
             grips[firmer], grippers[firmer] = grip[firmer], index
     return grips, grippers

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .errors import SimulationError
 from .falloff import grip_at
 from .rig import Polygon, RigPoint
-from .rigging import EDGE, Points, distances_of, vertices_of
+from .rigging import EDGE, Points, coarseness_of, distances_of, vertices_of
 from .scene import Body, Scene
 
 __all__ = ["Holds", "holds_of", "region_work"]
@@ -49,13 +49,13 @@ def holds_of(scene: Scene) -> Holds:
     vertices = np.concatenate([body.mesh.vertices for body in scene.bodies])
     starts = np.cumsum([0] + [len(body.mesh.vertices) for body in scene.bodies])
     leaders, grippers = (np.full(len(vertices), -1, dtype=np.int32) for _ in range(2))
-    grips = np.zeros(len(vertices))
+    grips, coarse = np.zeros(len(vertices)), coarseness_of(scene.rig_points)
     for index, rig_point in enumerate(scene.rig_points):
         first, last = (0, len(scene.bodies)) if rig_point.body is None else (rig_point.body, rig_point.body + 1)
         own = slice(starts[first], starts[last])
         points = Points(vertices[own], scene.width, scene.height)
         if rig_point.falloff > 0:
-            distances = distances_of(rig_point, points)
+            distances = distances_of(rig_point, points, coarse=coarse)
             grip = grip_at(distances, rig_point.falloff)
             firmer = (grip > 0) & (grip >= grips[own])
             grips[own][firmer], grippers[own][firmer] = grip[firmer], index

@@ -17,6 +17,9 @@ class _Repeated:
     """Stands for the value of a key that an object holds twice."""
 
 
+_HOLDING = {dict, list, _Repeated}
+
+
 def read_json(text: str | bytes) -> Any:
     """The data that a JSON text holds.
 
@@ -27,9 +30,18 @@ def read_json(text: str | bytes) -> Any:
     """
     if len(text) > MAX_DOCUMENT_BYTES:
         raise SceneError("", f"the scene must be at most {MAX_DOCUMENT_BYTES >> 20} MB of text. Got: more")
+    repeating: list[dict[str, Any]] = []
+
+    def as_object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        result = dict(pairs)
+        if len(result) < len(pairs):
+            result = _marked(pairs)
+            repeating.append(result)
+        return result
+
     try:
         text = text.decode("utf-8-sig") if isinstance(text, bytes) else text.removeprefix("\ufeff")
-        data = json.loads(text, object_pairs_hook=_object)
+        data = json.loads(text, object_pairs_hook=as_object)
     except UnicodeDecodeError as error:
         raise SceneError("", f"the scene must be UTF-8 text. Got: {error.reason} at byte {error.start}") from error
     except json.JSONDecodeError as error:
@@ -39,7 +51,8 @@ def read_json(text: str | bytes) -> Any:
         raise SceneError("", "the scene must not be nested this deep") from error
     except ValueError as error:  # a whole number of thousands of digits
         raise SceneError("", f"the scene holds an unreadable number: {error}") from error
-    _refuse_repeated_keys(data)
+    if repeating:
+        _refuse_repeated_keys(data)
     return data
 
 
@@ -55,7 +68,7 @@ def write_json(data: Any) -> str:
     return text
 
 
-def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _marked(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     result: dict[str, Any] = {}
     for key, value in pairs:
         result[key] = _Repeated() if key in result else value
@@ -68,12 +81,11 @@ def _refuse_repeated_keys(data: Any) -> None:
         path, value = pending.pop()
         if isinstance(value, _Repeated):
             raise SceneError(path, "stands twice in the same object; keep one")
+        # Numbers and texts are passed over at once: there may be millions of them.
         if isinstance(value, dict):
-            pending += [(f"{path}.{key}" if path else key, entry) for key, entry in value.items()]
-        elif isinstance(value, list):
-            pending += [
-                (f"{path}[{index}]", entry) for index, entry in enumerate(value) if not isinstance(entry, int | float)
-            ]
+            pending += [(f"{path}.{key}" if path else key, v) for key, v in value.items() if type(v) in _HOLDING]
+        else:
+            pending += [(f"{path}[{index}]", v) for index, v in enumerate(value) if type(v) in _HOLDING]
 
 
 def _written(value: Any, indent: int, *, used: int = 0) -> str:

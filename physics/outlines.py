@@ -125,7 +125,7 @@ def count_outlines(scene: Scene, spacing: float) -> OutlineCounts:
         spacing: between points [px].
     """
     window, points, crossings = window_of(scene), 0.0, 0
-    crowd: dict[tuple[int, int], float] = {}
+    crowd: dict[int, float] = {}
     for collider in scene.colliders:
         checkpoint()
         if isinstance(collider.region, MaskRegion):
@@ -145,11 +145,13 @@ def count_outlines(scene: Scene, spacing: float) -> OutlineCounts:
     return OutlineCounts(math.ceil(points), crossings, math.ceil(sum(count * count for count in crowd.values())))
 
 
-def _add_to(crowd: dict[tuple[int, int], float], places: FloatArray, share: float, spacing: float) -> None:
+def _add_to(crowd: dict[int, float], places: FloatArray, share: float, spacing: float) -> None:
     """Count places by the small squares in which they lie, each as a share of a point."""
-    squares, counts = np.unique(np.floor(places / (_CROWD * spacing)).astype(np.int64), axis=0, return_counts=True)
-    for (x, y), count in zip(squares.tolist(), counts.tolist(), strict=True):
-        crowd[x, y] = crowd.get((x, y), 0.0) + share * count
+    squares = np.floor(places / (_CROWD * spacing)).astype(np.int64)
+    # One number for both: whole rows are compared under Python's global lock, which stops everything else.
+    numbers, counts = np.unique((squares[:, 0] << 32) + squares[:, 1], return_counts=True)
+    for number, count in zip(numbers.tolist(), counts.tolist(), strict=True):
+        crowd[number] = crowd.get(number, 0.0) + share * count
 
 
 def _crossing_places(mask: NDArray[np.bool_]) -> FloatArray:
@@ -158,8 +160,9 @@ def _crossing_places(mask: NDArray[np.bool_]) -> FloatArray:
     for first in range(0, len(mask), rows):
         checkpoint()
         some = mask[first : first + rows + 1]
-        for found in (np.nonzero(some[:rows, 1:] != some[:rows, :-1]), np.nonzero(some[1:] != some[:-1])):
-            places.append(np.column_stack(found[::-1]) + [0.0, first])
+        for differing in (some[:rows, 1:] != some[:rows, :-1], some[1:] != some[:-1]):
+            row, column = np.divmod(np.flatnonzero(differing), max(1, differing.shape[1]))
+            places.append(np.column_stack([column, row + first]).astype(np.float64))
     return np.concatenate(places)
 
 

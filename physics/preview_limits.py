@@ -7,6 +7,8 @@ __all__ = [
     "MAX_EDITORS",
     "MAX_EDITOR_NAME",
     "MAX_FRAMES",
+    "MAX_KEYS",
+    "MAX_LISTS",
     "MAX_NESTING",
     "MAX_OBJECTS",
     "MAX_PREPARED_BYTES",
@@ -38,6 +40,12 @@ MAX_VALUES = 400_000
 
 MAX_OBJECTS = 10_000
 """Objects of a request: each is checked against the schema."""
+
+MAX_KEYS = 100_000
+"""Keys of all objects of a request together."""
+
+MAX_LISTS = 100_000
+"""Lists of a request: each point is one."""
 
 MAX_EDITOR_NAME = 64
 """Characters of an editor's name."""

@@ -16,6 +16,8 @@ from .preview_limits import (
     MAX_ANSWER_BYTES,
     MAX_EDITOR_NAME,
     MAX_FRAMES,
+    MAX_KEYS,
+    MAX_LISTS,
     MAX_NESTING,
     MAX_OBJECTS,
     MAX_PREVIEW_CROSSINGS,
@@ -70,6 +72,7 @@ def read_request(body: bytes) -> PreviewRequest:
         InvalidInputError: it is no such request, or larger than the limits.
     """
     require("the request", f"{len(body)} bytes", len(body) <= MAX_REQUEST_BYTES, f"at most {MAX_REQUEST_BYTES} bytes")
+    _require_few_signs(body)
     data = read_json(body)
     _require_small(data)
     named = isinstance(data, dict) and set(data) == _FIELDS
@@ -149,6 +152,13 @@ def _require_few(document: dict[str, Any], name: str, most: int) -> None:
     entries = document.get(name)
     count = len(entries) if isinstance(entries, list) else 0
     _require_preview(name, count, most, "queue the graph to see them all")
+
+
+def _require_few_signs(body: bytes) -> None:
+    """Refuse what would become too many things in memory: to read it would stop all else for seconds."""
+    bounds = (b",", MAX_VALUES, "values"), (b"{", MAX_OBJECTS, "objects"), (b"[", MAX_LISTS, "lists")
+    for sign, most, name in (*bounds, (b":", MAX_KEYS, "keys")):
+        require("the request", "more", body.count(sign) <= most, f"of at most {most} {name}")
 
 
 def _require_small(data: object) -> None:

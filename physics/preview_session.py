@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from .errors import Cancelled, PhysAnimatorError
 from .interruption import interruptible
+from .kernel_preparation import compile_aside
 from .loop import first_frame, periodic
 from .preparation import Preparations, Prepare, Prepared
 from .preview_limits import MAX_EDITORS, MAX_PREVIEW_WORK
@@ -25,7 +26,7 @@ from .schedule import TRIANGLES_PER_THREAD
 if TYPE_CHECKING:
     from .mesh import TriangleMesh
 
-__all__ = ["SUPERSEDED", "PreviewRun", "PreviewRuns", "stream", "warm_up"]
+__all__ = ["SUPERSEDED", "PreviewRun", "PreviewRuns", "simulate_samples", "stream", "warm_up"]
 
 SUPERSEDED = "superseded"
 """Why a run was cancelled when its editor has asked for another."""
@@ -186,6 +187,7 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) ->
         run.check()
 
     with interruptible(run.check_preparing):
+        compile_aside(contact=scene.contact is not None, check=run.check)
         if prepared is None:
             prepared = run.prepare(scene)
         simulate(
@@ -207,18 +209,24 @@ def _checking(run: PreviewRun) -> Callable[[int, int], None]:
 def warm_up(*, contact: bool = False) -> None:
     """Load the kernels and all that a first preview needs, which takes some seconds once in a process.
 
-    What had to be compiled for it is kept on disk at once: a server is usually ended by a signal.
+    What has to be compiled for it is compiled in another process, and kept on disk at once.
 
     Args:
         contact: the kernels for contact instead.
     """
-    from .simulation import simulate
     from .taichi_runtime import keep_compiled
 
-    scene = _touching() if contact else _moving()
-    simulate(scene, frames=2)
+    compile_aside(contact=contact)
+    simulate_samples(contact=contact)
     if keep_compiled():
-        simulate(scene, frames=2)
+        simulate_samples(contact=contact)
+
+
+def simulate_samples(*, contact: bool) -> None:
+    """Simulate a little scene that needs every kernel."""
+    from .simulation import simulate
+
+    simulate(_touching() if contact else _moving(), frames=2)
 
 
 def _moving() -> Scene:

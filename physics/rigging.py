@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +23,7 @@ from .scene import Scene
 __all__ = [
     "EDGE",
     "Points",
+    "coarseness_of",
     "displacement",
     "distances_of",
     "leaders_of",
@@ -37,7 +39,7 @@ EDGE = 1e-6
 
 
 _CORNERS_AT_ONCE = 64
-_PIXELS_OF_DISTANCES = 2**25  # larger masks are made coarser for distances from them
+_PIXELS_OF_DISTANCES = 2**24  # of a scene's masks: of more, distances are measured on coarser ones
 
 
 class Points(NamedTuple):
@@ -76,17 +78,30 @@ def vertices_of(rig_point: RigPoint, mesh: TriangleMesh | Points) -> NDArray[np.
     return _in_mask(region.mask, mesh)
 
 
-def distances_of(rig_point: RigPoint, mesh: TriangleMesh | Points) -> FloatArray:
+def coarseness_of(rig_points: Sequence[RigPoint]) -> int:
+    """How many pixels of masks, each way, are taken together for distances from the regions of all these rig points."""
+    masks = [point.region.mask for point in rig_points if isinstance(point.region, MaskRegion) and point.falloff > 0]
+    return max(1, math.ceil(math.sqrt(sum(mask.size for mask in masks) / _PIXELS_OF_DISTANCES)))
+
+
+def distances_of(rig_point: RigPoint, mesh: TriangleMesh | Points, *, coarse: int | None = None) -> FloatArray:
     """How far outside a rig point's region each vertex of a mesh lies [px], 0 or less inside, shape [v].
 
-    The distance from a mask is good to about a pixel of the mask.
+    The distance from a mask is good to about a pixel of the mask, where pixels are taken together to about one of
+    these.
+
+    Args:
+        rig_point: whose region it is.
+        mesh: whose vertices they are.
+        coarse: pixels of a mask that are taken together each way, as ``coarseness_of`` finds it for the rig points of
+            a scene; None: as for this one alone.
     """
     region = rig_point.region
     if isinstance(region, Circle):
         return _outside_circle(rig_point.position, region.radius, mesh.vertices)
     if isinstance(region, Polygon):
         return _outside_polygon(region.points, mesh.vertices)
-    return _outside_mask(region.mask, mesh)
+    return _outside_mask(region.mask, mesh, coarse or coarseness_of([replace(rig_point, falloff=1.0)]))
 
 
 def leaders_of(rig_points: Sequence[RigPoint], mesh: TriangleMesh, *, body: int = 0) -> NDArray[np.int32]:
@@ -159,21 +174,21 @@ def velocity(motion: RigMotion, t: ArrayLike) -> FloatArray:
 
 def unused_rig_points(scene: Scene) -> list[str]:
     """A sentence for each rig point whose region selects no vertex, to show as a warning."""
-    sentences = []
+    sentences, coarse = [], coarseness_of([replace(each, falloff=1.0) for each in scene.rig_points])
     for index, rig_point in enumerate(scene.rig_points):
         bodies = scene.bodies if rig_point.body is None else (scene.bodies[rig_point.body],)
         if not any(vertices_of(rig_point, body.mesh).any() for body in bodies):
             touched = "no body" if rig_point.body is None else f"no vertex of body {rig_point.body}"
-            where = _whereabouts(rig_point, [body.mesh for body in bodies])
+            where = _whereabouts(rig_point, [body.mesh for body in bodies], coarse)
             sentences.append(f"rig_points[{index}] touches {touched}: {where}")
     return sentences
 
 
-def _whereabouts(rig_point: RigPoint, meshes: Sequence[TriangleMesh]) -> str:
+def _whereabouts(rig_point: RigPoint, meshes: Sequence[TriangleMesh], coarse: int) -> str:
     region = rig_point.region
     if isinstance(region, MaskRegion) and not region.mask.any():
         return "nothing is painted in its mask"
-    distance = min(float(distances_of(rig_point, mesh).min()) for mesh in meshes)
+    distance = min(float(distances_of(rig_point, mesh, coarse=coarse).min()) for mesh in meshes)
     if isinstance(region, Circle):
         away = f"its region of radius {region.radius:g} px lies {round(distance, 1):g} px away"
         return f"{away}; a radius of {math.ceil(region.radius + distance)} px would reach it"
@@ -214,7 +229,7 @@ def _in_mask(mask: NDArray[np.bool_], mesh: TriangleMesh | Points) -> NDArray[np
     return np.logical_or.reduce([mask[y[:, 1], x[:, 0]] for x in (low, high) for y in (low, high)])
 
 
-def _outside_mask(mask: NDArray[np.bool_], mesh: TriangleMesh | Points) -> FloatArray:
+def _outside_mask(mask: NDArray[np.bool_], mesh: TriangleMesh | Points, coarse: int) -> FloatArray:
     """Distance of each vertex from the nearest painted pixel [px], to about a pixel; infinite without any: [v]."""
     import cv2
 
@@ -224,10 +239,26 @@ def _outside_mask(mask: NDArray[np.bool_], mesh: TriangleMesh | Points) -> Float
     size = np.array([mask.shape[1], mask.shape[0]])
     scaled = mesh.vertices * (size / [mesh.width, mesh.height])
     column, row = np.clip(np.floor(scaled), 0, size - 1).astype(np.int64).T
-    coarse = math.ceil(math.sqrt(mask.size / _PIXELS_OF_DISTANCES))  # pixels that are taken together each way
-    if coarse > 1:
-        starts = [np.arange(0, length, coarse) for length in mask.shape]
-        mask = np.logical_or.reduceat(np.logical_or.reduceat(mask, starts[0], axis=0), starts[1], axis=1)
-    distances = cv2.distanceTransform((~mask).view(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    empty = (_coarser(mask, coarse) == 0).view(np.uint8)
+    distances = cv2.distanceTransform(empty, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
     found = distances[row // coarse, column // coarse].astype(np.float64) * coarse
     return found * (mesh.longest_side / float(size.max()))
+
+
+def _coarser(mask: NDArray[np.bool_], coarse: int) -> NDArray[np.uint8]:
+    """Whether anything is painted in each square of so many pixels each way, above 0 there."""
+    painted = mask.view(np.uint8)
+    if coarse == 1:
+        return painted
+    rows, columns = (-(-length // coarse) for length in mask.shape)
+    whole = len(mask) // coarse
+    bands = np.zeros((rows, columns * coarse), np.uint8)
+    bands[:whole, : mask.shape[1]] = np.bitwise_or.reduce(
+        painted[: whole * coarse].reshape(whole, coarse, mask.shape[1]), axis=1
+    )
+    if whole < rows:
+        bands[whole, : mask.shape[1]] = np.bitwise_or.reduce(painted[whole * coarse :], axis=0)
+    result = bands[:, ::coarse].copy()
+    for first in range(1, coarse):
+        result |= bands[:, first::coarse]
+    return result

@@ -5,14 +5,13 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable
 from difflib import get_close_matches
 from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from .errors import SceneError, shown
-from .limits import LARGEST, MAX_MASK_PIXELS, MAX_VERTICES
 from .scene_encoding import SCENE_VERSION
 from .scene_schema import scene_schema
 
@@ -71,56 +70,9 @@ def _check_version(data: dict[str, Any]) -> None:
 
 @lru_cache(maxsize=1)
 def _validator() -> Validator:
-    import jsonschema
+    from .schema_keywords import SceneValidator
 
-    checker = jsonschema.Draft202012Validator.TYPE_CHECKER.redefine("number", _is_number)
-    kind = jsonschema.validators.extend(
-        jsonschema.Draft202012Validator, validators={"items": _check_items}, type_checker=checker
-    )
-    return kind(scene_schema())
-
-
-def _check_items(validator: Any, items: dict[str, Any], instance: Any, schema: Any) -> Iterator[ValidationError]:
-    """The keyword "items", with a short way through long lists whose entries are right."""
-    if not isinstance(instance, list):
-        return
-    is_right = _QUICK_CHECKS.get(items.get("$ref", ""), _never)
-    for index, entry in enumerate(instance):
-        if not is_right(entry):
-            yield from validator.descend(entry, items, path=index)
-
-
-def _is_number(checker: object, value: object) -> bool:
-    return type(value) is int or (type(value) is float and math.isfinite(value))
-
-
-def _is_point(entry: object) -> bool:
-    return (
-        type(entry) is list
-        and len(entry) == 2
-        and all(type(value) in (int, float) and -LARGEST <= value <= LARGEST for value in entry)
-    )
-
-
-def _is_triangle(entry: object) -> bool:
-    return (
-        type(entry) is list
-        and len(entry) == 3
-        and all(type(value) is int and 0 <= value < MAX_VERTICES for value in entry)
-    )
-
-
-def _never(entry: object) -> bool:
-    return False
-
-
-_QUICK_CHECKS: dict[str, Callable[[object], bool]] = {
-    "#/$defs/point": _is_point,
-    "#/$defs/triangle": _is_triangle,
-    "#/$defs/run": lambda entry: type(entry) is int and 0 <= entry <= MAX_MASK_PIXELS,
-    "#/$defs/factor": lambda entry: type(entry) in (int, float) and 0 < entry <= LARGEST,  # type: ignore[operator]
-    "#/$defs/time": lambda entry: type(entry) in (int, float) and 0 <= entry <= LARGEST,  # type: ignore[operator]
-}
+    return SceneValidator(scene_schema())
 
 
 def _described(error: ValidationError) -> tuple[tuple[Any, ...], SceneError]:

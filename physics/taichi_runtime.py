@@ -27,7 +27,7 @@ from .taichi_program import end_program, import_taichi, is_initialising, new_pro
 from .taichi_reading import quick_reading
 from .taichi_worker import TaichiWorker
 
-__all__ = ["compiled", "keep_compiled", "launch", "own_this_process", "run"]
+__all__ = ["compiled", "compiles_here", "keep_compiled", "launch", "own_this_process", "read_anew", "run"]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -118,6 +118,15 @@ class _TaichiThread:
             return False
         self._drop()
         return True
+
+    def read_anew(self) -> None:
+        if self._is_ours():
+            self._drop()
+
+    @property
+    def compiles_here(self) -> bool:
+        shared = self._shared or (self._taichi is None and "taichi" in sys.modules and not self._alone)
+        return not shared and not self._closed
 
     def own_this_process(self) -> None:
         self._alone = True
@@ -254,6 +263,16 @@ def keep_compiled() -> bool:
     between two jobs; the next one reads its kernels from disk, which takes half a second.
     """
     return _taichi_thread.run(_taichi_thread.keep_compiled)
+
+
+def read_anew() -> None:
+    """Let kernels be read from disk again, where another process has written them meanwhile."""
+    _taichi_thread.run(_taichi_thread.read_anew)
+
+
+def compiles_here() -> bool:
+    """Whether kernels are compiled in this process, as they are where nobody else uses Taichi in it."""
+    return _taichi_thread.compiles_here
 
 
 def own_this_process() -> None:

@@ -83,6 +83,15 @@ class TaichiWorker:
             array[...] = values
         return result
 
+    def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """What a module-level function returns there, called outside of Taichi's thread.
+
+        Raises:
+            PhysAnimatorError: as ``launch``.
+        """
+        self._start_unless_running()
+        return self._answer(("call", function, arguments))[0]
+
     def end_idle(self) -> None:
         """End the process, if no simulation needs it any more."""
         self._forget()

@@ -41,6 +41,8 @@ def _answer(message: tuple[Any, ...], constants: dict[tuple[Any, ...], Any]) -> 
     try:
         if message[0] == "keep":
             return "done", taichi_runtime.keep_compiled(), None
+        if message[0] == "call":
+            return "done", message[1](*message[2]), None
         _, function, (key, constant), forgotten, state, arguments = message
         for each in forgotten:
             constants.pop(each, None)

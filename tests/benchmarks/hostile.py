@@ -1,15 +1,18 @@
 """Thousands of mutated scene documents and preview requests: each a scene or one sentence, in little time and memory.
 
-Seconds are those of the computing thread, so that other work on the machine does not count.
+Seconds are those of the computing thread, so that other work on the machine does not count. Megabytes are those by
+which one document raised the most that the process has held.
 
     python tests/benchmarks/hostile.py --count 10000 --json
 
-Counts what came of them, and tells the slowest, the largest, and every error that is no sentence.
+Counts what came of them, and tells the slowest, the largest, and every error that is no sentence. What is slow or wrong
+is told at once on standard error; one that does not end is given up at --limit, with its stack.
 """
 
 from __future__ import annotations
 
 import argparse
+import faulthandler
 import json
 import resource
 import sys
@@ -28,7 +31,9 @@ from physanimator.physics.scene_json import scene_from_dict
 from physanimator.physics.simulation import simulate
 
 _mutations = source_tree.helper("mutations")
-_WORK = 2e6  # triangle updates of the simulation that follows
+_WORK = 1e8  # triangle updates of the simulation that follows, a second of them at most
+_TOLD_EVERY = 500
+_SLOW = 1.0  # [s]
 
 
 def main() -> None:
@@ -37,11 +42,16 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0, help="first seed")
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--simulate", action="store_true", help="also simulate a frame of what is accepted")
+    parser.add_argument("--limit", type=float, default=120.0, help="seconds for one of them, before all is given up")
     options = parser.parse_args()
     bodies, kept = _mutations.patches(), Preparations(most=8)
     before, report = _megabytes(), _Report()
     for seed in range(options.first, options.first + options.count):
+        faulthandler.dump_traceback_later(options.limit, exit=True)
         report.run(seed, bodies, kept, simulates=options.simulate)
+        if (seed - options.first) % _TOLD_EVERY == _TOLD_EVERY - 1:
+            _tell(f"{seed + 1 - options.first} of {options.count}: {dict(report.outcomes)}")
+    faulthandler.cancel_dump_traceback_later()
     found = report.found() | {"count": options.count, "peak_mb": round(_megabytes() - before, 1)}
     print(json.dumps(found, indent=2) if options.json else "\n".join(f"{key}: {value}" for key, value in found.items()))
     sys.exit(1 if report.faults else 0)
@@ -67,7 +77,7 @@ class _Report:
                 kept(scene)
             else:
                 scene = scene_from_dict(read_json(body), meshes=[each.mesh for each in bodies])
-            self.slow.append((time.thread_time() - begun, seed, "scene"))
+            self._took(begun, seed, "scene")
             begun, stage = time.thread_time(), "planned"
             plan(scene, frames=5)
             if simulates:
@@ -80,16 +90,24 @@ class _Report:
         except Exception as error:
             self.outcomes["a fault"] += 1
             where = traceback.extract_tb(error.__traceback__)[-1]
-            self.faults.append(
-                f"{seed} {stage}: {type(error).__name__} {error!s:.100} at {where.filename}:{where.lineno}"
-            )
-        self.slow.append((time.thread_time() - begun, seed, stage))
+            self._fault(f"{seed} {stage}: {type(error).__name__} {error!s:.100} at {where.filename}:{where.lineno}")
+        self._took(begun, seed, stage)
         self.large.append((_megabytes() - before, seed))
+
+    def _took(self, begun: float, seed: int, stage: str) -> None:
+        seconds = time.thread_time() - begun
+        self.slow.append((seconds, seed, stage))
+        if seconds > _SLOW:
+            _tell(f"slow: {seed} {stage} {seconds:.2f} s")
+
+    def _fault(self, told: str) -> None:
+        self.faults.append(told)
+        _tell(f"fault: {told}")
 
     def _check_sentence(self, seed: int, text: str) -> None:
         digits = max((len(run) for run in "".join(c if c.isdigit() else " " for c in text).split()), default=0)
         if not text.isprintable() or len(text) > 1300 or digits > 100:
-            self.faults.append(f"{seed}: no sentence: {text[:300]!r}")
+            self._fault(f"{seed}: no sentence: {text[:300]!r}")
 
     def found(self) -> dict[str, Any]:
         return {
@@ -99,6 +117,10 @@ class _Report:
             "faults": self.faults[:30],
             "number_of_faults": len(self.faults),
         }
+
+
+def _tell(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
 
 
 def _megabytes() -> float:

@@ -167,7 +167,7 @@ def test_what_jumps_inside_is_found_and_pushed_out_again() -> None:
     scene = Scene((Body(left, softest), Body(right, softest)), contact=Contact())
     system = assemble(scene)
     touching = TouchingBodies(scene, system, _solid(scene, system), Contact())
-    surface, spacing, side, first = touching._surface, 13.0, left.longest_side, len(left.vertices)
+    surface, spacing, side, first = touching._touching.surface, 13.0, left.longest_side, len(left.vertices)
 
     def depths() -> Array:
         """Of the right disc's boundary in the left one [px], by the numbers of the surface's points."""
@@ -339,3 +339,13 @@ def test_a_body_led_into_a_collider_stays_finite() -> None:
     lead = RigPoint((260.0, 250.0), Circle(30.0), KeyedPath((0, 0.2, 0.4), ((260, 250), (160, 250), (5000, 250))))
     motion = simulate(replace(skirt(Contact()), rig_points=(lead,)), frames=12)
     assert np.isfinite(motion.positions).all()
+
+
+def test_a_ground_and_a_wall_drawn_far_out_hold_bodies_up() -> None:
+    thing = Body(box(100, 200, 160, 260), Material(youngs_modulus=200.0, damping=3.0))
+    ground = Polygon(((-1e6, 300.0), (1e6, 300.0), (1e6, 1e6), (-1e6, 1e6)))
+    wall = Polygon(((200.0, -1e6), (1e6, -1e6), (1e6, 1e6), (200.0, 1e6)))
+    scene = Scene((thing,), gravity=(0.8, 1.0), contact=Contact(), colliders=(Collider(ground), Collider(wall)))
+    x, y = np.moveaxis(simulate(scene, frames=60).positions, 2, 0)
+    assert max(y.max() - 300.0, x.max() - 200.0) <= 0.0
+    assert min(y[-1].max() - 300.0, x[-1].max() - 200.0) > -3.0  # it has come there

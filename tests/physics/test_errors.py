@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -57,7 +58,7 @@ def test_no_error_prints_what_it_should_not() -> None:
 @pytest.mark.parametrize(
     ("document", "message"),
     [
-        ({"a\nb": 1}, r"a\\nb: is not known here"),
+        ({"a\nb": 1}, r"\"a\\nb\": is not known here"),
         ({"version": 10**628}, r"\(629 digits\)"),
         ({"width": -(10**628)}, r"\(629 digits\)"),
         ({"strokes": [{"kind": "wi\tnd"}]}, r"wi\\tnd"),
@@ -77,3 +78,37 @@ def test_a_repeated_wild_key() -> None:
     with pytest.raises(SceneError, match=r"a\\nb: stands twice") as caught:
         read_json('{"a\\nb": 1, "a\\nb": 2}')
     assert str(caught.value).isprintable()
+
+
+class Unspoken(list[Any]):
+    """A list that nobody writes out."""
+
+    def __repr__(self) -> str:
+        raise AssertionError("a list of millions would have been written out")
+
+
+class Unread(Unspoken):
+    """A list that nobody looks into either."""
+
+    def __iter__(self) -> Iterator[Any]:
+        raise AssertionError("a list that is too long would have been read")
+
+
+@pytest.mark.parametrize(
+    ("document", "message"),
+    [
+        ({"gravity": Unspoken([1])}, "gravity: must be a list of 2 numbers. Got: a list of 1"),
+        ({"gravity": Unread([1.0] * 400)}, "gravity: must be a list of 2 numbers. Got: a list of 400"),
+        ({"frame_rate": Unread([1])}, "frame_rate: must be a number. Got: a list of 1"),
+        ({"wind": {"strength": Unread()}}, r"wind.strength: must be a number. Got: a list of 0"),
+        ({"strokes": [{"kind": Unread([1])}]}, r"strokes\[0\].kind: must be one of .* Got: a list of 1"),
+        ({"strokes": Unread([{}] * 2000)}, "strokes: must have at most 1000 entries. Got: a list of 2000"),
+        ({"strokes": [{"path": Unread([[0, 0]] * 20_000)}]}, r"strokes\[0\].path: must have at most 10000 entries"),
+        ({"paint": [{"region": {"type": Unread()}}]}, r"paint\[0\].region.type: must be one of"),
+        ({"bodies": {"a": Unspoken([1])}}, "bodies: must be a list. Got: an object"),
+        ({"unknown": Unread([1])}, "unknown: is not known here"),
+    ],
+)
+def test_lists_are_counted_and_not_written_out(document: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        check_document({"version": 2, "width": 9, "height": 9} | document)

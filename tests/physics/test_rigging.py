@@ -9,10 +9,20 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from physanimator.physics import rigging
 from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.holds import holds_of
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
-from physanimator.physics.rigging import displacement, leaders_of, unused_rig_points, velocity, vertices_of
+from physanimator.physics.rigging import (
+    coarseness_of,
+    displacement,
+    distances_of,
+    leaders_of,
+    unused_rig_points,
+    velocity,
+    vertices_of,
+)
 from physanimator.physics.scene import Body, Scene
 
 FAR = ((900.0, 900.0), (950.0, 900.0), (900.0, 950.0))
@@ -191,6 +201,47 @@ def test_unused_rig_points_are_named_with_their_distance() -> None:
     # from the last painted pixel (519, 519) to that of the vertex (900, 900): 381 sqrt(2) px
     assert sentences[3] == "rig_points[4] touches no body: its mask lies about 538.8 px away from the nearest vertex"
     assert len(sentences) == 4
+
+
+def blots(width: int, height: int) -> MaskRegion:
+    rng, mask = np.random.default_rng(5), np.zeros((height, width), dtype=bool)
+    for x, y, radius in rng.uniform((0, 0, 2), (width, height, 30), (6, 3)):
+        rows, columns = np.mgrid[:height, :width]
+        mask |= np.hypot(columns - x, rows - y) < radius
+    return MaskRegion(mask)
+
+
+@pytest.mark.parametrize("coarse", [1, 2, 3, 7])
+@pytest.mark.parametrize("size", [(200, 120), (201, 127), (5, 300)])
+def test_distances_from_a_mask_whose_pixels_are_taken_together(coarse: int, size: tuple[int, int]) -> None:
+    region = blots(*size)
+    painted = np.argwhere(region.mask)[:, ::-1] + 0.5
+    places = np.random.default_rng(1).uniform((0, 0), size, (200, 2))
+    mesh = mesh_of([(x, y) for x, y in places], *size)
+    exact = np.linalg.norm(places[:, None] - painted, axis=2).min(axis=1)
+    found = distances_of(RigPoint((0, 0), region), mesh, coarse=coarse)[: len(places)]
+    assert np.abs(found - exact).max() < 1.5 * coarse + 0.5
+    inside = vertices_of(RigPoint((0, 0), region), mesh)[: len(places)]
+    assert (found[inside] <= coarse).all()
+
+
+def test_the_masks_of_a_scene_are_measured_on_so_many_pixels_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    import cv2
+
+    mesh, measured = mesh_of([(10.0, 10.0), (60.0, 60.0)]), []
+    transform = cv2.distanceTransform
+    monkeypatch.setattr(
+        cv2, "distanceTransform", lambda mask, *rest: measured.append(mask.size) or transform(mask, *rest)
+    )
+    monkeypatch.setattr(rigging, "_PIXELS_OF_DISTANCES", 40_000)
+    rig_points = tuple(RigPoint((9, 9), blots(200, 120), falloff=20.0) for _ in range(12))
+    holds_of(Scene((Body(mesh),), rig_points=rig_points))
+    assert coarseness_of(rig_points) == 3
+    assert len(measured) == 12
+    assert sum(measured) <= 1.1 * 40_000
+    measured.clear()
+    holds_of(Scene((Body(mesh),), rig_points=rig_points[:1]))
+    assert measured == [200 * 120]  # few are as fine as they are
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,102 @@
+"""The keywords of JSON Schema, for documents with lists of millions: in jsonschema's way, but not at its expense.
+
+The library writes every wrong value out, a whole list too, into a message of its own, which nobody reads here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import jsonschema
+from jsonschema.exceptions import ValidationError
+
+from .limits import LARGEST, MAX_MASK_PIXELS, MAX_VERTICES
+
+__all__ = ["SceneValidator"]
+
+
+def _is_number(checker: object, value: object) -> bool:
+    return type(value) is int or (type(value) is float and math.isfinite(value))
+
+
+def _is_point(entry: object) -> bool:
+    return (
+        type(entry) is list
+        and len(entry) == 2
+        and all(type(value) in (int, float) and -LARGEST <= value <= LARGEST for value in entry)
+    )
+
+
+def _is_triangle(entry: object) -> bool:
+    return (
+        type(entry) is list
+        and len(entry) == 3
+        and all(type(value) is int and 0 <= value < MAX_VERTICES for value in entry)
+    )
+
+
+def _never(entry: object) -> bool:
+    return False
+
+
+_QUICK_CHECKS: dict[str, Callable[[object], bool]] = {
+    "#/$defs/point": _is_point,
+    "#/$defs/triangle": _is_triangle,
+    "#/$defs/run": lambda entry: type(entry) is int and 0 <= entry <= MAX_MASK_PIXELS,
+    "#/$defs/factor": lambda entry: type(entry) in (int, float) and 0 < entry <= LARGEST,  # type: ignore[operator]
+    "#/$defs/time": lambda entry: type(entry) in (int, float) and 0 <= entry <= LARGEST,  # type: ignore[operator]
+}
+
+
+def _without_its_content(keyword: str) -> Callable[..., Iterator[ValidationError]]:
+    """A keyword for which it does not matter what a list or an object holds."""
+    check = jsonschema.Draft202012Validator.VALIDATORS[keyword]
+
+    def check_kind(validator: Any, value: Any, instance: Any, schema: Any) -> Iterator[ValidationError]:
+        empty = [] if isinstance(instance, list) else {} if isinstance(instance, dict) else instance
+        yield from check(validator, value, empty, schema) or ()
+
+    return check_kind
+
+
+def _check_least(validator: Any, least: int, instance: Any, schema: Any) -> Iterator[ValidationError]:
+    yield from _wrong(isinstance(instance, list) and len(instance) < least)
+
+
+def _check_most(validator: Any, most: int, instance: Any, schema: Any) -> Iterator[ValidationError]:
+    yield from _wrong(isinstance(instance, list) and len(instance) > most)
+
+
+def _check_keys(validator: Any, allowed: bool, instance: Any, schema: Any) -> Iterator[ValidationError]:
+    yield from _wrong(not allowed and isinstance(instance, dict) and not instance.keys() <= schema["properties"].keys())
+
+
+def _wrong(wrong: bool) -> Iterator[ValidationError]:
+    if wrong:
+        yield ValidationError("")
+
+
+def _check_items(validator: Any, items: dict[str, Any], instance: Any, schema: Any) -> Iterator[ValidationError]:
+    """The keyword "items", with a short way through long lists whose entries are right, and none into too long ones."""
+    if not isinstance(instance, list) or len(instance) > schema.get("maxItems", math.inf):
+        return
+    is_right = _QUICK_CHECKS.get(items.get("$ref", ""), _never)
+    for index, entry in enumerate(instance):
+        if not is_right(entry):
+            yield from validator.descend(entry, items, path=index)
+
+
+SceneValidator: Any = jsonschema.validators.extend(
+    jsonschema.Draft202012Validator,
+    validators={
+        **{name: _without_its_content(name) for name in ("type", "enum", "const")},
+        "minItems": _check_least,
+        "maxItems": _check_most,
+        "additionalProperties": _check_keys,
+        "items": _check_items,
+    },
+    type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine("number", _is_number),
+)
+"""Checks documents as ``jsonschema.Draft202012Validator`` does; a number is finite, true is none."""
