@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -194,6 +194,7 @@ def _measure(options: argparse.Namespace) -> None:
     timing["max_minutes"] = options.max_minutes
     with ExitStack() as bars:
         progress = _progress(options, bars)
+        timing |= _advisers(options, inputs["points"])
         animation = animate(image, plate=plate, progress=progress, **timing, **inputs)
         found = measured(options, animation, progress)
     show(table(found, as_json=options.json))
@@ -201,11 +202,10 @@ def _measure(options: argparse.Namespace) -> None:
 
 def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     """Animate, write everything that was asked for, and report."""
-    from .physics.advice import advice, stillness
+    from .physics.advice import stillness
     from .pipeline import animate
     from .rendering.command_messages import say, warn
     from .rendering.command_outputs import background_for, report, write_outputs
-    from .rendering.cut_judgement import judge_points
     from .rendering.images import load_image
     from .rendering.pixel_art import pixel_art_hint
 
@@ -226,18 +226,33 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             progress=progress,
             pixel_art=options.pixel_art,
             max_minutes=options.max_minutes,
+            **_advisers(options, inputs.get("points", ())),
             **inputs,
         )
-        points = inputs.get("points") or ()
-        cut = animation.masks[len(animation.masks) - len(points) :]
-        told = [*judge_points(cut, points), *advice(animation.scene, masks=not getattr(options, "mask", None))]
-        for sentence in [*told, *stillness(animation.motion)]:
+        for sentence in stillness(animation.motion):
             warn(f"physanimator: warning: {sentence}")
         write_outputs(options, animation, progress)
     if options.verbose:
         report(animation)
     if not options.quiet:
         say(f"{options.output}: {len(animation)} frames at {animation.motion.frame_rate:g} frames a second")
+
+
+def _advisers(options: argparse.Namespace, points: Sequence[str] = ()) -> dict[str, Callable[[Any], None]]:
+    """What says, before the simulation, what is suspicious about the cuts and the scene."""
+    from .physics.advice import advice
+    from .rendering.command_messages import warn
+    from .rendering.cut_judgement import judge_points
+
+    def tell(sentences: Sequence[str]) -> None:
+        for sentence in sentences:
+            warn(f"physanimator: warning: {sentence}")
+
+    named = bool(getattr(options, "mask", None))
+    return {
+        "on_cut": lambda cut: tell(judge_points(cut, points)),
+        "on_scene": lambda scene: tell(advice(scene, masks=not named)),
+    }
 
 
 def _progress(options: argparse.Namespace, stack: ExitStack) -> StageProgress:

@@ -7,7 +7,7 @@ animate(picture, [mask], preset="hair").save("girl.mp4")
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -66,6 +66,8 @@ def animate(
     progress: StageProgress | None = None,
     pixel_art: bool = False,
     max_minutes: float = DEFAULT_MINUTES,
+    on_cut: Callable[[Sequence[Mask]], None] | None = None,
+    on_scene: Callable[[Scene], None] | None = None,
 ) -> Animation:
     """Set parts of an illustration in motion.
 
@@ -100,6 +102,8 @@ def animate(
         pixel_art: move whole pixels, or the blocks that an enlarged picture shows for them, and mix no colours.
         max_minutes: minutes that the simulation may take, by the estimate for one core of an ordinary machine; what
             would take longer is refused before it begins.
+        on_cut: called with the masks that were cut from points, before anything is made of them.
+        on_scene: called with the scene before it is simulated.
 
     Raises:
         InvalidInputError: an input is unusable; the message names it.
@@ -122,6 +126,8 @@ def animate(
     with timed(seconds, "segment"):
         parts = (*masks, *_segmented(over(image), points or ()))
     _check_parts(parts)
+    if on_cut is not None:
+        on_cut(parts[len(masks) :])
     with timed(seconds, "mesh"):
         meshes = [mesh_from_mask(each, spacing=spacing) for each in parts]
     with timed(seconds, "scene"):
@@ -142,6 +148,8 @@ def animate(
             frames = DEFAULT_FRAMES if whole.loop is None else loop_frames(whole) + skip
             _check_frames(frames, skip)
         whole = _touching(whole, contact, colliders)
+    if on_scene is not None:
+        on_scene(whole)
     with timed(seconds, "simulate"):
         motion = simulate(whole, frames=frames, progress=_stage("simulate", progress), max_minutes=max_minutes)
     with timed(seconds, "prepare"):

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from .noise import LEAST_NOISE, noise_of, without_noise
+from .noise import LEAST_NOISE, noise_of, sharpness_of, without_noise
 
 __all__ = ["Looks"]
 
@@ -31,6 +31,9 @@ _STROKES = 7
 _SPREADS = (20, 16, 12, 9, 6)
 """Lightness around the click's in which a flood through texture is held, narrower where it leaks [8-bit Lab]. Light and
 shade change it more than they change the two other channels, which are held to half as much."""
+_LEAST_CONTRAST = 12.0
+"""Where small steps lead over edges of so much contrast [8-bit Lab], they lead out of most parts."""
+_BRIDGE = 5  # narrower ways than this may be of noise alone [px]
 
 
 class Looks:
@@ -43,6 +46,7 @@ class Looks:
     def __init__(self, lab: Lab) -> None:
         self._lab = lab
         self._clean = cv2.bilateralFilter(lab, 5, 20, 3)
+        self._sharpness = sharpness_of(lab)
         self._without: dict[float, Lab] = {}
         self._coarser: list[Lab] = []
         height, width = lab.shape[:2]
@@ -81,12 +85,20 @@ class Looks:
 
     def _finest(self, point: NDArray[np.int_], others: NDArray[np.int_], tolerance: int) -> Mask:
         noise = _noise_around(self._lab, point)
+        soft = tolerance > self._sharpness * _LEAST_CONTRAST
         if noise < LEAST_NOISE:
-            return _flooded(self._clean, point, others, tolerance)
+            return (_held if soft else _flooded)(self._clean, point, others, tolerance)
         if noise not in self._without:
             self._without[noise] = without_noise(self._lab, noise)
-        # The steps of noise lead anywhere: a flood that they carry stays near the click's own colour.
-        return _held(self._without[noise], point, others, tolerance)
+        # The steps of noise lead anywhere: a flood that they carry stays near the click's own colour, or goes on over
+        # no narrow bridges, and over smaller steps where light smoothing leaves some of the noise.
+        look = self._without[noise]
+        held = _held(look, point, others, tolerance)
+        if soft:
+            return held
+        if _noise_around(self._clean, point) < LEAST_NOISE:
+            return held | _broadly(_flooded(self._clean, point, others, tolerance), held)
+        return held | _broadly(_flooded(look, point, others, max(1, tolerance // 2)), held)
 
 
 def _noise_around(lab: Lab, point: NDArray[np.int_], size: int = 3) -> float:
@@ -103,6 +115,15 @@ def _held(look: Lab, point: NDArray[np.int_], others: NDArray[np.int_], toleranc
         if region.mean() < _LARGEST_REGION:
             return region
     return np.zeros(look.shape[:2], dtype=bool)
+
+
+def _broadly(region: Mask, core: Mask) -> Mask:
+    """The part of a region that hangs together with a core over more than narrow bridges."""
+    square = np.ones((_BRIDGE, _BRIDGE), np.uint8)
+    broad = cv2.erode(region.astype(np.uint8), square, borderValue=1)
+    _, labels = cv2.connectedComponents(broad, connectivity=4)
+    chosen = np.unique(labels[core & (broad > 0)])
+    return region & (cv2.dilate(np.isin(labels, chosen[chosen > 0]).astype(np.uint8), square) > 0)
 
 
 def _flooded(look: Lab, point: NDArray[np.int_], others: NDArray[np.int_], tolerance: int) -> Mask:

@@ -1,4 +1,4 @@
-"""Noise, grain and brush texture: how strong they are, and the picture without them."""
+"""Noise, grain and brush texture: how strong they are, and the picture without them; and how sharp its edges are."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["LEAST_NOISE", "noise_of", "without_noise"]
+__all__ = ["LEAST_NOISE", "noise_of", "sharpness_of", "without_noise"]
 
 Lab = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
@@ -16,6 +16,7 @@ _NORMAL = 1.4826
 LEAST_NOISE = 2.0
 """Clean art has this much from its soft edges and from JPEG."""
 _REACH = 9
+_CLEAR = 40  # lightness by which the two sides of a clear edge differ
 
 
 def noise_of(lab: Lab, where: Mask | None = None, *, size: int = 3) -> float:
@@ -43,3 +44,23 @@ def without_noise(lab: Lab, noise: float) -> Lab:
         return lab
     smooth = cv2.bilateralFilter(lab, _REACH, 4 * noise, _REACH / 3)
     return cv2.bilateralFilter(smooth, _REACH, 2 * noise, _REACH / 3)
+
+
+def sharpness_of(lab: Lab) -> float:
+    """The share of a clear edge's contrast between two pixels: 0.7 and more on clean art, under 0.3 with an airbrush.
+
+    Args:
+        lab: shape [h, w, 3].
+
+    Returns:
+        The median over the pixels near clear edges, 1 where there are none.
+    """
+    light = np.ascontiguousarray(lab[..., 0])
+    steps = np.zeros_like(light)
+    steps[:, 1:] = cv2.absdiff(light[:, 1:], light[:, :-1])
+    steps[1:] = np.maximum(steps[1:], cv2.absdiff(light[1:], light[:-1]))
+    window = np.ones((_REACH, _REACH), np.uint8)
+    contrast = cv2.subtract(cv2.dilate(light, window), cv2.erode(light, window))
+    clear = contrast >= _CLEAR
+    steps = cv2.dilate(steps, window)
+    return float(np.median(steps[clear] / contrast[clear])) if clear.any() else 1.0

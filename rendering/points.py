@@ -12,7 +12,7 @@ from ..physics.limits import MAX_PARTS, MAX_POINTS, MAX_QUERY_POINTS
 from ..physics.query_points import QueryPoint
 from .point_text import POINT_FORMS, decoded
 
-__all__ = ["QueryPoint", "parse_points", "parse_polyline"]
+__all__ = ["QueryPoint", "parse_points", "parse_polyline", "require_pixels"]
 
 _ON = ("1", "1.0", "true", "positive", "pos", "+", "fg", "foreground", "on", "yes", "include")
 _BESIDE = ("0", "0.0", "false", "negative", "neg", "-", "bg", "background", "off", "no", "exclude")
@@ -23,6 +23,7 @@ _NEGATIVE = ("negative", "coordinates_negative", "negative_coords")
 _PLACES, _MARKS = ("points", "point_coords"), ("labels", "point_labels")
 _NORMALISED = ("normalised", "normalized")
 _GROUPS = 'a list, or an object with "positive" and "negative", or with "points" and "labels"'
+_INSTEAD = ', or write {"normalised": true, "points": [...]}'
 _DEEPEST = 8  # lists of one list around the points
 
 
@@ -59,7 +60,7 @@ def parse_points(points: str | Sequence[Any] | Mapping[str, Any], *, width: int,
         found = _from_object(data, width, height)
     else:
         found = _listed([data] if isinstance(data, Mapping) else data, "points")
-        _require_pixels("points", [(point.x, point.y) for point in found])
+        require_pixels("points", [(point.x, point.y) for point in found], instead=_INSTEAD)
     require("points", f"{len(found)} points", len(found) <= MAX_QUERY_POINTS, f"at most {MAX_QUERY_POINTS}")
     for index, point in enumerate(found):
         if not (0 <= point.x <= width and 0 <= point.y <= height):
@@ -91,17 +92,27 @@ def parse_polyline(
     require(name, f"{len(items)} points", len(items) <= MAX_POINTS, f"at most {MAX_POINTS} points")
     found = [_coordinates(item, f"{name}[{index}]") for index, item in enumerate(items)]
     if len(found) > 1 and not offsets:
-        _require_pixels(name, found)
+        require_pixels(name, found, instead=_INSTEAD)
     return found
 
 
-def _require_pixels(name: str, places: Sequence[tuple[float, float]]) -> None:
+def require_pixels(name: str, places: Sequence[tuple[float, float]], *, instead: str = "") -> None:
+    """Refuse coordinates that are all within the first pixel, as normalised ones are.
+
+    Args:
+        name: what the user calls them.
+        places: x and y of each.
+        instead: what else may be written, for the message.
+
+    Raises:
+        InvalidInputError: all are from 0 to 1, and not whole.
+    """
     values = [value for place in places for value in place]
     normalised = bool(values) and all(0 <= value <= 1 for value in values) and any(0 < value < 1 for value in values)
     if normalised:
         raise InvalidInputError(
-            f"{name} must be pixels; if these are normalised, multiply x by the picture's width and y by its height, or"
-            f' write {{"normalised": true, "points": [...]}}. Got: all from 0 to 1, as ({values[0]:g}, {values[1]:g})'
+            f"{name} must be pixels; if these are normalised, multiply x by the picture's width and y by its height"
+            f"{instead}. Got: all from 0 to 1, as ({values[0]:g}, {values[1]:g})"
         )
 
 
@@ -154,7 +165,7 @@ def _from_object(data: Mapping[str, Any], width: int, height: int) -> list[Query
         found = [*_of_group(data, _POSITIVE, True), *_of_group(data, _NEGATIVE, False)]
     if any(data.get(name) for name in _NORMALISED):
         return [QueryPoint(each.x * width, each.y * height, each.positive, each.part) for each in found]
-    _require_pixels("points", [(point.x, point.y) for point in found])
+    require_pixels("points", [(point.x, point.y) for point in found], instead=_INSTEAD)
     return found
 
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..physics.errors import InvalidInputError, require
 from ..physics.query_points import QueryPoint
+from .points import require_pixels
 
 __all__ = ["Box", "Prompt", "checked_box", "checked_points", "prompts_of"]
 
@@ -44,7 +45,8 @@ def checked_points(
         height: of the picture [px].
 
     Raises:
-        InvalidInputError: a point outside the picture, a label too many or too few, or points that contradict.
+        InvalidInputError: a point outside the picture, all within its first pixel as normalised ones are, a label too
+            many or too few, or points that contradict.
     """
     seeds = np.asarray(points, dtype=np.float64).reshape(-1, 2)
     positive = np.asarray(labels).reshape(-1).astype(bool)
@@ -54,6 +56,8 @@ def checked_points(
             raise InvalidInputError(
                 f"points[{index}] must lie inside the picture of {width} x {height} px. Got: ({x:g}, {y:g})"
             )
+    if max(width, height) > 1:
+        require_pixels("points", [(float(x), float(y)) for x, y in seeds])
     seeds = np.minimum(seeds, np.array([width, height]) - 0.5)
     cells = [tuple(cell) for cell in seeds.astype(int)]
     clash = {c for c, p in zip(cells, positive, strict=True) if p} & {

@@ -14,6 +14,7 @@ import numpy as np
 import physanimator
 import pytest
 from physanimator.__main__ import EXAMPLE, main
+from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import PRESETS
 from physanimator.rendering.images import load_image, save_image
 from PIL import Image
@@ -351,6 +352,23 @@ def test_what_may_not_be_meant_in_a_mask_is_said(folder: Path, capsys: Output) -
     (warning,) = capsys.readouterr().err.splitlines()
     assert warning.startswith("physanimator: warning: mask inverted.png covers 95 % of the picture")
     assert warning.endswith("invert it")
+
+
+def test_an_implausible_cut_is_said_before_the_simulation(
+    folder: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One point on the ground before which everything stands."""
+
+    def stopped(*_: object, **__: object) -> None:
+        raise InvalidInputError("simulation reached")
+
+    monkeypatch.setattr("physanimator.pipeline.simulate", stopped)
+    Path("wall.txt").write_text("5,5,1")
+    assert status("animate", "girl.png", "--points", "wall.txt", "--quiet", "--output", "o.mp4") == 2
+    warning, *_, error = capsys.readouterr().err.splitlines()
+    assert warning.startswith("physanimator: warning: The cut is")
+    assert "of the picture from one point" in warning
+    assert error.endswith("simulation reached")
 
 
 def test_points_in_the_encoding_of_a_windows_pipe(folder: Path) -> None:

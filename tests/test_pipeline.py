@@ -120,6 +120,31 @@ def test_points_select_the_part() -> None:
     assert (chosen.masks[0] > 0.5)[~strip()].mean() < 0.05
 
 
+def test_cuts_are_shown_before_anything_is_made_of_them() -> None:
+    seen: list[Any] = []
+
+    def stop(cut: Any) -> None:
+        seen.extend(cut)
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        animate(picture(), [strip()], points=["70,50,1\n120,50,0"], on_cut=stop, on_scene=seen.append)
+    (cut,) = seen
+    assert (cut > 0.5)[strip()].mean() > 0.9
+
+
+def test_the_scene_is_shown_before_it_is_simulated() -> None:
+    seen: list[str] = []
+    animate(
+        picture(),
+        [strip()],
+        frames=2,
+        on_scene=lambda scene: seen.append("scene"),
+        progress=lambda *step: seen.append(step[0]),
+    )
+    assert seen == ["scene", "simulate", "simulate"]
+
+
 def test_presets_one_for_each_part() -> None:
     other = np.roll(strip(), 45, axis=1)
     both = animate(picture(), [strip(), other], preset=["ribbon", "leaf"], frames=1)

@@ -148,6 +148,7 @@ def test_a_large_picture_is_cut_at_its_own_resolution() -> None:
         ([(10, 10), (300, 10)], [1, 1], {}, r"points\[1\] must lie inside the picture of 200 x 150 px"),
         ([(10, 10)], [1, 0], {}, r"labels must be one per point \(1\)"),
         ([(10.2, 10), (10.7, 10.4)], [1, 0], {}, "not both at one pixel"),
+        ([(0.4, 0.5), (0.7, 0.5)], [1, 0], {}, "if these are normalised, multiply x by the picture's width"),
         ([(10, 10)], [1], {"box": (300, 0, 400, 10)}, "box must be"),
         ([(10, 10), (50, 50)], [1, 1], {"box": (0, 0, 20, 20)}, r"points\[1\] must lie inside the box"),
     ],
