@@ -19,6 +19,8 @@ _NAMED = 3
 _LOOKED_AT = 128  # longest side at which it is seen what a mesh covers [px]
 # What nobody sees: frames drawn with less differ by resampling alone [px].
 _UNSEEN = 0.25
+# Shorter trials end before the wind has come [s].
+_LONG_ENOUGH = 0.5
 # A smaller part, and a smaller share of the picture, is rather a slip of the brush than something that bends [px^2].
 _TINY = 64
 _TINY_SHARE = 0.005
@@ -90,7 +92,7 @@ def stillness(motion: Motion) -> list[str]:
     """A sentence where a motion of several frames shows nothing that anybody could see."""
     moved = motion.positions - motion.positions[:1]
     farthest = float(np.hypot(moved[..., 0], moved[..., 1]).max(initial=0.0))
-    if len(motion) < 2 or farthest >= _UNSEEN:
+    if len(motion) < max(2, _LONG_ENOUGH * motion.frame_rate) or farthest >= _UNSEEN:
         return []
     what = f"nothing moves by more than {farthest:.2f} px" if farthest >= 0.01 else "nothing moves at all"
     return [
