@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from painted_art import DAMAGES, PARTS, TECHNIQUES, painted, points_in
 from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.images import load_image, load_mask
+from physanimator.rendering.noise import sharpness_of
 from physanimator.rendering.outline_cuts import without_foreign_lines
 from physanimator.rendering.segmentation import segment
 
@@ -256,6 +257,22 @@ def test_damaged_art_gives_a_usable_cut(damage: str) -> None:
     picture[shape] = (220, 80, 70)
     damaged, _ = DAMAGES[damage](picture, shape)
     assert overlap(segment(damaged, [(90, 70)], [1]), shape) > 0.85
+
+
+@pytest.mark.parametrize("on", [1, 3])
+def test_an_airbrushed_part_does_not_leak_over_its_soft_edge(on: int) -> None:
+    """From points on it alone; small steps of colour lead out of it everywhere."""
+    picture, truth = painted("airbrush", "wing", width=640, height=480, seed=1)
+    points = points_in(truth, on, 0, seed=100 * on)
+    assert overlap(segment(picture, points[:, :2], points[:, 2]), truth) > 0.85
+
+
+def test_sharpness_is_that_of_the_edges_whatever_their_number() -> None:
+    picture = cv2.cvtColor(page(), cv2.COLOR_RGB2Lab)
+    picture[:, 120:, 0] = 60
+    assert sharpness_of(picture) == 1
+    assert 0.15 < sharpness_of(cv2.GaussianBlur(picture, (0, 0), 2.5)) < 0.3
+    assert sharpness_of(np.full((20, 20, 3), 90, np.uint8)) == 1
 
 
 def test_strokes_of_a_brush_are_no_regions() -> None:
