@@ -36,11 +36,14 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     from .background import Background, background_of
     from .command_files import check_apart
     from .drawing_checks import check_drawing
+    from .places import suffix_of
     from .text_files import check_text_output
     from .video import check_frame_rate
 
     check_apart(options, bundled=bundled)
-    said = background_of(options.background) if options.background else Background()
+    # Frames in .webm have an alpha channel whatever the illustration is, unless something else is said.
+    usual = Background("parts" if suffix_of(options.output) == ".webm" else "picture")
+    said = background_of(options.background) if options.background else usual
     _check_clips(options, alpha=said.has_alpha)
     check_drawing(transparent=said.has_alpha, every=options.interpolate, pixel_art=options.pixel_art)
     if options.fps is not None:

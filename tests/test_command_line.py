@@ -363,8 +363,11 @@ def test_an_implausible_cut_is_said_before_the_simulation(
         raise InvalidInputError("simulation reached")
 
     monkeypatch.setattr("physanimator.pipeline.simulate", stopped)
+    wall = np.full((HEIGHT, WIDTH, 3), 200, np.uint8)
+    wall[20:95, 60:80] = (70, 40, 30)
+    save_image("wall.png", wall)
     Path("wall.txt").write_text("5,5,1")
-    assert status("animate", "girl.png", "--points", "wall.txt", "--quiet", "--output", "o.mp4") == 2
+    assert status("animate", "wall.png", "--points", "wall.txt", "--quiet", "--output", "o.mp4") == 2
     warning, *_, error = capsys.readouterr().err.splitlines()
     assert warning.startswith("physanimator: warning: The cut is")
     assert "of the picture from one point" in warning

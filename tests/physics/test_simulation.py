@@ -381,19 +381,3 @@ def test_many_threads_may_simulate_at_once() -> None:
         thread.join()
     for number in range(3):
         np.testing.assert_array_equal(found[number], expected[number])
-
-
-def test_somebody_else_may_initialise_taichi_in_the_middle() -> None:
-    expected = simulate(scene(strokes=(wind(),)), frames=13)
-
-    def intrude(done: int, _total: int) -> None:
-        if done in (1, 5):
-            import taichi as ti
-
-            # On a thread of its own: Taichi sets flush-to-zero for the thread, which would stay on in other tests.
-            intruder = threading.Thread(target=ti.init, args=(ti.cpu,), kwargs={"log_level": ti.ERROR})
-            intruder.start()
-            intruder.join()
-
-    disturbed = simulate(scene(strokes=(wind(),)), frames=13, progress=intrude)
-    np.testing.assert_array_equal(disturbed.positions, expected.positions)

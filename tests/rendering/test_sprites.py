@@ -174,7 +174,7 @@ def test_unusable_pictures_are_refused() -> None:
     image, motion = sprite(), moved(mesh_from_mask(lock()))
     with pytest.raises(InvalidInputError, match=r"^masks must leave some of the picture"):
         LayeredRenderer(image, [np.ones((HEIGHT, WIDTH))], motion)
-    with pytest.raises(InvalidInputError, match=r"^plate must have the image's shape"):
+    with pytest.raises(InvalidInputError, match=r"^plate must have the image's size"):
         LayeredRenderer(image, [lock()], motion, plate=image[:-1])
     with pytest.raises(InvalidInputError, match=r"^image must have the shape"):
         LayeredRenderer(np.dstack([image, image]), [lock()], motion)
