@@ -176,5 +176,5 @@ def test_unusable_pictures_are_refused() -> None:
         LayeredRenderer(image, [np.ones((HEIGHT, WIDTH))], motion)
     with pytest.raises(InvalidInputError, match=r"^plate must have the image's size"):
         LayeredRenderer(image, [lock()], motion, plate=image[:-1])
-    with pytest.raises(InvalidInputError, match=r"^image must have the shape"):
+    with pytest.raises(InvalidInputError, match=r"^image must be an RGB or RGBA picture"):
         LayeredRenderer(np.dstack([image, image]), [lock()], motion)
