@@ -167,7 +167,7 @@ def test_what_jumps_inside_is_found_and_pushed_out_again() -> None:
     scene = Scene((Body(left, softest), Body(right, softest)), contact=Contact())
     system = assemble(scene)
     touching = TouchingBodies(scene, system, _solid(scene, system), Contact())
-    surface, spacing, side, first = touching._surface, 13.0, left.longest_side, len(left.vertices)
+    surface, spacing, side, first = touching._touching.surface, 13.0, left.longest_side, len(left.vertices)
 
     def depths() -> Array:
         """Of the right disc's boundary in the left one [px], by the numbers of the surface's points."""
