@@ -1,9 +1,9 @@
 # mypy: ignore-errors
 """The Taichi kernel of bodies that touch: boundary vertices are kept out of the boundary edges of other parts.
 
-Every part takes its own steps through a tick, those of parts that may touch side by side; after each they are put
-apart. From pairs that are too near, velocities and positions are projected along the edge's normal, so that momentum
-stays. Friction acts on what slides along the edge.
+Every part takes its own steps through a tick, parts that touch the same number of them side by side; after each they
+are put apart. From pairs that are too near, velocities and positions are projected along the edge's normal, so that
+momentum stays. Friction acts on what slides along the edge.
 
 Several threads share the work of each phase in pieces and meet after it, as in ``kernels.advance_together``; contacts
 are found and put apart by one of them. The result is the same to the last bit with any number of threads.
@@ -56,17 +56,28 @@ def build_contact_kernel(ti: Any) -> Any:
 
     @ti.func
     def settle_tick(tick: ti.i32, scene: ti.template()):
-        """Choose the steps of every part in a tick, and into how many intervals it is cut: none if nothing touches."""
+        """Choose the steps of every part in a tick, and into how many intervals it is cut: none if nothing touches.
+
+        Parts that touch take as many as the stiffest of them.
+        """
         solid, surface, team = ti.static(scene.solid, scene.surface, scene.team)
-        intervals = 0
+        intervals, most = 0, 0
         for part in range(solid.substeps.shape[0]):
             count = substeps_at(ti.atomic_max(team.highest[tick, part], 0.0), solid.substeps[part])
             surface.activity[part][STEPS] = count
+            if surface.activity[part][TOUCHING] > 0:
+                most = ti.max(most, count)
             if is_large(part, solid) or surface.activity[part][TOUCHING] > 0:
                 intervals = ti.max(intervals, count)
                 team.steps[tick, part] = count
             else:
                 team.steps[tick, part] = 0 - count
+        # A part that stood still in many steps of a stiffer one would be pushed into it by each of them, and give back
+        # more than it got.
+        for part in range(solid.substeps.shape[0]):
+            if surface.activity[part][TOUCHING] > 0:
+                surface.activity[part][STEPS] = most
+                team.steps[tick, part] = most
         busy = 0
         for piece in range(team.blocks.shape[0]):
             busy = busy + ti.cast(team.steps[tick, team.blocks[piece][0]] > 0, ti.i32)

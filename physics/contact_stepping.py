@@ -1,8 +1,9 @@
 """Bodies that touch, and their way through time.
 
-Every part takes its own steps through a tick as without contact. Two parts that may touch are put apart in every step
-of the stiffer one: bodies pushed out of each other more rarely would gain energy from the overlap of a whole interval.
-The softer one, which may stand still meanwhile, is foreseen to move at the end of its own step.
+Every part takes its own steps through a tick as without contact, but parts that touch take as many as the stiffest of
+them and are put apart after each: pushed out of each other more rarely, or while one stands still, they would gain
+energy. Two that have only come near are put apart in every step of the stiffer one, and the softer one is foreseen to
+move at the end of its own step.
 
 All parts are advanced by several threads together, or by one where that is faster.
 """
