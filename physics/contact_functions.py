@@ -13,6 +13,10 @@ __all__ = ["ContactOptions", "build_contact_functions"]
 
 _YIELDING = 0.5  # part of the thickness that gives way at first, so that pushes do not set light vertices ringing
 _RETURN = 0.01  # part of it that comes back in a step
+# A part that takes so few steps in a tick may be pushed by a whole thickness at once; stiffer ones, whose elasticity
+# turns a push in a short step into speed, by less, with the square of their steps.
+_PUSHED_AT_ONCE = 36
+_THIN = 1e-3  # [side], of contacts that are thinner
 _LEAST_PUSH = 1e-6  # [side]; what is less makes no difference that could be seen
 _LEAST_SPEED = 1e-4  # [side/s]
 
@@ -68,11 +72,18 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
 
     @ti.func
     def put_contact_apart(
-        surface: any_value, solid: any_value, state: any_value, options: any_value, c: ti.i32, rate: ti.f32
+        surface: any_value,
+        solid: any_value,
+        state: any_value,
+        options: any_value,
+        c: ti.i32,
+        steps: ti.i32,
+        rate: ti.f32,
     ):
         """Project positions and velocities along a contact's normal, weighted by the inverse masses.
 
-        ``rate`` is one over the time in which the two may come together [1/s]. Returns 1 if anything had to be done.
+        ``steps`` are those that the stiffer one takes in a tick, and ``rate`` is one over the time in which the two may
+        come together [1/s]. Returns 1 if anything had to be done.
         """
         u, v = ti.static(state.displacement, state.velocity)
         pair, data = surface.contacts[c], surface.contact_data[c]
@@ -82,6 +93,8 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
         gap = normal.dot(place(solid, state, i) - (1.0 - t) * place(solid, state, a) - t * place(solid, state, b))
         push = ti.max(wanted - _YIELDING * options.thickness - gap, 0.0)
         push = push + _RETURN * ti.max(wanted - gap - push, 0.0)
+        stiffness = ti.max(ti.cast(steps, ti.f32) / _PUSHED_AT_ONCE, 1.0)
+        push = ti.min(push, ti.max(options.thickness, _THIN) / (stiffness * stiffness))
         relative = v[i] - (1.0 - t) * v[a] - t * v[b]
         approach = relative.dot(normal)
         # What is still apart may come as near as it wants to be, but no nearer.
@@ -131,7 +144,7 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
                 if fewer == 0:  # a collider
                     fewer = more
                 if more >= intervals or steps_in(interval, intervals, more) > 0:
-                    done = done | put_contact_apart(surface, solid, state, options, c, fewer / TICK)
+                    done = done | put_contact_apart(surface, solid, state, options, c, more, fewer / TICK)
             left = ti.select(done > 0, left - 1, 0)
 
     return SimpleNamespace(

@@ -16,7 +16,7 @@ from physanimator.physics.wind import Wind
 from PIL import Image
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example"
-FRAMES = 34
+FRAMES = 66
 FASTEST = 60.0  # [px] in a frame; parts that gain energy from each other pass 400
 
 
