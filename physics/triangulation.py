@@ -23,7 +23,10 @@ _LATTICE_RATIO = 2**0.5
 _SMOOTHING_ROUNDS = 3
 # Weight of a triangle in smoothing: its area times spacing to the minus this power.
 _CROWDING = 2.5
-_SHORTEST_EDGE = 0.25
+# Shortest edges that refinement makes, in shortest edges of the polygons. In a tip that is little wider than the wanted
+# angle the first makes very low triangles, for which the whole body would take smaller steps; then the next is tried.
+_SHORTEST_EDGES = (0.25, 0.35, 0.5, 0.7, 1.0)
+_LOWEST_TRIANGLE = 0.15  # smallest spacings; an equilateral one is 0.87 high
 _MOST_NEW_POINTS = 4
 _LAST_SECONDS = 30.0
 
@@ -89,7 +92,7 @@ def triangulate(
     for _ in range(_SMOOTHING_ROUNDS):
         points, triangles = _delaunay(boundary, seeds, edges)
         seeds = _centred(points, triangles, field)[len(boundary) :]
-    return _delaunay(boundary, seeds, edges, min_angle=min_angle)
+    return _refined(boundary, seeds, edges, min_angle=min_angle, lowest=_LOWEST_TRIANGLE * float(field.values.min()))
 
 
 def morton_order(points: FloatArray) -> IndexArray:
@@ -100,8 +103,35 @@ def morton_order(points: FloatArray) -> IndexArray:
     return np.argsort(key, kind="stable")
 
 
+def _refined(
+    boundary: FloatArray, seeds: FloatArray, edges: NDArray[np.uint32], *, min_angle: float, lowest: float
+) -> tuple[FloatArray, IndexArray]:
+    """The triangulation refined as far as no triangle gets lower than ``lowest`` [px], or else the highest found."""
+    sides = float(np.hypot(*(boundary[edges[:, 1]] - boundary[edges[:, 0]]).T).min())
+    found = []
+    for factor in _SHORTEST_EDGES:
+        mesh = _delaunay(boundary, seeds, edges, min_angle=min_angle, shortest=factor * sides)
+        found.append((_lowest_altitude(*mesh), mesh))
+        if found[-1][0] >= lowest:
+            break
+    return max(found, key=lambda each: each[0])[1]
+
+
+def _lowest_altitude(points: FloatArray, triangles: IndexArray) -> float:
+    """Altitude of the lowest triangle [px]."""
+    a, b, c = (points[triangles[:, corner]] for corner in range(3))
+    u, v = b - a, c - a
+    longest = np.max([np.hypot(*side.T) for side in (u, v, v - u)], axis=0)
+    return float((np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / longest).min(initial=np.inf))
+
+
 def _delaunay(
-    boundary: FloatArray, seeds: FloatArray, edges: NDArray[np.uint32], *, min_angle: float | None = None
+    boundary: FloatArray,
+    seeds: FloatArray,
+    edges: NDArray[np.uint32],
+    *,
+    min_angle: float | None = None,
+    shortest: float = 0.0,
 ) -> tuple[FloatArray, IndexArray]:
     import pythoncdt as cdt
 
@@ -115,7 +145,6 @@ def _delaunay(
             raise CrossingEdgesError(str(error)) from error
         outer = work.collect_outer_triangles_and_holes()
         if min_angle is not None:
-            shortest = _SHORTEST_EDGE * float(np.hypot(*(boundary[edges[:, 1]] - boundary[edges[:, 0]]).T).min())
             angle = cdt.deg_to_rad(min_angle)
             most = _MOST_NEW_POINTS * len(points)
             work.refine_triangles(most, cdt.RefinementCriterion.SMALLEST_ANGLE, angle, outer, shortest)

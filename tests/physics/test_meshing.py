@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from physanimator.physics import meshing
 from physanimator.physics.contours import area_of, perimeter_of
@@ -185,6 +185,22 @@ def test_refinement_raises_the_angles_that_bad_seeds_leave() -> None:
     assert smallest_angles(raw).min() < 15
     assert smallest_angles(refined).min() >= 25 - 1e-6
     assert deepest_intrusion(refined) < 1e-7
+
+
+def test_refinement_leaves_no_low_triangles_in_sharp_tips() -> None:
+    random = np.random.default_rng(1)
+    for _ in range(120):
+        half, length, spacing = np.radians(random.uniform(12.5, 25)), random.uniform(10, 40), random.uniform(2.5, 6)
+        tip = np.array([50.0, 5.0])
+        left, right = (tip + length * np.array([side * np.sin(half), np.cos(half)]) for side in (-1, 1))
+        pieces = [max(1, round(length / spacing * random.uniform(0.8, 1.2))) for _ in range(2)]
+        base = max(1, round(2 * length * np.sin(half) / spacing))
+        sides = ((tip, left, pieces[0]), (left, right, base), (right, tip, pieces[1]))
+        loop = np.concatenate([a + (b - a) * (np.arange(count) / count)[:, None] for a, b, count in sides])
+        field = SpacingField(np.full((30, 30), spacing), 4)
+        mesh = TriangleMesh(*triangulate([loop], np.empty((0, 2)), field, min_angle=25), 100, 100)
+        assert altitudes(mesh).min() > 0.15 * spacing
+        assert deepest_intrusion(mesh) < 1e-7
 
 
 def test_crossing_polygons_are_reported() -> None:
@@ -513,6 +529,8 @@ def test_options_out_of_range_are_refused(option: str, value: float) -> None:
     spacing=st.none() | st.floats(2.5, 50),
     size=st.tuples(st.integers(12, 160), st.integers(12, 160)),
 )
+@example(seed=184263, sigma=14.0, level=0.8847494259196291, spacing=None, size=(69, 90))  # a part of 5x5 px
+@example(seed=181345, sigma=3.717507378901792, level=-0.9070979126474499, spacing=43.3, size=(105, 104))  # a sharp tip
 def test_random_masks_become_conforming_meshes(
     seed: int, sigma: float, level: float, spacing: float | None, size: tuple[int, int]
 ) -> None:
@@ -522,8 +540,8 @@ def test_random_masks_become_conforming_meshes(
     mesh = mesh_from_mask(mask, spacing=spacing)
     assert deepest_intrusion(mesh) < 1e-7
     assert mesh.areas.sum() == pytest.approx(-sum(map(area_of, boundary_loops(mesh))), rel=1e-9)
-    # White of less than 64 px across is meshed in so much smaller pixels, of which the bound holds.
-    across = float(np.linalg.norm(np.ptp(np.argwhere(mask > 0.5), axis=0) + 1))
+    # White of less than 64 px across, specks aside, is meshed in so much smaller pixels, of which the bound holds.
+    across = float(np.linalg.norm(np.ptp(np.clip(mesh.vertices, 0, size[::-1]), axis=0)))
     assert altitudes(mesh).min() > 0.3 / max(1.0, np.ceil(64 / across))
 
 
