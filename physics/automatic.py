@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from .errors import require
 from .material import Material
-from .mesh import TriangleMesh
+from .mesh import UNITS_ACROSS, TriangleMesh
 from .rig import Pinned, Polygon, RigPoint
 from .scene import Body, Scene
 from .strokes import EnergyStroke
@@ -40,10 +40,6 @@ ATTACHMENTS: tuple[Attachment, ...] = get_args(Attachment)
 
 USUAL_LENGTH = 0.3
 """Length of the body for which the presets' sway frequencies are meant [unit]."""
-
-# Sizes are chosen in units that follow the bodies, so that an empty margin around the same drawing changes nothing: a
-# unit is the longest side of a picture on which the largest body is as large as a head of hair usually is.
-_LARGEST_LENGTH = 0.46  # of that body [unit]
 
 _OUTWARD: dict[str, tuple[float, float]] = {
     "top": (0.0, -1.0),
@@ -107,8 +103,8 @@ def automatic_scene(
 
 
 def unit_of(meshes: Sequence[TriangleMesh]) -> float:
-    """The length in which sizes are chosen for these bodies [px], whatever the size of the picture around them."""
-    return max(_length(mesh) for mesh in meshes) / _LARGEST_LENGTH
+    """The unit of these bodies [px], see ``UNITS_ACROSS``, whatever the size of the picture around them."""
+    return max(_length(mesh) for mesh in meshes) / UNITS_ACROSS
 
 
 def _length(mesh: TriangleMesh) -> float:

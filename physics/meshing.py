@@ -11,7 +11,7 @@ from .contours import contours_at_half, resampled, smoothed
 from .ending import working
 from .errors import MeshingError, require
 from .masks import continued, coverage_of, fitted, largest_area, with_sound_details, without_specks
-from .mesh import TriangleMesh
+from .mesh import UNITS_ACROSS, TriangleMesh
 from .spacing import GAP_FACTOR, SpacingField, spacing_field
 from .triangulation import CrossingEdgesError, interior_seeds, morton_order, triangulate
 
@@ -25,9 +25,7 @@ MOST_TRIANGLES = 200_000
 _WANTED_TRIANGLES = 2000
 _MOST_PIXELS = 2**27  # of a mask that is continued past the border, with room around it
 _EQUILATERAL = np.sqrt(3) / 4
-# Bounds of the spacings that are chosen here, in pixels and in units. A unit is the longest side of a picture on which
-# white of this size is as large as a head of hair usually is: an empty margin around a drawing changes no mesh.
-_USUAL_LENGTH = 0.46
+# Bounds of the spacings that are chosen here, in pixels and in units (see ``UNITS_ACROSS``).
 _LEAST_SPACING_PX, _LEAST_SPACING = 5.0, 0.0075
 _LEAST_FLOOR_PX, _MOST_FLOOR = 2.5, 0.0075
 # Coarser triangles cannot make up for more thin parts than this.
@@ -100,7 +98,7 @@ def mesh_from_mask(
         coverage, corner = _enlarged(coverage, low, high, times)
         options, spacing = options.enlarged(times), spacing and spacing * times
     _require_bounded(options, (high - low) * times, times)
-    options = replace(options, unit=length * times / _USUAL_LENGTH)
+    options = replace(options, unit=length * times / UNITS_ACROSS)
     shape = _prepared(coverage, spacing, options) if spacing else _for_wanted_triangles(coverage, options)
     if shape.expected_triangles > MOST_TRIANGLES:
         raise MeshingError(
