@@ -213,7 +213,7 @@ def gusts(meshes: Sequence[TriangleMesh], *, strength: float = 1.0, angle: float
 def breeze(
     meshes: Sequence[TriangleMesh], *, strength: float = 1.0, angle: float = 0.0, turbulence: float = 0.3
 ) -> Wind:
-    """A wind field that comes and goes, with eddies as large as suits the bodies.
+    """A wind field that comes and goes, with eddies as large as suits the bodies, laid from the corner of their box.
 
     Args:
         meshes: the bodies.
@@ -223,4 +223,11 @@ def breeze(
     """
     vertices, unit = np.concatenate([mesh.vertices for mesh in meshes]), unit_of(meshes)
     size = max(_EDDY * float(np.ptp(vertices, axis=0).max()), _SMALLEST_EDDY * unit)
-    return Wind(_BREEZE * strength * unit / meshes[0].longest_side, angle, turbulence=turbulence, turbulence_size=size)
+    corner = vertices.min(axis=0).tolist()
+    return Wind(
+        _BREEZE * strength * unit / meshes[0].longest_side,
+        angle,
+        turbulence=turbulence,
+        turbulence_size=size,
+        origin=(corner[0], corner[1]),
+    )

@@ -112,7 +112,7 @@ def scene_from_checked(checked: Mapping[str, Any], *, meshes: Sequence[TriangleM
         query_points = _rescaled("query_points", query_points, scale)
         contact = contact and _rescaled("contact", [contact], scale)[0]
     options = _floats({name: value for name, value in document.items() if name in ("gravity", "frame_rate", "loop")})
-    wind = _read_wind(document.get("wind"), max(target) / max(size))
+    wind = _read_wind(document.get("wind"), size, target)
     with _located(""):
         return Scene(
             tuple(bodies),
@@ -165,12 +165,12 @@ def _read_stroke(entry: dict[str, Any], path: str) -> EnergyStroke:
         return EnergyStroke(**_floats(entry))
 
 
-def _read_wind(entry: dict[str, Any] | None, scale: float) -> Wind | None:
+def _read_wind(entry: dict[str, Any] | None, size: tuple[int, int], target: tuple[int, int]) -> Wind | None:
     if entry is None:
         return None
     values = _floats(entry) | ({"seed": int(entry["seed"])} if "seed" in entry else {})
     with _located("wind"):
-        return Wind(**values).rescaled((scale, scale, scale))
+        return Wind(**values).rescaled((target[0] / size[0], target[1] / size[1], max(target) / max(size)))
 
 
 def _read_rig_point(entry: dict[str, Any], path: str) -> RigPoint:

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from .checks import is_whole, within
 from .errors import require
 from .limits import LARGEST
-from .points import Scale
+from .points import Point, Scale, checked_points, scaled_points
 from .rhythm import fitted_period
 
 __all__ = ["Eddies", "Wind", "eddies", "uniform", "wind_acceleration"]
@@ -41,6 +41,7 @@ class Wind:
         turbulence: strength of the eddies as a share of the wind's, root mean square, 0 to 1.
         turbulence_size: how large an eddy is [px].
         seed: chooses among winds that are alike in all of this.
+        origin: point of the picture [px] from which the pattern of eddies is laid; None for the upper left corner.
     """
 
     strength: float = 1.0
@@ -50,6 +51,7 @@ class Wind:
     turbulence: float = 0.3
     turbulence_size: float = 200.0
     seed: int = 0
+    origin: Point | None = None
 
     def __post_init__(self) -> None:
         bounded = within(self.strength, -LARGEST, LARGEST)
@@ -62,10 +64,13 @@ class Wind:
         require("turbulence_size", size, within(size, 1, LARGEST), f"1 to {LARGEST} px")
         require("seed", self.seed, is_whole(self.seed, 0, _LARGEST_SEED), f"a whole number from 0 to {_LARGEST_SEED}")
         object.__setattr__(self, "seed", int(self.seed))
+        if self.origin is not None:
+            object.__setattr__(self, "origin", checked_points("origin", [self.origin], least=1)[0])
 
     def rescaled(self, scale: Scale) -> Wind:
         """The same wind over the picture at another size."""
-        return replace(self, turbulence_size=max(1.0, self.turbulence_size * scale[2]))
+        origin = None if self.origin is None else scaled_points((self.origin,), scale)[0]
+        return replace(self, turbulence_size=max(1.0, self.turbulence_size * scale[2]), origin=origin)
 
     @property
     def direction(self) -> FloatArray:
@@ -131,7 +136,10 @@ def eddies(wind: Wind, *, loop: float | None = None) -> Eddies:
         rate = np.copysign(np.maximum(1, np.rint(np.abs(turns))), turns) * 2 * np.pi / loop
     size = abs(wind.strength) * wind.turbulence * math.sqrt(2 / max(count, 1))
     across = np.column_stack([-towards[:, 1], towards[:, 0]])
-    return Eddies(wave, size * across, random.uniform(0, 2 * np.pi, count), rate)
+    phase = random.uniform(0, 2 * np.pi, count)
+    if wind.origin is not None:
+        phase = phase - wave @ np.array(wind.origin)
+    return Eddies(wave, size * across, phase, rate)
 
 
 def wind_acceleration(wind: Wind, points: ArrayLike, t: float, *, loop: float | None = None) -> FloatArray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .limits import LARGEST
-from .schema_blocks import ANY_SIZE, Schema, number, whole_number
+from .schema_blocks import ANY_SIZE, Schema, defined, number, whole_number
 
 __all__ = ["wind_properties"]
 
@@ -27,4 +27,9 @@ def wind_properties() -> dict[str, Schema]:
         "turbulence": number("Turbulence", "How strong the eddies are, as a share of the wind.", minimum=0, maximum=1),
         "turbulence_size": number("Turbulence size [px]", "How large an eddy is.", minimum=1, maximum=LARGEST),
         "seed": whole_number("Seed", "Chooses among winds that are alike in all else.", 0, 2**31 - 1),
+        "origin": {
+            **defined("point"),
+            "title": "Origin [px]",
+            "description": "From where the pattern of eddies is laid; without it, the picture's upper left corner.",
+        },
     }

@@ -101,6 +101,7 @@ test("a picture of another size takes the scene along, as the simulation would",
     version: 2, width: 100, height: 50,
     strokes: [{ path: [[10, 10], [20, 20]], radius: 10, speed: 100, strength: 2 }],
     query_points: [{ x: 5, y: 5, positive: false }],
+    wind: { origin: [10, 20] },
     rig_points: [
       { position: [10, 10] },
       { position: [50, 25], region: { type: "polygon", points: [[1, 1], [2, 1], [1, 2]] }, motion: { type: "wave", amplitude: 10, direction: [0, 2] } },
@@ -112,6 +113,7 @@ test("a picture of another size takes the scene along, as the simulation would",
   assert.deepEqual(larger.rig_points[1].region.points, [[2, 3], [4, 3], [2, 6]]);
   assert.equal(larger.rig_points[1].motion.amplitude, 30);
   assert.deepEqual(larger.query_points, [{ x: 10, y: 15, positive: false }]);
+  assert.deepEqual(larger.wind, { origin: [20, 60], turbulence_size: 400 });
   assert.equal(rescaled(document, 100, 50), document);
 });
 

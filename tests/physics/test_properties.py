@@ -118,6 +118,7 @@ winds = st.builds(
     turbulence=st.floats(0, 1),
     turbulence_size=st.floats(1, 1e6),
     seed=st.integers(0, 2**31 - 1),
+    origin=st.none() | points,
 )
 contacts = st.builds(Contact, st.floats(0, 1), st.floats(0.01, 100), st.booleans())
 colliders = st.one_of(

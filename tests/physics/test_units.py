@@ -25,12 +25,20 @@ def strand() -> NDArray[np.bool_]:
     return (np.abs(x - middle) < 14) & (np.abs(x - middle - 3) > 3 * (y > 80)) & (y > 20) & (y < 140)
 
 
-def moved(masks: list[NDArray[np.bool_]]) -> tuple[list[TriangleMesh], NDArray[np.float64]]:
+def moved(
+    masks: list[NDArray[np.bool_]], *, turbulence: float | None = None
+) -> tuple[list[TriangleMesh], NDArray[np.float64]]:
     """The meshes, and how far every vertex moves from frame 0 [px], shape [f, v, 2]."""
     meshes = [mesh_from_mask(mask) for mask in masks]
-    motion = simulate(automatic_scene([Body(mesh, preset("hair")) for mesh in meshes]), frames=FRAMES)
+    scene = automatic_scene([Body(mesh, preset("hair")) for mesh in meshes], turbulence=turbulence)
+    motion = simulate(scene, frames=FRAMES)
     positions = motion.positions.astype(np.float64)
     return meshes, positions - positions[0]
+
+
+def rounding(*sizes: float) -> float:
+    """How far apart two movements may be of which both ends are float32 positions on a picture of these sizes [px]."""
+    return 2 * float(np.spacing(np.float32(max(sizes))))
 
 
 @pytest.fixture(scope="module")
@@ -38,21 +46,35 @@ def alone() -> tuple[list[TriangleMesh], NDArray[np.float64]]:
     return moved([strand()])
 
 
+@pytest.fixture(scope="module")
+def alone_in_eddies() -> tuple[list[TriangleMesh], NDArray[np.float64]]:
+    return moved([strand()], turbulence=0.8)
+
+
+@pytest.mark.parametrize("turbulence", [None, 0.8])
 @pytest.mark.parametrize(
     "margins",
-    [((0, 80), (0, 0)), ((160, 0), (0, 0)), ((0, 0), (120, 120)), ((0, 480), (0, 720)), ((900, 2000), (13, 7))],
-    ids=["below", "above", "beside", "four times as large", "a long page"],
+    [
+        ((0, 80), (0, 0)),
+        ((160, 0), (0, 0)),
+        ((0, 0), (120, 120)),
+        ((0, 480), (0, 720)),
+        ((900, 2000), (13, 7)),
+        ((11000, 840), (500, 60)),
+    ],
+    ids=["below", "above", "beside", "four times as large", "a long page", "the end of a page of 800x12000"],
 )
 def test_an_empty_margin_changes_nothing(
-    margins: tuple[tuple[int, int], ...], alone: tuple[list[TriangleMesh], NDArray[np.float64]]
+    margins: tuple[tuple[int, int], ...], turbulence: float | None, request: pytest.FixtureRequest
 ) -> None:
-    (mesh,), expected = alone
-    (padded,), motion = moved([np.pad(strand(), margins)])
+    (mesh,), expected = request.getfixturevalue("alone" if turbulence is None else "alone_in_eddies")
+    page = np.pad(strand(), margins)
+    (padded,), motion = moved([page], turbulence=turbulence)
     shift = [margins[1][0], margins[0][0]]
     np.testing.assert_array_equal(padded.triangles, mesh.triangles)
     np.testing.assert_allclose(padded.vertices, mesh.vertices + shift, atol=1e-9)
     assert np.abs(expected).max() > 2
-    np.testing.assert_allclose(motion, expected, atol=2e-3 * max(1, max(map(max, margins)) / 240))
+    np.testing.assert_allclose(motion, expected, atol=rounding(*page.shape))
 
 
 def test_the_same_art_twice_as_large_moves_twice_as_far(
@@ -69,7 +91,7 @@ def test_a_small_part_keeps_its_relation_to_a_large_one_on_any_page() -> None:
     small[40:80, 180:190] = True
     _, expected = moved([strand(), small])
     _, motion = moved([np.pad(each, ((0, 320), (0, 0))) for each in (strand(), small)])
-    np.testing.assert_allclose(motion, expected, atol=5e-3)
+    np.testing.assert_allclose(motion, expected, atol=rounding(480))
 
 
 @pytest.mark.parametrize(("width", "height"), [*product((3, 6, 20), (4, 11, 20)), (1, 9)])

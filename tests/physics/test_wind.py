@@ -158,12 +158,22 @@ def test_wind_loops() -> None:
     assert np.ptp(motion.positions, axis=0).max() > 3
 
 
+def test_the_pattern_of_eddies_is_laid_from_its_origin() -> None:
+    blown, shift = Wind(1.0, 20.0, turbulence=0.9, turbulence_size=70.0), np.array([300.0, 4000.0])
+    laid = replace(blown, origin=(300.0, 4000.0))
+    for t in (0.0, 1.3):
+        here = wind_acceleration(blown, POINTS, t)
+        np.testing.assert_allclose(wind_acceleration(laid, POINTS + shift, t), here, atol=1e-9)
+        assert np.abs(wind_acceleration(laid, POINTS, t) - here).max() > 0.1
+    assert "origin" not in scene_to_dict(scene(blown))["wind"]
+
+
 def test_the_document_keeps_the_wind() -> None:
-    blown = Wind(2.0, 30.0, 0.2, 3.0, 0.4, 120.0, 9)
+    blown = Wind(2.0, 30.0, 0.2, 3.0, 0.4, 120.0, 9, (40.0, 12.5))
     document = scene_to_dict(scene(blown))
     assert scene_from_dict(document).wind == blown
     twice = scene_from_dict(scene_to_dict(scene(blown), meshes=False), meshes=[strip(scale=2.0)])
-    assert twice.wind == replace(blown, turbulence_size=240.0)
+    assert twice.wind == replace(blown, turbulence_size=240.0, origin=(80.0, 25.0))
     assert "wind" not in scene_to_dict(scene(None))
     assert scene_from_dict(scene_to_dict(scene(None)) | {"wind": None}).wind is None
     document["wind"]["gust"] = 1.5
@@ -180,6 +190,8 @@ def test_the_document_keeps_the_wind() -> None:
         ("turbulence", -0.1),
         ("turbulence_size", 0.0),
         ("seed", -1),
+        ("origin", (0.0, np.inf)),
+        ("origin", 3.0),
     ],
 )
 def test_unusable_values_are_refused(field: str, value: float) -> None:

@@ -28,7 +28,7 @@ export function rescaled(document, width, height) {
   for (const list of ["paint", "colliders"]) {
     each(changed, list, (area) => ({ ...area, region: scaledRegion(area.region, scale) }));
   }
-  if (document.wind) changed.wind = scaledValues(document.wind, ["turbulence_size"], side, { turbulence_size: 200 });
+  if (document.wind) changed.wind = scaledWind(document.wind, scale);
   if (document.contact) changed.contact = scaledValues(document.contact, ["thickness"], side, { thickness: 1.5 });
   if (document.bodies?.some((/** @type {Item} */ body) => body.mesh)) {
     each(changed, "bodies", (body) => (body.mesh ? { ...body, mesh: scaledMesh(body.mesh, scale) } : body));
@@ -52,6 +52,16 @@ function each(document, list, change) {
  */
 function scaledPoint([x, y], scale) {
   return rounded([x * scale.x, y * scale.y]);
+}
+
+/**
+ * @param {Item} wind
+ * @param {Scale} scale
+ * @returns {Item}
+ */
+function scaledWind(wind, scale) {
+  const changed = scaledValues(wind, ["turbulence_size"], scale.side, { turbulence_size: 200 });
+  return wind.origin ? { ...changed, origin: scaledPoint(wind.origin, scale) } : changed;
 }
 
 /**
