@@ -56,7 +56,9 @@ _NECK_RATIO = 1.6
 # The wind field: usual strength [unit/s^2], and an eddy as a share of all bodies' extent and at least so many units.
 _BREEZE = 1.0
 _EDDY, _SMALLEST_EDDY = 0.4, 0.05
-_NARROWEST_GUST = 0.12  # [unit]
+# Of gusts, whose radius sets how fast they pass: in units, and as a share of all bodies' length along the wind, so that
+# the last of a long row is reached after a second.
+_NARROWEST_GUST, _SHORTEST_GUST = 0.12, 1 / 3
 
 
 def automatic_scene(
@@ -197,7 +199,7 @@ def gusts(meshes: Sequence[TriangleMesh], *, strength: float = 1.0, angle: float
     across = np.array([-along[1], along[0]])
     first, last = (vertices @ along).min(), (vertices @ along).max()
     low, high = (vertices @ across).min(), (vertices @ across).max()
-    radius = max(high - low, _NARROWEST_GUST * unit)
+    radius = max(high - low, _NARROWEST_GUST * unit, _SHORTEST_GUST * (last - first))
     speed = 2 * radius / 0.75
     usual, digits = strength * unit / meshes[0].longest_side, max(1, 4 - int(np.log10(unit)))
     strokes = []

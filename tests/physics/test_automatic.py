@@ -67,6 +67,17 @@ def test_the_side_can_be_chosen(side: str, axis: int, extreme: object) -> None:
     assert np.ptp(mesh.vertices[held, axis]) < 0.3 * np.ptp(mesh.vertices[:, axis])
 
 
+@pytest.mark.parametrize("angle", [0.0, 90.0, 180.0])
+def test_the_wind_is_at_the_last_of_many_small_bodies_in_little_more_than_a_second(angle: float) -> None:
+    along = np.arange(12) * 75.0
+    places = [(40.0, x) for x in along] if angle == 90.0 else [(x, 40.0) for x in along]
+    meshes = [grid(x, y, x + 30, y + 30) for x, y in places]
+    strokes = automatic_scene([body_of(mesh) for mesh in meshes], wind_angle=angle).strokes
+    for mesh in meshes:
+        pushes = [sum(acceleration(stroke, mesh.vertices, t) for stroke in strokes) for t in np.arange(0, 1.2, 1 / 24)]
+        assert np.abs(pushes).max() > 0.1 * strokes[0].strength
+
+
 @pytest.mark.parametrize("angle", [0.0, 90.0, 180.0, 215.0])
 def test_the_wind_reaches_every_vertex_and_blows_where_it_should(angle: float) -> None:
     mesh = grid(100, 100, 300, 500)
