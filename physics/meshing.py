@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .contours import contours_at_half, resampled, smoothed
+from .contours import area_of, contours_at_half, resampled, smoothed
 from .ending import working
 from .errors import MeshingError, require
 from .masks import continued, coverage_of, fitted, largest_area, with_sound_details, without_specks
@@ -38,6 +38,8 @@ _SPECK, _SMALLEST, _SPECK_SHARE = 16.0, 4.0, 0.05
 # Thinnest part and smoothing of outlines, in smallest spacings.
 _THINNEST = 0.9
 _SMOOTHING = 0.35
+# Area of the smallest outline, in squares of the smallest spacing; a part that was widened to the thinnest has 0.34.
+_SMALLEST_LOOP = 0.05
 # Outlines that cross are sampled anew, so many times, each time at this fraction of the spacing.
 _ATTEMPTS, _TIGHTER = 8, 0.7
 
@@ -226,6 +228,8 @@ def _for_wanted_triangles(coverage: NDArray[np.float32], options: _Options) -> _
 def _meshed(shape: _Shape, options: _Options) -> tuple[FloatArray, NDArray[np.int64]]:
     """Vertices [px in the shape's mask] and triangles."""
     outlines = [smoothed(loop, _SMOOTHING * shape.floor) for loop in contours_at_half(shape.coverage)]
+    # Filled gaps leave single pixels beside the parts: smoothed, they are points, of which no triangle can be made.
+    outlines = [outline for outline in outlines if abs(area_of(outline)) >= _SMALLEST_LOOP * shape.floor**2]
     field = shape.field
     for _ in range(_ATTEMPTS):
         loops = [resampled(outline, field.at) for outline in outlines]

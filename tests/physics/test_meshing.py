@@ -457,6 +457,15 @@ def test_continued_reports_where_the_crop_lies() -> None:
     assert crop.sum() == mask.sum()
 
 
+def test_single_pixels_that_filled_gaps_leave_beside_coarsely_meshed_parts_are_no_parts() -> None:
+    mask = np.zeros((120, 120), bool)
+    for x, y, width, height in ((72, 43, 6, 6), (40, 75, 6, 6), (0, 115, 3, 5)):
+        mask[y : y + height, x : x + width] = True
+    mesh = mesh_from_mask(mask, spacing=92.116, smallest_spacing=30.705)
+    assert mesh.components.max() + 1 == 3
+    assert altitudes(mesh).min() > 5
+
+
 def test_sound_details_leave_sound_masks_alone() -> None:
     soft = np.pad(disc().astype(np.float32) / 255, 8)
     kept = with_sound_details(soft, thinnest=6.0, narrowest=4.0, smallest_hole=50.0)
