@@ -14,6 +14,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from .checks import within
 from .errors import require
 from .material import Material
 from .mesh import UNITS_ACROSS, TriangleMesh
@@ -55,6 +56,7 @@ _MARGIN = 0.01  # around what is held, as a share of the part, and at most 1 px
 _NECK_RATIO = 1.6
 # The wind field: usual strength [unit/s^2], and an eddy as a share of all bodies' extent and at least so many units.
 _BREEZE = 1.0
+_STRONGEST = 100_000  # factor on it: what acts is then within the bounds of strokes and of wind for any size
 _EDDY, _SMALLEST_EDDY = 0.4, 0.05
 # Of gusts, whose radius sets how fast they pass: in units, and as a share of all bodies' length along the wind, so that
 # the last of a long row is reached after a second.
@@ -77,7 +79,7 @@ def automatic_scene(
         bodies: what moves.
         attach: side at which the bodies are held, one for all or one for each; "auto" decides for each connected part.
         frame_rate: frames a second.
-        wind_strength: factor on the usual wind; 0 is calm, 1 gentle, 3 a storm.
+        wind_strength: factor on the usual wind, -100,000 to 100,000; 0 is calm, 1 gentle, 3 a storm.
         wind_angle: where the wind blows to [degrees]: 0 to the right, 90 up, 180 to the left.
         turbulence: None for gusts that pass as energy strokes; a share from 0 to 1 for a wind field instead, which
             blows everywhere, comes and goes, and has eddies of that share.
@@ -90,7 +92,8 @@ def automatic_scene(
     require("bodies", len(bodies), len(bodies) > 0, "at least one")
     sides = [attach] * len(bodies) if isinstance(attach, str) else list(attach)
     require("attach", f"{len(sides)}", len(sides) == len(bodies), f"one side, or one for each of {len(bodies)} bodies")
-    require("wind_strength", wind_strength, bool(np.isfinite(wind_strength)), "finite")
+    bounded = within(wind_strength, -_STRONGEST, _STRONGEST)
+    require("wind_strength", wind_strength, bounded, f"-{_STRONGEST} to {_STRONGEST}")
     require("wind_angle", wind_angle, bool(np.isfinite(wind_angle)), "finite degrees")
     if sway_by_size:
         unit = unit_of([body.mesh for body in bodies])

@@ -117,3 +117,12 @@ def test_smaller_bodies_sway_faster_unless_told_otherwise() -> None:
     assert small.material.sway_frequency == pytest.approx(2 * large.material.sway_frequency)
     as_given = automatic_scene(bodies, sway_by_size=False).bodies
     assert [body.material.sway_frequency for body in as_given] == [usual, usual]
+
+
+@pytest.mark.parametrize("strength", [1e6, -1e6, float("inf"), float("nan")])
+@pytest.mark.parametrize("turbulence", [None, 0.5])
+def test_wind_beyond_what_acts_is_refused_by_its_own_name(strength: float, turbulence: float | None) -> None:
+    body = body_of(grid(0, 0, 900, 1200))
+    with pytest.raises(InvalidInputError, match=r"wind_strength must be -100000 to 100000\. Got: "):
+        automatic_scene([body], wind_strength=strength, turbulence=turbulence)
+    assert automatic_scene([body], wind_strength=1e5, turbulence=turbulence).bodies
