@@ -103,14 +103,14 @@ class SaveAnimation(io.ComfyNode):
         pixel_art: bool = False,
     ) -> io.NodeOutput:
         from ..rendering.background import renderer_of
-        from ..rendering.images import to_uint8
+        from ..rendering.pixels import as_uint8
         from ..rendering.video import write_animation
 
         behind = background_chosen(background)
         _check_format(file_type, behind)
         # In the depth in which they are written.
-        picture = to_uint8(picture_with_alpha(image, image_alpha))
-        plate = None if clean_plate is None else to_uint8(picture_with_alpha(clean_plate, name="clean_plate"))
+        picture = as_uint8(picture_with_alpha(image, image_alpha))
+        plate = None if clean_plate is None else as_uint8(picture_with_alpha(clean_plate, name="clean_plate"))
         size = _size(picture, width)
         place = free_place(filename_prefix, file_type, *size)
         check_output(place.path, alpha=behind.has_alpha)

@@ -14,6 +14,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from .checks import within
 from .errors import require
 from .material import Material
 from .mesh import TriangleMesh
@@ -63,6 +64,10 @@ _EDDY, _SMALLEST_EDDY = 0.4, 0.05
 _NARROWEST_GUST = 0.12  # [unit]
 
 
+# Far beyond what anybody draws, and such that what comes of them is within the bounds of strokes and of wind fields.
+MOST_WIND, MOST_TURN = 100_000, 1_000_000
+
+
 def automatic_scene(
     bodies: Sequence[Body],
     *,
@@ -92,8 +97,9 @@ def automatic_scene(
     require("bodies", len(bodies), len(bodies) > 0, "at least one")
     sides = [attach] * len(bodies) if isinstance(attach, str) else list(attach)
     require("attach", f"{len(sides)}", len(sides) == len(bodies), f"one side, or one for each of {len(bodies)} bodies")
-    require("wind_strength", wind_strength, bool(np.isfinite(wind_strength)), "finite")
-    require("wind_angle", wind_angle, bool(np.isfinite(wind_angle)), "finite degrees")
+    blows = within(wind_strength, -MOST_WIND, MOST_WIND)
+    require("wind_strength", wind_strength, blows, f"-{MOST_WIND} to {MOST_WIND} (1 is gentle, 3 a storm)")
+    require("wind_angle", wind_angle, within(wind_angle, -MOST_TURN, MOST_TURN), f"-{MOST_TURN} to {MOST_TURN} degrees")
     if sway_by_size:
         unit = unit_of([body.mesh for body in bodies])
         bodies = [replace(body, material=swaying_by_size(body.material, body.mesh, unit=unit)) for body in bodies]
