@@ -26,13 +26,12 @@ from .physics.mesh import TriangleMesh
 from .physics.meshing import mesh_from_mask
 from .physics.plan import DEFAULT_MINUTES, work_of_minutes
 from .physics.progress import Progress
-from .physics.scene import Body, Scene
+from .physics.scene import Body, Scene, check_scene_rate
 from .physics.simulation import simulate
 from .rendering.animation import Animation, StageProgress, timed
 from .rendering.background import over, renderer_of
 from .rendering.drawing_checks import check_count
 from .rendering.pixels import as_picture
-from .rendering.video import check_frame_rate
 
 __all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "Animation", "StageProgress", "animate"]
 
@@ -118,7 +117,7 @@ def animate(
     )
     _check_frames(frames, skip)
     if frame_rate is not None:
-        check_frame_rate(frame_rate)
+        check_scene_rate(frame_rate)
     work_of_minutes(max_minutes)
     if scene is not None and not isinstance(scene, Scene):
         from .physics.scene_checking import check_document

@@ -73,13 +73,15 @@ def named_by_options(options: argparse.Namespace) -> Iterator[None]:
 def _in_options(text: str, options: argparse.Namespace) -> str:
     if found := _ITEM.match(text):
         attribute, option = _LISTS[found[1]]
-        given: Sequence[str] = getattr(options, attribute, None) or ()
+        given = _given(options, attribute)
         if int(found[2]) < len(given):
             text = f"{option} {given[int(found[2])]}{text[found.end() :]}"
-    elif text.startswith("points must ") and len(clicked := getattr(options, "points", ())) == 1:
+    elif text.startswith("points must ") and len(clicked := _given(options, "points")) == 1:
         text = f"--points {clicked[0]}: {text}"
+    elif text.startswith("mask must ") and len(parts := _parts(options)) == 1:
+        text = f"{parts[0]}: {text}"
     elif text.startswith("masks must "):
-        text = ("--mask" if getattr(options, "mask", None) else "--points") + text[len("masks") :]
+        text = ("--mask" if _given(options, "mask") else "--points") + text[len("masks") :]
     if (found := _HEAD.match(text)) and hasattr(options, _attribute(option := _OPTIONS.get(found["name"], ""))):
         text = found["before"] + option + text[found.end() :]
     for attribute, pattern, replacement in _REMEDIES:
@@ -87,6 +89,16 @@ def _in_options(text: str, options: argparse.Namespace) -> str:
         if hasattr(options, attribute) and not (attribute == "sway" and options.scene and options.sway is None):
             text = pattern.sub(replacement, text)
     return text
+
+
+def _parts(options: argparse.Namespace) -> list[str]:
+    """The options that moving parts are given by."""
+    return [f"--{name} {path}" for name in ("mask", "points") for path in _given(options, name)]
+
+
+def _given(options: argparse.Namespace, name: str) -> Sequence[str]:
+    """The paths of an option that may be repeated; none where the command does not have it."""
+    return getattr(options, name, None) or ()
 
 
 def _attribute(option: str) -> str:

@@ -37,12 +37,12 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
         InvalidInputError: the message names the option or the file.
     """
     from ..physics.errors import InvalidInputError
+    from ..physics.scene import check_scene_rate
     from ..physics.tracks import check_track_options
     from .background import Background, background_of
     from .command_files import check_apart
     from .drawing_checks import check_drawing
     from .places import suffix_of
-    from .video import check_frame_rate
 
     check_apart(options, bundled=bundled)
     # Frames in .webm have an alpha channel whatever the illustration is, unless something else is said.
@@ -52,7 +52,7 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     with named_as("--interpolate", "every"):
         check_drawing(transparent=said.has_alpha, every=options.interpolate, pixel_art=options.pixel_art)
     if options.fps is not None:
-        check_frame_rate(options.fps)
+        check_scene_rate(options.fps)
     _check_texts(options)
     if options.width is not None and not 16 <= options.width <= LARGEST_WIDTH:
         raise InvalidInputError(f"--width must be 16 to {LARGEST_WIDTH} px. Got: {options.width}")

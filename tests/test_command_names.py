@@ -114,6 +114,8 @@ def test_files_are_refused_by_the_options_name(option: str, path: str, capsys: O
 def test_the_file_of_the_part_that_cannot_move_is_named(capsys: Output) -> None:
     assert animate("--mask", "hair.png", "tiny.png") == 2
     assert capsys.readouterr().err.startswith("physanimator: --mask tiny.png: mask must have a white part of at least")
+    assert status("animate", "girl.png", "--mask", "tiny.png", "-q", "--frames", "3", "-o", "out.mp4") == 2
+    assert capsys.readouterr().err.startswith("physanimator: --mask tiny.png: mask must have a white part of at least")
     Path("beside.txt").write_text("20,20,0", encoding="utf-8")
     assert animate("--points", "beside.txt") == 2
     assert capsys.readouterr().err.startswith("physanimator: --points beside.txt: points must be at least one positive")
