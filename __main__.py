@@ -66,7 +66,8 @@ def _status(arguments: Sequence[str] | None) -> int:
     except BrokenPipeError:
         return NOBODY_READS
     except OSError as error:
-        warn(f"physanimator: {error}")
+        where = "" if error.filename is None else f"{error.filename}: "
+        warn(f"physanimator: {where}{error.strerror or error}")
         return FAILED
     except MemoryError:
         warn("physanimator: the memory does not suffice for a picture of this size")

@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import atexit
 import os
-import sys
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 
 from .errors import Cancelled
 
@@ -73,16 +72,3 @@ def _finish() -> None:
     until = time.monotonic() + _GRACE_SECONDS
     for thread in stopped:  # which may still write that it was stopped
         thread.join(max(0.0, until - time.monotonic()))
-    if stopped:
-        _remember_interrupt()
-
-
-def _remember_interrupt() -> None:
-    """Let a process that Ctrl+C ends say so by its exit status.
-
-    Python notes that the main thread was interrupted, and ends by the signal. It forgets the note whenever a text is
-    evaluated, as importing libraries and compiling kernels do; threads that were waited for may have done so since.
-    """
-    if getattr(sys, "last_type", None) is KeyboardInterrupt and not hasattr(sys, "ps1"):
-        with suppress(KeyboardInterrupt):
-            exec("raise KeyboardInterrupt")

@@ -51,13 +51,14 @@ def measured(options: argparse.Namespace, animation: Animation, progress: StageP
     def frames() -> Iterator[Any]:
         return animation.frames() if options.clip is None else _clip(options.clip, "--clip")
 
-    found: Measures = measure_clip(
-        frames(),
-        animation.shown_motion,
-        drawing=animation.image,
-        sketches=animation.sketches(),
-        progress=None if progress is None else lambda done, total: progress("measure", done, total),
-    ).as_dict()
+    with named_as("--clip", "frames"):
+        found: Measures = measure_clip(
+            frames(),
+            animation.shown_motion,
+            drawing=animation.image,
+            sketches=animation.sketches(),
+            progress=None if progress is None else lambda done, total: progress("measure", done, total),
+        ).as_dict()
     if options.fid is not None:
         from .learned_metrics.fid import frechet_inception_distance
 

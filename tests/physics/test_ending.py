@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -79,25 +78,3 @@ time.sleep({seconds})
 """)
     assert (done.returncode, done.stderr) == (0, "")
     assert "the process is ending" in done.stdout
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="processes there do not end by signals")
-def test_an_interrupted_script_ends_by_the_signal_whatever_its_threads_still_do() -> None:
-    code = """\
-def work():
-    with ending.working():
-        print("ready", flush=True)
-        while not ending._state["ending"]:
-            time.sleep(0.01)
-        eval("1 + 1")  # as importing libraries and compiling kernels do: Python then forgets the interrupt
-threading.Thread(target=work, daemon=True).start()
-time.sleep(60)
-"""
-    script = [sys.executable, "-c", START + code]
-    with subprocess.Popen(script, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
-        assert process.stdout.readline() == "ready\n"
-        process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=60)
-    assert "KeyboardInterrupt" in said
-    assert process.returncode == -signal.SIGINT
