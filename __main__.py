@@ -54,17 +54,20 @@ def _status(arguments: Sequence[str] | None) -> int:
     """Run a command, and say what went wrong."""
     from .physics.errors import PhysAnimatorError
     from .rendering.command_messages import warn
+    from .rendering.command_names import named_by_options
 
     options = _parser().parse_args(arguments)
     try:
-        options.run(options)
+        with named_by_options(options):
+            options.run(options)
     except PhysAnimatorError as error:
         warn(f"physanimator: {error}")
         return BAD_INPUT
     except BrokenPipeError:
         return NOBODY_READS
     except OSError as error:
-        warn(f"physanimator: {error}")
+        where = "" if error.filename is None else f"{error.filename}: "
+        warn(f"physanimator: {where}{error.strerror or error}")
         return FAILED
     except MemoryError:
         warn("physanimator: the memory does not suffice for a picture of this size")
@@ -134,12 +137,14 @@ def _figure(options: argparse.Namespace) -> None:
     from .rendering.collision_figure import collision_figure
     from .rendering.command_files import check_apart
     from .rendering.command_messages import say
+    from .rendering.command_names import named_as
     from .rendering.figures import stiffness_figure, strokes_figure
     from .rendering.images import check_image_output, load_image, save_image
     from .rendering.preset_figure import presets_figure
 
     check_apart(options, bundled=_bundled())
-    check_image_output(options.output)
+    with named_as("--output", "output", "a picture's name"):
+        check_image_output(options.output)
     with ExitStack() as bars:
         stages = _progress(options, bars)
 
@@ -179,17 +184,16 @@ def _animate(options: argparse.Namespace) -> None:
 def _measure(options: argparse.Namespace) -> None:
     from .pipeline import animate
     from .rendering.background import over
-    from .rendering.command_inputs import check_inputs, check_taken, read_inputs
+    from .rendering.command_inputs import check_inputs, check_taken, read_inputs, read_plate
     from .rendering.command_measures import check_measures, measured, table
     from .rendering.command_messages import show
-    from .rendering.images import load_image
 
     check_inputs(options)
     check_measures(options)
     image, inputs = read_inputs(options)
     check_taken(options, image)
     image = over(image)  # clips are compared by their colours
-    plate = load_image(options.plate) if options.plate else None
+    plate = read_plate(options, alpha=False)
     timing = {"frames": options.frames, "loop": options.loop, "skip": options.skip, "frame_rate": options.fps}
     timing["max_minutes"] = options.max_minutes
     with ExitStack() as bars:
@@ -204,12 +208,12 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     """Animate, write everything that was asked for, and report."""
     from .physics.advice import stillness
     from .pipeline import animate
+    from .rendering.command_inputs import read_plate
     from .rendering.command_messages import say, warn
     from .rendering.command_outputs import background_for, report, write_outputs
-    from .rendering.images import load_image
     from .rendering.pixel_art import pixel_art_hint
 
-    plate = load_image(options.plate, alpha=True) if options.plate else None
+    plate = read_plate(options)
     background_for(options, image)
     if not (options.pixel_art or options.quiet):
         for sentence in pixel_art_hint(image, option="--pixel-art"):

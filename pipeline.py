@@ -8,6 +8,7 @@ animate(picture, [mask], preset="hair").save("girl.mp4")
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -25,13 +26,12 @@ from .physics.mesh import TriangleMesh
 from .physics.meshing import mesh_from_mask
 from .physics.plan import DEFAULT_MINUTES, work_of_minutes
 from .physics.progress import Progress
-from .physics.scene import Body, Scene
+from .physics.scene import Body, Scene, check_scene_rate
 from .physics.simulation import simulate
 from .rendering.animation import Animation, StageProgress, timed
 from .rendering.background import over, renderer_of
 from .rendering.drawing_checks import check_count
 from .rendering.pixels import as_picture
-from .rendering.video import check_frame_rate
 
 __all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "Animation", "StageProgress", "animate"]
 
@@ -117,7 +117,7 @@ def animate(
     )
     _check_frames(frames, skip)
     if frame_rate is not None:
-        check_frame_rate(frame_rate)
+        check_scene_rate(frame_rate)
     work_of_minutes(max_minutes)
     if scene is not None and not isinstance(scene, Scene):
         from .physics.scene_checking import check_document
@@ -126,10 +126,11 @@ def animate(
     with timed(seconds, "segment"):
         parts = (*masks, *_segmented(over(image), points or ()))
     _check_parts(parts)
+    names = _part_names(len(masks), len(parts))
     if on_cut is not None:
         on_cut(parts[len(masks) :])
     with timed(seconds, "mesh"):
-        meshes = [mesh_from_mask(each, spacing=spacing) for each in parts]
+        meshes = [_meshed(part, spacing, name) for part, name in zip(parts, names, strict=True)]
     with timed(seconds, "scene"):
         if scene is None:
             whole = automatic_scene(
@@ -188,9 +189,33 @@ def _segmented(image: Image, points: Sequence[Any]) -> Iterator[Mask]:
     from .rendering.segmentation import segment
 
     height, width = image.shape[:2]
-    for each in points:
-        clicked = parse_points(each, width=width, height=height)
-        yield segment(image, [(p.x, p.y) for p in clicked], [int(p.positive) for p in clicked])
+    for each, name in zip(points, _part_names(0, len(points)), strict=True):
+        with _about(name):
+            clicked = parse_points(each, width=width, height=height)
+            yield segment(image, [(p.x, p.y) for p in clicked], [int(p.positive) for p in clicked])
+
+
+def _meshed(part: Mask, spacing: float | None, name: str) -> TriangleMesh:
+    with _about(name):
+        return mesh_from_mask(part, spacing=spacing)
+
+
+def _part_names(masks: int, parts: int) -> list[str]:
+    """What the parts come from, where there are several."""
+    if parts == 1:
+        return [""]
+    return [f"masks[{number}]" if number < masks else f"points[{number - masks}]" for number in range(parts)]
+
+
+@contextmanager
+def _about(name: str) -> Iterator[None]:
+    """Let an error tell what it is about."""
+    try:
+        yield
+    except InvalidInputError as error:
+        if not name:
+            raise
+        raise type(error)(f"{name}: {error}") from error
 
 
 def _check_parts(parts: Sequence[Mask]) -> None:

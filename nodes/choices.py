@@ -16,7 +16,7 @@ from ..physics.errors import InvalidInputError
 from .literals import refusal
 from .running import sent_inputs
 
-__all__ = ["check_choices", "check_numbers", "check_types", "checked"]
+__all__ = ["check_choices", "check_values", "checked"]
 
 _DYNAMIC, _CHOICE, _NUMBERS = "COMFY_DYNAMICCOMBO_V3", "COMBO", ("INT", "FLOAT")
 _TYPED = (_DYNAMIC, _CHOICE, *_NUMBERS, "STRING", "BOOLEAN")
@@ -84,32 +84,16 @@ def check_choices(described: Mapping[str, Any], values: Mapping[str, Any], sent:
             raise InvalidInputError(f"{given.name} must be {_offered(given)}. Got: {_shown(given.value)}")
 
 
-def check_numbers(described: Mapping[str, Any], values: Mapping[str, Any], sent: Mapping[str, Any] | None) -> None:
-    """Refuse a number that is out of its input's range, or none at all.
-
-    Args:
-        described: see :func:`check_choices`.
-        values: see :func:`check_choices`.
-        sent: see :func:`check_choices`.
-
-    Raises:
-        InvalidInputError: one sentence about the first.
-    """
-    for given in _given(described, values, sent, ""):
-        if given.kind not in _NUMBERS or given.value is None:
-            continue
-        low, high = given.options.get("min", -math.inf), given.options.get("max", math.inf)
-        if not _is_number(given.value) or not low <= given.value <= high:
-            raise InvalidInputError(f"{given.name} must be a number from {low} to {high}. Got: {_shown(given.value)}")
-
-
-def check_types(described: Mapping[str, Any], values: Mapping[str, Any], sent: Mapping[str, Any] | None) -> None:
+def check_values(
+    described: Mapping[str, Any], values: Mapping[str, Any], sent: Mapping[str, Any] | None, *, bounded: bool = False
+) -> None:
     """Refuse what is no number where one belongs, and no text where that belongs.
 
     Args:
         described: see :func:`check_choices`.
         values: see :func:`check_choices`.
         sent: see :func:`check_choices`.
+        bounded: refuse numbers beyond the bounds of their inputs, too.
 
     Raises:
         InvalidInputError: one sentence about the first.
@@ -117,10 +101,16 @@ def check_types(described: Mapping[str, Any], values: Mapping[str, Any], sent: M
     for given in _given(described, values, sent, ""):
         if given.value is None or given.linked:
             continue
-        if given.kind in _NUMBERS and not _is_number(given.value):
-            raise InvalidInputError(f"{given.name} must be a finite number. Got: {_shown(given.value)}")
-        if given.kind == "STRING" and not isinstance(given.value, str):
-            raise InvalidInputError(f"{given.name} must be a text. Got: {_shown(given.value)}")
+        if given.kind in _NUMBERS:
+            low, high = (given.options.get("min", -math.inf), given.options.get("max", math.inf))
+            expected = f"a number from {low} to {high}" if bounded else "a finite number"
+            held = _is_number(given.value) and (not bounded or low <= given.value <= high)
+        elif given.kind == "STRING":
+            expected, held = "a text", isinstance(given.value, str)
+        else:
+            continue
+        if not held:
+            raise InvalidInputError(f"{given.name} must be {expected}. Got: {_shown(given.value)}")
 
 
 def _checking_execution(inner: Callable[..., Any]) -> Callable[..., Any]:
@@ -128,7 +118,7 @@ def _checking_execution(inner: Callable[..., Any]) -> Callable[..., Any]:
     def execute(cls: Any, **values: Any) -> Any:
         described, sent = cls.INPUT_TYPES(), sent_inputs()
         check_choices(described, values, sent)
-        check_types(described, values, sent)  # the host's own bounds let NaN pass
+        check_values(described, values, sent)  # the host's own bounds let NaN pass
         return inner(cls, **values)
 
     return execute
@@ -137,11 +127,11 @@ def _checking_execution(inner: Callable[..., Any]) -> Callable[..., Any]:
 def _checking_validation(inner: Callable[..., Any] | None) -> Callable[..., Any]:
     def validate_inputs(cls: Any, **values: Any) -> bool | str:
         described, sent = cls.INPUT_TYPES(), sent_inputs()
-        unknown = refusal(lambda: check_choices(described, values, sent), lambda: check_types(described, values, sent))
+        unknown = refusal(lambda: check_choices(described, values, sent), lambda: check_values(described, values, sent))
         # The node's own sentences know better than the bounds of a widget.
         own = True if inner is None or unknown is not True else inner(cls, **_taken(inner, values))
         said = next((each for each in (unknown, own) if each is not True), True)
-        said = refusal(lambda: check_numbers(described, values, sent)) if said is True else said
+        said = refusal(lambda: check_values(described, values, sent, bounded=True)) if said is True else said
         if said is not True and not values:
             # The host names an answer after the inputs that it handed over, and drops it where there were none.
             raise InvalidInputError(str(said))

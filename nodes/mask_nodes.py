@@ -128,8 +128,8 @@ class SegmentByPoints(io.ComfyNode):
         smoothing: float = 0.0,
     ) -> io.NodeOutput:
         from ..rendering.cut_judgement import judge_cuts
-        from ..rendering.images import to_uint8
         from ..rendering.part_masks import segment_parts
+        from ..rendering.pixels import as_uint8
         from ..rendering.prompts import prompts_of
 
         picture = picture_of(image)
@@ -139,7 +139,7 @@ class SegmentByPoints(io.ComfyNode):
         name, choice = chosen(backend or {"backend": _GRABCUT}, "backend", (_GRABCUT, _SAM))
         cleaning = {"smallest_speck": smallest_speck, "largest_hole": largest_hole, "smoothing": smoothing}
         with sam_network(choice) if name == _SAM else nullcontext() as network:
-            masks = segment_parts(to_uint8(picture), prompts, network=network, **cleaning)
+            masks = segment_parts(as_uint8(picture), prompts, network=network, **cleaning)
         told = tell_user(cls, judge_cuts(masks, prompts, instead=segmenter_advice() if name == _GRABCUT else ""))
         faded = np.where(np.logical_or.reduce(masks)[..., None], picture, 0.75 + 0.25 * picture)
         preview = batch_of_pictures([faded], 1)

@@ -8,7 +8,7 @@ from typing import Any
 
 from .running import context, server
 
-__all__ = ["EVENT", "all_told", "shown_with", "tell_user"]
+__all__ = ["EVENT", "all_told", "hint_of_pixel_art", "shown_with", "tell_user"]
 
 EVENT = "physanimator.advice"
 """Name of the message that nodes/web/js/host/advice.js shows as a toast."""
@@ -38,6 +38,18 @@ def tell_user(node: Any, sentences: Iterable[str]) -> dict[str, list[str]]:
     if running is not None and client is not None:  # without a client it would reach every browser
         host.send_sync(EVENT, {"node": str(running.node_id), "title": title, "sentences": told}, client)
     return {"advice": told}
+
+
+def hint_of_pixel_art(node: Any, picture: Any) -> dict[str, list[str]]:
+    """Tell of the input ``pixel_art`` where a picture looks like pixel art; returns what ``tell_user`` does.
+
+    Args:
+        node: the node's class, as ``execute`` has it; its input is off.
+        picture: RGB or RGBA, shape [h, w, c].
+    """
+    from ..rendering.pixel_art import pixel_art_hint
+
+    return tell_user(node, pixel_art_hint(picture, option="pixel_art"))
 
 
 def all_told(*told: dict[str, list[str]]) -> dict[str, list[str]]:

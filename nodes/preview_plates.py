@@ -57,8 +57,13 @@ def _png_of(stored: PreviewBodies) -> bytes:
     import cv2
 
     from ..rendering.clean_plate import clean_plate
+    from ..rendering.pixels import as_float, as_uint8
+    from ..rendering.sprite_layers import sprite_plate
 
     if stored.picture is None or stored.hole is None:
         raise InvalidInputError("the illustration must be connected to image. Got: none")
-    plate = clean_plate(stored.picture, stored.hole)
-    return bytes(cv2.imencode(".png", plate[..., ::-1], [cv2.IMWRITE_PNG_COMPRESSION, 1])[1])
+    if stored.picture.shape[2] == 4:
+        plate = as_uint8(sprite_plate(as_float(stored.picture), as_float(stored.hole)))[..., [2, 1, 0, 3]]
+    else:
+        plate = clean_plate(stored.picture, stored.hole)[..., ::-1]
+    return bytes(cv2.imencode(".png", plate, [cv2.IMWRITE_PNG_COMPRESSION, 1])[1])

@@ -12,6 +12,7 @@ from .background_inputs import background_chosen, background_inputs
 from .batches import announce_batch
 from .cartoon_interpolation import missing_tooncrafter_files, tooncrafter_backend
 from .literals import chosen, refusal, whole_numbers_of
+from .messages import all_told, hint_of_pixel_art
 from .model_files import find_model_file
 from .progress import host_progress
 from .running import is_wanted, not_made
@@ -116,6 +117,8 @@ class Render(io.ComfyNode):
         channels = (3 + behind.has_alpha) * (frames is not None) + (alpha is not None)
         instead = "" if by_model else "use Save Animation, which holds one frame at a time"
         told = announce_batch(cls, count, width, height, channels=channels, instead=instead)
+        if not (by_model or pixel_art):
+            told = all_told(told, hint_of_pixel_art(cls, picture))
         layers = renderer_of(picture, motion.masks, motion.motion, plate=plate, pixel_art=pixel_art)
         if by_model and frames is not None:
             for frame in sketch_video_frames(picture, layers, renderer):

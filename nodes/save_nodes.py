@@ -12,6 +12,7 @@ from ..physics.errors import require
 from ..rendering.video import FORMATS, check_output
 from .background_inputs import background_chosen, background_inputs
 from .literals import refusal
+from .messages import hint_of_pixel_art, shown_with
 from .progress import host_progress
 from .saving import FILE_TYPES, FRAMES, Place, check_prefix, free_place
 from .tensors import picture_with_alpha
@@ -103,21 +104,22 @@ class SaveAnimation(io.ComfyNode):
         pixel_art: bool = False,
     ) -> io.NodeOutput:
         from ..rendering.background import renderer_of
-        from ..rendering.images import to_uint8
+        from ..rendering.pixels import as_uint8
         from ..rendering.video import write_animation
 
         behind = background_chosen(background)
         _check_format(file_type, behind)
         # In the depth in which they are written.
-        picture = to_uint8(picture_with_alpha(image, image_alpha))
-        plate = None if clean_plate is None else to_uint8(picture_with_alpha(clean_plate, name="clean_plate"))
+        picture = as_uint8(picture_with_alpha(image, image_alpha))
+        plate = None if clean_plate is None else as_uint8(picture_with_alpha(clean_plate, name="clean_plate"))
         size = _size(picture, width)
         place = free_place(filename_prefix, file_type, *size)
         check_output(place.path, alpha=behind.has_alpha)
+        told = {} if pixel_art else hint_of_pixel_art(cls, picture)
         renderer = renderer_of(picture, motion.masks, motion.motion, plate=plate, pixel_art=pixel_art)
         frames = _frames(renderer, behind, size, nearest=pixel_art)
         write_animation(frames, place.path, motion.motion.frame_rate, exact=pixel_art)
-        return io.NodeOutput(place.path, ui=_preview(place, file_type, len(renderer)))
+        return io.NodeOutput(place.path, ui=shown_with(_preview(place, file_type, len(renderer)), told))
 
 
 def _frames(

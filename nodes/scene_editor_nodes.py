@@ -16,7 +16,7 @@ from ..physics.preview_store import PreviewBodies
 from .literals import refusal
 from .preview_server import STORE, warm_up
 from .scene_nodes import scene_output, scene_outputs
-from .tensors import batch_of_pictures, picture_of
+from .tensors import batch_of_pictures, picture_with_alpha
 from .wires import BodiesWire, MaskedBody
 
 if TYPE_CHECKING:
@@ -90,8 +90,8 @@ class SceneEditor(io.ComfyNode):
 
 
 def _shown(image: torch.Tensor, width: int, height: int, name: str) -> np.ndarray:
-    """A picture of the bodies' size as bytes, uint8, shape [h, w, 3]."""
-    picture = picture_of(image, name=name)
+    """A picture of the bodies' size as bytes, uint8, shape [h, w, 3], or [h, w, 4] where it has transparency."""
+    picture = picture_with_alpha(image, name=name)
     got = f"{picture.shape[1]} x {picture.shape[0]} px"
     require(name, got, picture.shape[:2] == (height, width), f"of the bodies' size, {width} x {height} px")
     return np.rint(picture * 255).astype(np.uint8)

@@ -56,11 +56,13 @@ _MARGIN = 0.01  # around what is held, as a share of the part, and at most 1 px
 _NECK_RATIO = 1.6
 # The wind field: usual strength [unit/s^2], and an eddy as a share of all bodies' extent and at least so many units.
 _BREEZE = 1.0
-_STRONGEST = 100_000  # factor on it: what acts is then within the bounds of strokes and of wind for any size
 _EDDY, _SMALLEST_EDDY = 0.4, 0.05
 # Of gusts, whose radius sets how fast they pass: in units, and as a share of all bodies' length along the wind, so that
 # the last of a long row is reached after a second.
 _NARROWEST_GUST, _SHORTEST_GUST = 0.12, 1 / 3
+
+# Far beyond what anybody draws, and such that what comes of them is within the bounds of strokes and of wind fields.
+MOST_WIND, MOST_TURN = 100_000, 1_000_000
 
 
 def automatic_scene(
@@ -92,9 +94,9 @@ def automatic_scene(
     require("bodies", len(bodies), len(bodies) > 0, "at least one")
     sides = [attach] * len(bodies) if isinstance(attach, str) else list(attach)
     require("attach", f"{len(sides)}", len(sides) == len(bodies), f"one side, or one for each of {len(bodies)} bodies")
-    bounded = within(wind_strength, -_STRONGEST, _STRONGEST)
-    require("wind_strength", wind_strength, bounded, f"-{_STRONGEST} to {_STRONGEST}")
-    require("wind_angle", wind_angle, bool(np.isfinite(wind_angle)), "finite degrees")
+    blows = within(wind_strength, -MOST_WIND, MOST_WIND)
+    require("wind_strength", wind_strength, blows, f"-{MOST_WIND} to {MOST_WIND} (1 is gentle, 3 a storm)")
+    require("wind_angle", wind_angle, within(wind_angle, -MOST_TURN, MOST_TURN), f"-{MOST_TURN} to {MOST_TURN} degrees")
     if sway_by_size:
         unit = unit_of([body.mesh for body in bodies])
         bodies = [replace(body, material=swaying_by_size(body.material, body.mesh, unit=unit)) for body in bodies]

@@ -11,6 +11,7 @@ __all__ = [
     "PhysAnimatorError",
     "SceneError",
     "SimulationError",
+    "printable",
     "require",
     "shown",
 ]
@@ -18,8 +19,8 @@ __all__ = [
 _LONGEST_MESSAGE = 1200
 _LONGEST_VALUE = 120
 _MANY_DIGITS = re.compile(r"\d{25,}")
-_JOINERS = "\u200c\u200d"
-"""Invisible, but part of words and emoji in names of files."""
+_HARMLESS = "\u00a0\u200c\u200d\u3000"
+"""Spaces of written languages, and joiners, which are invisible but part of words and emoji in names of files."""
 
 
 class PhysAnimatorError(Exception):
@@ -76,6 +77,13 @@ def require(name: str, got: object, holds: bool, expected: str) -> None:
         raise InvalidInputError(f"{name} must be {expected}. Got: {shown(got)}")
 
 
+def printable(text: str) -> str:
+    """A text for a person: in one line, without what else in it a terminal would obey."""
+    if text.isprintable():
+        return text
+    return "".join(each if each.isprintable() or each in _HARMLESS else _escaped(each) for each in text)
+
+
 def shown(value: object) -> str:
     """A value that somebody gave, for a message: one printable line, short whatever the value holds."""
     if isinstance(value, list | tuple | set | dict | bytes) and len(value) > _LONGEST_VALUE // 3:
@@ -92,9 +100,7 @@ def _one_line(text: str, longest: int) -> str:
     text = _MANY_DIGITS.sub(lambda digits: f"{digits[0][:6]}... ({len(digits[0])} digits)", str(text))
     if len(text) > longest:
         text = f"{text[: longest * 2 // 3]} ... {text[-longest // 4 :]}"
-    if text.isprintable():
-        return text
-    return "".join(each if each.isprintable() or each in _JOINERS else _escaped(each) for each in text)
+    return printable(text)
 
 
 def _escaped(character: str) -> str:

@@ -27,7 +27,7 @@ class PreviewBodies:
 
     Attributes:
         bodies: at least one, over a picture of one size.
-        picture: the illustration, RGB, uint8, shape [h, w, 3]; None where there is none.
+        picture: the illustration, RGB or straight RGBA, uint8, shape [h, w, 3] or [h, w, 4]; None where there is none.
         hole: what moves in it, 0..255, uint8, shape [h, w]; None where there is no picture.
     """
 

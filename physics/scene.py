@@ -26,7 +26,16 @@ from .rig import RigPoint
 from .strokes import EnergyStroke
 from .wind import Wind
 
-__all__ = ["Body", "Scene"]
+__all__ = ["Body", "Scene", "check_scene_rate"]
+
+
+def check_scene_rate(frame_rate: float) -> None:
+    """Refuse a frame rate that no scene can have, before any long work.
+
+    Raises:
+        InvalidInputError: it is not 1 to 240 frames a second.
+    """
+    require("frame_rate", frame_rate, within(frame_rate, 1, 240), "1 to 240 frames a second")
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +130,7 @@ class Scene:
         bounded = len(gravity) == 2 and all(within(value, -LARGEST, LARGEST) for value in gravity)
         require("gravity", gravity[:3], bounded, expected)
         object.__setattr__(self, "gravity", gravity)
-        require("frame_rate", self.frame_rate, within(self.frame_rate, 1, 240), "1 to 240 frames a second")
+        check_scene_rate(self.frame_rate)
         if self.loop is not None:
             long = within(self.loop, 2 / self.frame_rate, MAX_LOOP)
             require("loop", self.loop, long, f"2 frames to {MAX_LOOP} s long")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ..physics.errors import InvalidInputError
 from .ending import uninterrupted
-from .places import StrPath, check_replaceable, printable
+from .places import StrPath, check_replaceable
 from .unfinished import made_beside
 
 __all__ = ["naming_place", "putting_in_place", "replacing"]
@@ -59,9 +59,7 @@ def putting_in_place(path: StrPath) -> Iterator[None]:
     except OSError as error:
         if error.errno in _OF_THE_DISK:
             raise
-        raise InvalidInputError(
-            f"cannot write {printable(path)}: {error.strerror}; is it open in another program?"
-        ) from error
+        raise InvalidInputError(f"cannot write {path}: {error.strerror}; is it open in another program?") from error
 
 
 @contextmanager

@@ -81,7 +81,8 @@ def background_of(text: str) -> Background:
     with suppress(ValueError):
         colour = ImageColor.getrgb(name)
     known = "picture, transparent, parts, or a colour such as white, #8cf or #87ceeb"
-    require("background", repr(text[:60]), len(colour) == 3, known)
+    held = len(colour) == 3 and all(0 <= level <= 255 for level in colour)
+    require("background", repr(text[:60]), held, known)
     return Background("picture", (colour[0], colour[1], colour[2]))
 
 

@@ -36,9 +36,9 @@ def read_clip(path: str | os.PathLike[str]) -> Iterator[NDArray[np.uint8]]:
             larger than pictures or ``MAX_CLIP_FRAMES`` may be. What is found only on the way raises on the way.
     """
     place = Path(path)
-    if place.is_dir():
+    if os.path.isdir(place):
         return _alike(_pictures(place), place)
-    if not place.is_file():
+    if not os.path.isfile(place):
         raise InvalidInputError(f"clip must be a video or a folder of pictures. Got: {path}")
     return _alike(_animated(place) if place.suffix.lower() in _ANIMATED else _decoded(place), place)
 
@@ -97,7 +97,8 @@ def _decoded(path: Path) -> Iterator[NDArray[np.uint8]]:
     except InvalidInputError:
         raise
     except Exception as error:  # a damaged file makes FFmpeg's readers raise nearly anything
-        raise InvalidInputError(f"clip {path} cannot be read: {error or 'it is damaged'}") from error
+        reason = getattr(error, "strerror", None) or error
+        raise InvalidInputError(f"clip {path} cannot be read: {reason or 'it is damaged'}") from error
 
 
 def _rgb(frame: Any) -> NDArray[np.uint8]:

@@ -8,11 +8,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ..physics.errors import InvalidInputError
-from .frame_folder import frames_in
+from .command_names import named_as, option_of
+from .frame_folder import frames_in, is_frame_name
 from .frame_record import RECORD
-from .places import is_folder_name, place_of, printable, same_name
+from .places import is_folder_name, place_of, same_name
 
-__all__ = ["INPUTS", "OUTPUTS", "check_apart", "named"]
+__all__ = ["CLIPS", "INPUTS", "OUTPUTS", "check_apart", "coming_folders", "named", "writing_order"]
 
 INPUTS = (
     "image",
@@ -28,7 +29,10 @@ INPUTS = (
 )
 """Every option that names something to read, as the parser calls it."""
 
-OUTPUTS = ("output", "save_sketch", "save_flow", "preview", "save_tracks", "save_motion", "save_svg")
+CLIPS = ("output", "save_sketch", "save_flow", "preview")
+"""Every option that names a clip to write: a file, or a folder of frames."""
+
+OUTPUTS = (*CLIPS, "save_tracks", "save_motion", "save_svg")
 """Every option that names something to write."""
 
 _Identity = tuple[int, int]
@@ -38,10 +42,22 @@ def named(options: argparse.Namespace, names: Sequence[str]) -> Iterator[tuple[s
     """The paths that options give, each with how a person calls the option."""
     for name in names:
         given = getattr(options, name, None)
-        spelled = "IMAGE" if name == "image" else "--" + name.replace("_", "-")
         for path in given if isinstance(given, list) else [given]:
             if path is not None:
-                yield spelled, path
+                yield option_of(name), path
+
+
+def writing_order(options: argparse.Namespace) -> list[str]:
+    """The options of the clips to write, as the parser calls them: folders before what may be written into them."""
+    asked = [name for name in CLIPS if getattr(options, name, None) is not None]
+    folders = [name for name in asked if is_folder_name(getattr(options, name))]
+    folders.sort(key=lambda name: len(place_of(getattr(options, name)).parts))
+    return folders + [name for name in asked if name not in folders]
+
+
+def coming_folders(options: argparse.Namespace) -> frozenset[Path]:
+    """The folders of frames that a command fills: other results may be written into them, even where they are new."""
+    return frozenset(place_of(path) for _, path in named(options, CLIPS) if path and is_folder_name(path))
 
 
 def check_apart(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) -> None:
@@ -55,6 +71,9 @@ def check_apart(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) ->
         InvalidInputError: the message names both.
     """
     outputs = list(named(options, OUTPUTS))
+    for option, path in outputs:
+        with named_as(option, "output"):
+            place_of(path)
     inputs = [*named(options, INPUTS), *(("the bundled example", os.fspath(path)) for path in bundled)]
     read = {identity: each for each in inputs if (identity := _identity(Path(each[1]))) is not None}
     for option, path in outputs:
@@ -63,10 +82,19 @@ def check_apart(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) ->
             if identity in read:
                 source, name = read[identity]
                 raise InvalidInputError(
-                    f"{option} must not be a file that is read. Got: {printable(path)}, which would replace"
-                    f" {printable(name)} ({source})"
+                    f"{option} must not be a file that is read. Got: {path}, which would replace {name} ({source})"
                 )
     _check_distinct(outputs)
+    _check_among_frames(outputs)
+
+
+def _check_among_frames(outputs: Sequence[tuple[str, str]]) -> None:
+    """Refuse a result that has a frame's name in a folder of frames which is written, too."""
+    folders = {place_of(path) for _, path in outputs if is_folder_name(path)}
+    for option, path in outputs:
+        place = place_of(path)
+        if place.parent in folders and is_frame_name(place.name):
+            raise InvalidInputError(f"{option} must not be named as the frames beside it are. Got: {path}")
 
 
 def _replaced(path: str) -> Iterator[Path]:
@@ -83,7 +111,7 @@ def _check_distinct(outputs: Sequence[tuple[str, str]]) -> None:
     for number, (option, path) in enumerate(outputs):
         for other, earlier in outputs[:number]:
             if _collide(path, earlier):
-                both = f"{other} {printable(earlier)}, {option} {printable(path)}"
+                both = f"{other} {earlier}, {option} {path}"
                 raise InvalidInputError(f"every output must have its own name. Got: {both}")
 
 

@@ -7,10 +7,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .command_names import named_as
+
 if TYPE_CHECKING:
     from ..physics.collision import Contact
 
-__all__ = ["check_inputs", "check_taken", "read_inputs"]
+__all__ = ["check_inputs", "check_taken", "read_inputs", "read_plate"]
 
 
 _GREY = 8  # levels by which colours may differ and still be grey, black or white
@@ -27,7 +29,7 @@ def check_inputs(options: argparse.Namespace) -> None:
 
     if not options.mask and not options.points:
         raise InvalidInputError(f"{options.command} needs --mask or --points to know what moves. Got: neither")
-    if options.scene and _wind(options):
+    if options.scene is not None and _wind(options):
         raise InvalidInputError("--attach, --wind, --wind-angle and --turbulence work without --scene. Got: both")
 
 
@@ -73,29 +75,44 @@ def read_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
     Raises:
         InvalidInputError: a file cannot be read.
     """
-    from .images import load_image
-
     scene = _scene(options)
-    image = load_image(options.image, alpha=True)
+    image = _picture(options.image, "IMAGE")
     height, width = image.shape[:2]
     return image, {
-        "masks": [_mask(path, "mask", width, height) for path in options.mask],
-        "points": [_text(path, "points") for path in options.points],
+        "masks": [_mask(path, "--mask", width, height) for path in options.mask],
+        "points": [_points(path, width, height) for path in options.points],
         "scene": scene,
         "preset": options.preset,
         "sway": options.sway,
         "spacing": options.spacing,
         "contact": _contact(options, scene),
-        "colliders": [_mask(path, "collider", width, height) for path in options.collider],
+        "colliders": [_mask(path, "--collider", width, height) for path in options.collider],
         **_wind(options),
     }
 
 
-def _mask(path: str, name: str, width: int, height: int) -> Any:
+def read_plate(options: argparse.Namespace, *, alpha: bool = True) -> Any:
+    """The picture of ``--plate``; None without the option.
+
+    Raises:
+        InvalidInputError: the file cannot be read.
+    """
+    return None if options.plate is None else _picture(options.plate, "--plate", alpha=alpha)
+
+
+def _picture(path: str, option: str, *, alpha: bool = True) -> Any:
+    from .images import load_image
+
+    with named_as(option, "picture"):
+        return load_image(path, alpha=alpha)
+
+
+def _mask(path: str, option: str, width: int, height: int) -> Any:
     """A mask, after saying on standard error what may not be meant so in it."""
     from .mask_files import read_mask
 
-    found = read_mask(path, width=width, height=height, name=name)
+    with named_as(option, "picture"):
+        found = read_mask(path, width=width, height=height, name=option)
     for note in found.notes:
         print(f"physanimator: warning: {note}", file=sys.stderr)
     return found.coverage
@@ -106,10 +123,20 @@ def _scene(options: argparse.Namespace) -> dict[str, Any] | None:
     from ..physics.json_text import read_json
     from ..physics.scene_checking import check_document
 
-    if not options.scene:
+    if options.scene is None:
         return None
-    document = read_json(_text(options.scene, "scene"))
+    document = read_json(_text(options.scene, "--scene"))
     return document if isinstance(document, dict) else check_document(document)
+
+
+def _points(path: str, width: int, height: int) -> str:
+    """The text of a file of points, after a look at whether it holds points of this picture."""
+    from .points import parse_points
+
+    text = _text(path, "--points")
+    with named_as(f"--points {path}"):
+        parse_points(text, width=width, height=height)
+    return text
 
 
 def _contact(options: argparse.Namespace, scene: Any) -> Contact | None:

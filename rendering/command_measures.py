@@ -8,7 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..physics.errors import InvalidInputError, require
+from ..physics.errors import InvalidInputError
+from .command_names import named_as
 from .learned_metrics.files import FID_FILE, VIDEO_SCORE_FOLDER, require_file
 
 if TYPE_CHECKING:
@@ -28,44 +29,57 @@ def check_measures(options: argparse.Namespace) -> None:
     Raises:
         InvalidInputError: the message names the option or the file.
     """
-    if options.clip is not None and not Path(options.clip).exists():
-        raise InvalidInputError(f"--clip must be a video or a folder of pictures. Got: {options.clip}")
+    if options.clip is not None:
+        next(_clip(options.clip, "--clip"))
     if (options.fid is None) != (options.reference is None):
         raise InvalidInputError("--fid and --reference need each other. Got: one of them")
     if (options.video_score is None) != (options.description is None):
         raise InvalidInputError("--video-score and --description need each other. Got: one of them")
     if options.fid is not None:
-        require_file(Path(options.fid), FID_FILE)
-        require("--reference", options.reference, Path(options.reference).exists(), "a clip or a folder of pictures")
+        with named_as("--fid"):
+            require_file(Path(options.fid), FID_FILE)
+        next(_clip(options.reference, "--reference"))
     if options.video_score is not None:
-        require_file(Path(options.video_score), VIDEO_SCORE_FOLDER)
+        with named_as("--video-score"):
+            require_file(Path(options.video_score), VIDEO_SCORE_FOLDER)
 
 
 def measured(options: argparse.Namespace, animation: Animation, progress: StageProgress | None) -> Measures:
     """Every measure by its name."""
-    from .clip_reading import read_clip
     from .metrics import measure_clip
 
     def frames() -> Iterator[Any]:
-        return animation.frames() if options.clip is None else read_clip(options.clip)
+        return animation.frames() if options.clip is None else _clip(options.clip, "--clip")
 
-    found: Measures = measure_clip(
-        frames(),
-        animation.shown_motion,
-        drawing=animation.image,
-        sketches=animation.sketches(),
-        progress=None if progress is None else lambda done, total: progress("measure", done, total),
-    ).as_dict()
+    with named_as("--clip", "frames"):
+        found: Measures = measure_clip(
+            frames(),
+            animation.shown_motion,
+            drawing=animation.image,
+            sketches=animation.sketches(),
+            progress=None if progress is None else lambda done, total: progress("measure", done, total),
+        ).as_dict()
     if options.fid is not None:
         from .learned_metrics.fid import frechet_inception_distance
 
-        found["fid"] = frechet_inception_distance(frames(), read_clip(options.reference), Path(options.fid))
+        with named_as("--fid"):
+            references = _clip(options.reference, "--reference")
+            found["fid"] = frechet_inception_distance(frames(), references, Path(options.fid))
     if options.video_score is not None:
         from .learned_metrics.video_score import video_score
 
-        grades = video_score(list(frames()), options.description, Path(options.video_score))
+        with named_as("--video-score"):
+            grades = video_score(list(frames()), options.description, Path(options.video_score))
         found |= {f"video_score_{name}": grade for name, grade in grades.items()}
     return found
+
+
+def _clip(path: str, option: str) -> Iterator[Any]:
+    """The frames of a clip that an option names; there is at least one."""
+    from .clip_reading import read_clip
+
+    with named_as(option, "clip"):
+        yield from read_clip(path)
 
 
 def table(found: Measures, *, as_json: bool) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from typing import IO, TYPE_CHECKING, Any
 
-from .places import printable
+from ..physics.errors import printable
 
 if TYPE_CHECKING:
     from .animation import StageProgress

@@ -41,6 +41,7 @@ def add_figure(parser: argparse.ArgumentParser) -> None:
     parser.description = "Draw one of the figures that show what the controls do, from simulations made on the spot."
     parser.add_argument(
         "name",
+        metavar="FIGURE",
         choices=("stiffness", "strokes", "collision", "presets"),
         help="stiffness: a ball under a sweep of Young's modulus; strokes: the example under strokes of different"
         " direction and strength; collision: soft balls that meet, with contact and without; presets: a strip of each"
@@ -143,9 +144,10 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
     drawing = parser.add_argument_group(
         "what is written",
         "A file of the same name is replaced when the new one is complete, unless it is read-only or read by this"
-        " command. A folder may hold other files, which stay. Frames in it (frame_0000.png and so on) are replaced only"
-        " if PhysAnimator wrote every one of them, which its record .physanimator.json in the folder tells, and nobody"
-        " changed them since; otherwise the folder is refused before the work.",
+        " command. A folder may hold other files, which stay, and the other results of the command. Frames in it"
+        " (frame_0000.png and so on) are replaced only if PhysAnimator wrote every one of them, which its record"
+        " .physanimator.json in the folder tells, and nobody changed them since; otherwise the folder is refused before"
+        " the work.",
     )
     drawing.add_argument(
         "--output",

@@ -7,7 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .command_files import CLIPS, coming_folders, named, writing_order
 from .command_messages import warn
+from .command_names import named_as
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -16,6 +18,9 @@ if TYPE_CHECKING:
     from .animation import Animation, StageProgress
 
 __all__ = ["background_for", "check_outputs", "check_sizes", "report", "write_outputs"]
+
+_TRACKED = ("--track-points", "--track-static", "--track-frames")
+_TEXTS = {"save_tracks": ".json", "save_motion": ".json", "save_svg": ".svg"}
 
 LARGEST_WIDTH = 8192
 """The largest width that can be asked for [px]; its square is the most pixels that a frame may have."""
@@ -32,31 +37,31 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
         InvalidInputError: the message names the option or the file.
     """
     from ..physics.errors import InvalidInputError
+    from ..physics.scene import check_scene_rate
     from ..physics.tracks import check_track_options
     from .background import Background, background_of
     from .command_files import check_apart
     from .drawing_checks import check_drawing
     from .places import suffix_of
-    from .text_files import check_text_output
-    from .video import check_frame_rate
 
     check_apart(options, bundled=bundled)
     # Frames in .webm have an alpha channel whatever the illustration is, unless something else is said.
     usual = Background("parts" if suffix_of(options.output) == ".webm" else "picture")
     said = background_of(options.background) if options.background else usual
     _check_clips(options, alpha=said.has_alpha)
-    check_drawing(transparent=said.has_alpha, every=options.interpolate, pixel_art=options.pixel_art)
+    with named_as("--interpolate", "every"):
+        check_drawing(transparent=said.has_alpha, every=options.interpolate, pixel_art=options.pixel_art)
     if options.fps is not None:
-        check_frame_rate(options.fps)
-    for path, suffix in ((options.save_tracks, ".json"), (options.save_motion, ".json"), (options.save_svg, ".svg")):
-        if path is not None:
-            check_text_output(path, suffix)
+        check_scene_rate(options.fps)
+    _check_texts(options)
     if options.width is not None and not 16 <= options.width <= LARGEST_WIDTH:
         raise InvalidInputError(f"--width must be 16 to {LARGEST_WIDTH} px. Got: {options.width}")
     tracked = (options.track_points, options.track_static, options.track_frames)
     if not options.save_tracks and tracked != (None, None, None):
-        raise InvalidInputError("--track-points, --track-static and --track-frames need --save-tracks. Got: without")
-    check_track_options(points=tracked[0], static_points=tracked[1], frames=tracked[2])
+        raise InvalidInputError(f"{_TRACKED[0]}, {_TRACKED[1]} and {_TRACKED[2]} need --save-tracks. Got: without")
+    for option, name, number in zip(_TRACKED, ("points", "static_points", "frames"), tracked, strict=True):
+        with named_as(option, name):
+            check_track_options(**{name: number})
 
 
 def check_sizes(options: argparse.Namespace, image: NDArray[Any]) -> None:
@@ -85,27 +90,37 @@ def check_sizes(options: argparse.Namespace, image: NDArray[Any]) -> None:
 def _check_clips(options: argparse.Namespace, *, alpha: bool, size: tuple[int, int] | None = None) -> None:
     from .video import check_output
 
-    check_output(options.output, alpha=alpha, size=size)
-    for path in (options.save_sketch, options.save_flow, options.preview):
-        if path is not None:
-            check_output(path, size=size)
+    coming = coming_folders(options)
+    for option, path in named(options, CLIPS):
+        with named_as(option, "output"):
+            check_output(path, alpha=alpha and option == "--output", size=size, coming=coming)
+
+
+def _check_texts(options: argparse.Namespace) -> None:
+    from .text_files import check_text_output
+
+    coming = coming_folders(options)
+    for name, suffix in _TEXTS.items():
+        for option, path in named(options, (name,)):
+            with named_as(option, "output", "the name"):
+                check_text_output(path, suffix, coming=coming)
 
 
 def write_outputs(options: argparse.Namespace, animation: Animation, progress: StageProgress | None) -> None:
     """Write the animation, and all that was asked for beside it."""
-    animation.save(
-        options.output,
-        background=background_for(options, animation.image),
-        every=options.interpolate,
-        width=options.width,
-        progress=progress,
-    )
-    if options.save_sketch:
-        animation.write(animation.sketches(progress=progress), options.save_sketch, width=options.width)
-    if options.save_flow:
-        animation.write(animation.flows(progress=progress), options.save_flow, width=options.width)
-    if options.preview:
-        animation.write(animation.previews(progress=progress), options.preview, width=options.width)
+    drawn = {"save_sketch": animation.sketches, "save_flow": animation.flows, "preview": animation.previews}
+    for name in writing_order(options):
+        path = getattr(options, name)
+        if name == "output":
+            animation.save(
+                path,
+                background=background_for(options, animation.image),
+                every=options.interpolate,
+                width=options.width,
+                progress=progress,
+            )
+        else:
+            animation.write(drawn[name](progress=progress), path, width=options.width)
     _save_data(options, animation)
 
 
@@ -172,5 +187,6 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
         file_has_alpha=holds_alpha(options.output),
         parts=suffix_of(options.output) == ".webm",
     )
-    check_drawing(transparent=usual.has_alpha, every=options.interpolate)
+    with named_as("--interpolate", "every"):
+        check_drawing(transparent=usual.has_alpha, every=options.interpolate)
     return usual.kind

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import NoReturn
 
-from .places import printable
+from ..physics.errors import printable
 
 __all__ = ["SEVERAL", "CommandParser", "PictureParser"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,20 +15,21 @@ from ..physics.errors import InvalidInputError
 from .atomic import naming_place, putting_in_place
 from .ending import uninterrupted
 from .frame_record import RECORD, Record, WrittenFrame, read_record, recorded, write_record
-from .places import StrPath, check_folder_place, check_replaceable, is_read_only, place_of, printable
+from .places import StrPath, check_folder_place, check_replaceable, is_read_only, place_of
 from .unfinished import made_beside
 
-__all__ = ["check_frame_folder", "frames_in", "write_frame_folder"]
+__all__ = ["check_frame_folder", "frames_in", "is_frame_name", "write_frame_folder"]
 
 _NAME = "frame_{:04d}.png"
 _PATTERN = re.compile(r"frame_[0-9]{4,}\.png", re.IGNORECASE)
 
 
-def check_frame_folder(path: StrPath) -> Path:
+def check_frame_folder(path: StrPath, *, coming: Collection[Path] = ()) -> Path:
     """Refuse a folder that could not be written, or holds frames that :func:`write_frame_folder` did not write.
 
     Args:
         path: the folder, which need not exist yet.
+        coming: see :func:`~physanimator.rendering.places.check_file_place`.
 
     Returns:
         Where it really comes to lie.
@@ -36,16 +37,21 @@ def check_frame_folder(path: StrPath) -> Path:
     Raises:
         InvalidInputError: see above.
     """
-    place = check_folder_place(path)
+    place = check_folder_place(path, coming=coming)
     if os.path.isdir(place):
         _record_of(place, path)
         check_replaceable(place / RECORD)
     return place
 
 
+def is_frame_name(name: str) -> bool:
+    """Whether a file of this name in a folder of frames would count as one of them."""
+    return _PATTERN.fullmatch(name) is not None
+
+
 def frames_in(folder: Path) -> list[Path]:
     """All files in a folder that are named as frames are, whoever wrote them."""
-    return sorted(entry for entry in folder.iterdir() if _PATTERN.fullmatch(entry.name))
+    return sorted(entry for entry in folder.iterdir() if is_frame_name(entry.name))
 
 
 def write_frame_folder(frames: Iterable[NDArray[np.uint8]], path: StrPath) -> None:
@@ -92,8 +98,7 @@ def _record_of(folder: Path, path: StrPath) -> Record:
     record = read_record(folder)
     if record is None:
         raise InvalidInputError(
-            f"folder {printable(path)} must have a readable record of its frames. Got: a damaged {RECORD};"
-            " choose another folder"
+            f"folder {path} must have a readable record of its frames. Got: a damaged {RECORD}; choose another folder"
         )
     known: dict[str, list[WrittenFrame]] = {}
     for each in record:
@@ -105,8 +110,8 @@ def _record_of(folder: Path, path: StrPath) -> Record:
         changed = "is read-only" if described else "was changed after it was written"
         reason = changed if frame.name in known else "PhysAnimator did not write"
         raise InvalidInputError(
-            f"folder {printable(path)} must hold no frames but unchanged ones of an earlier clip."
-            f" Got: {printable(frame.name)}, which {reason}; choose another folder"
+            f"folder {path} must hold no frames but unchanged ones of an earlier clip."
+            f" Got: {frame.name}, which {reason}; choose another folder"
         )
     return record
 

@@ -15,7 +15,7 @@ from .atomic import replacing
 from .picture_files import has_transparency, in_8_bits, in_srgb, reading, with_opacity
 from .pixels import as_uint8
 
-__all__ = ["LONGEST_SIDE", "check_image_output", "data_address", "load_image", "load_mask", "save_image", "to_uint8"]
+__all__ = ["LONGEST_SIDE", "check_image_output", "data_address", "load_image", "load_mask", "save_image"]
 
 LONGEST_SIDE = MAX_PICTURE_SIDE
 """The longest side of a picture that is accepted [px]; ``MAX_PICTURE_PIXELS`` bounds its area."""
@@ -94,7 +94,7 @@ def save_image(path: StrPath, image: NDArray[Any]) -> None:
 
     from .picture_formats import check_picture_format
 
-    pixels = to_uint8(np.asarray(image))
+    pixels = as_uint8(np.asarray(image))
     if pixels.ndim not in (2, 3) or pixels.shape[2:] not in ((), (3,), (4,)) or pixels.size == 0:
         raise InvalidInputError(f"a picture must have shape [h, w], [h, w, 3] or [h, w, 4]. Got: {pixels.shape}")
     picture = Image.fromarray(pixels)
@@ -137,14 +137,5 @@ def data_address(image: NDArray[Any]) -> str:
     from PIL import Image
 
     file = io.BytesIO()
-    Image.fromarray(to_uint8(image)).save(file, format="JPEG", quality=88)
+    Image.fromarray(as_uint8(image)).save(file, format="JPEG", quality=88)
     return "data:image/jpeg;base64," + base64.b64encode(file.getvalue()).decode("ascii")
-
-
-def to_uint8(image: NDArray[Any]) -> NDArray[np.uint8]:
-    """Values 0..1 as 0..255, rounded; uint8 passes unchanged.
-
-    Args:
-        image: uint8 or float, any shape.
-    """
-    return as_uint8(image)

@@ -101,6 +101,10 @@ def reading(path: StrPath, name: str) -> Iterator[Image.Image]:
         raise InvalidInputError(f"{name} {path} must be {_BOUNDS}. Got: more") from None
     except UnidentifiedImageError:
         raise InvalidInputError(f"{name} must be a PNG, JPEG or WebP file. Got: {path}") from None
+    except OSError as error:
+        if error.strerror is None:  # Pillow's own, about what is in the file
+            raise InvalidInputError(f"{name} {path} cannot be read: {_reason(error)}") from error
+        raise InvalidInputError(f"{name} must be a readable file. Got: {path}: {error.strerror}") from None
     except Exception as error:  # a damaged file makes Pillow's readers raise nearly anything
         raise InvalidInputError(f"{name} {path} cannot be read: {_reason(error)}") from error
 

@@ -7,7 +7,7 @@ import warnings
 from functools import lru_cache
 
 from ..physics.errors import InvalidInputError
-from .places import StrPath, printable, suffix_of
+from .places import StrPath, suffix_of
 
 __all__ = ["check_picture_format"]
 
@@ -36,12 +36,12 @@ def check_picture_format(path: StrPath, *, mode: str, size: tuple[int, int] | No
 
     kind = Image.registered_extensions().get(suffix_of(path), "")
     if not kind or not _holds(kind, "RGB"):
-        raise InvalidInputError(f"a picture's name must end in .png, .jpg or .webp. Got: {printable(path)}")
+        raise InvalidInputError(f"a picture's name must end in .png, .jpg or .webp. Got: {path}")
     if not _holds(kind, mode):
         raise InvalidInputError(
-            f"a picture with transparency must end in .png, .webp or .tif. Got: {printable(path)}"
+            f"a picture with transparency must end in .png, .webp or .tif. Got: {path}"
             if mode.endswith("A")
-            else f"a picture of mode {mode} must end in .png, .jpg or .webp. Got: {printable(path)}"
+            else f"a picture of mode {mode} must end in .png, .jpg or .webp. Got: {path}"
         )
     longest = _LONGEST.get(kind)
     if size is not None and longest is not None and max(size) > longest:

@@ -6,6 +6,7 @@ import ntpath
 import os
 import stat
 import unicodedata
+from collections.abc import Collection
 from pathlib import Path
 
 from ..physics.errors import InvalidInputError
@@ -20,7 +21,6 @@ __all__ = [
     "is_folder_name",
     "is_read_only",
     "place_of",
-    "printable",
     "same_name",
     "suffix_of",
 ]
@@ -30,7 +30,6 @@ StrPath = str | os.PathLike[str]
 _RESERVED = {"CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"} | {
     f"{port}{n}" for port in ("COM", "LPT") for n in "123456789¹²³"
 }
-_HARMLESS = "\u00a0\u200c\u200d\u3000"  # spaces and joiners of written languages
 _FORBIDDEN = '<>:"|?*'
 
 
@@ -57,15 +56,17 @@ def place_of(path: StrPath) -> Path:
     given = _spelled(path)
     place = Path(os.path.realpath(given))
     if os.path.islink(place):
-        raise InvalidInputError(f"output {printable(given)} must lead to a file. Got: a link that leads in a circle")
+        raise InvalidInputError(f"output {given} must lead to a file. Got: a link that leads in a circle")
     return place
 
 
-def check_file_place(path: StrPath) -> Path:
+def check_file_place(path: StrPath, *, coming: Collection[Path] = ()) -> Path:
     """Refuse a file that could not be written.
 
     Args:
         path: where the file is to be.
+        coming: folders that are not there yet, but will be before the file is written; checked by
+            :func:`check_folder_place`.
 
     Returns:
         Where it really comes to lie.
@@ -73,16 +74,17 @@ def check_file_place(path: StrPath) -> Path:
     Raises:
         InvalidInputError: see :func:`check_replaceable`; or the folder is read-only.
     """
-    place = check_replaceable(path)
-    _check_writable(place.parent, place.name, path)
+    place = check_replaceable(path, coming=coming)
+    _check_writable(_present(place.parent, coming), place.name, path)
     return place
 
 
-def check_replaceable(path: StrPath) -> Path:
+def check_replaceable(path: StrPath, *, coming: Collection[Path] = ()) -> Path:
     """Refuse what can be seen to be wrong with a file's place, without trying to write there.
 
     Args:
         path: where the file is to be.
+        coming: see :func:`check_file_place`.
 
     Returns:
         Where it really comes to lie.
@@ -95,15 +97,16 @@ def check_replaceable(path: StrPath) -> Path:
     status = _status(place, path)
     if status is not None:
         _check_replaceable(place, status, path)
-    _check_folder(place.parent, path)
+    _check_folder(_present(place.parent, coming), path)
     return place
 
 
-def check_folder_place(path: StrPath) -> Path:
+def check_folder_place(path: StrPath, *, coming: Collection[Path] = ()) -> Path:
     """Refuse a folder that could be neither made nor filled.
 
     Args:
         path: where the folder is, or is to be.
+        coming: see :func:`check_file_place`.
 
     Returns:
         Where it really comes to lie.
@@ -114,22 +117,20 @@ def check_folder_place(path: StrPath) -> Path:
     place = place_of(path)
     status = _status(place, path)
     if status is None:
-        _check_folder(place.parent, path)
-        _check_writable(place.parent, place.name, path)
+        _check_folder(_present(place.parent, coming), path)
+        _check_writable(_present(place.parent, coming), place.name, path)
     elif not stat.S_ISDIR(status.st_mode):
-        raise InvalidInputError(f"output {printable(path)} must be a folder. Got: {_kind(status)}")
+        raise InvalidInputError(f"output {path} must be a folder. Got: {_kind(status)}")
     else:
         _check_writable(place, "frame_0000.png", path)
     return place
 
 
-def printable(path: StrPath) -> str:
-    """A path or sentence for a person: in one line, without what else in a name a terminal would obey."""
-    return "".join(each if each.isprintable() or each in _HARMLESS else _escaped(each) for each in os.fspath(path))
-
-
-def _escaped(character: str) -> str:
-    return character.encode("unicode_escape").decode("ascii")
+def _present(folder: Path, coming: Collection[Path]) -> Path:
+    """The folder itself, or, where it is only to come, the nearest one around it that is not."""
+    while folder in coming and not os.path.isdir(folder):
+        folder = folder.parent
+    return folder
 
 
 def _spelled(path: StrPath) -> str:
@@ -147,7 +148,7 @@ def _spelled(path: StrPath) -> str:
     except UnicodeEncodeError:
         possible = False
     if not possible:
-        raise InvalidInputError(f"output must be a name that this system can write. Got: {printable(given)}")
+        raise InvalidInputError(f"output must be a name that this system can write. Got: {given}")
     if os.name == "nt":
         check_windows_name(given)
     return given
@@ -164,7 +165,7 @@ def check_windows_name(path: str) -> None:
         return
     device = name.split(".")[0].rstrip(" ").upper() in _RESERVED
     if device or name[-1] in ". " or any(each in _FORBIDDEN or ord(each) < 32 for each in name):
-        raise InvalidInputError(f"output must be a name that Windows can write. Got: {printable(path)}")
+        raise InvalidInputError(f"output must be a name that Windows can write. Got: {path}")
 
 
 def _status(place: Path, given: StrPath) -> os.stat_result | None:
@@ -174,31 +175,26 @@ def _status(place: Path, given: StrPath) -> os.stat_result | None:
     except (FileNotFoundError, NotADirectoryError):
         return None
     except OSError as error:
-        raise InvalidInputError(
-            f"output {printable(given)} must be a name that can be written. Got: {error.strerror}"
-        ) from None
+        raise InvalidInputError(f"output {given} must be a name that can be written. Got: {error.strerror}") from None
 
 
 def _check_replaceable(place: Path, status: os.stat_result, given: StrPath) -> None:
     if not stat.S_ISREG(status.st_mode):
-        raise InvalidInputError(f"output {printable(given)} must be a file. Got: {_kind(status)}")
+        raise InvalidInputError(f"output {given} must be a file. Got: {_kind(status)}")
     if is_read_only(status):
-        raise InvalidInputError(f"output {printable(given)} must be a file that may be replaced. Got: a read-only file")
+        raise InvalidInputError(f"output {given} must be a file that may be replaced. Got: a read-only file")
     try:
         os.close(os.open(place, os.O_WRONLY))
     except OSError as error:
         raise InvalidInputError(
-            f"output {printable(given)} must be a file that may be replaced. Got: {error.strerror};"
-            " is it open in another program?"
+            f"output {given} must be a file that may be replaced. Got: {error.strerror}; is it open in another program?"
         ) from None
 
 
 def _check_folder(folder: Path, given: StrPath) -> None:
     if not os.path.isdir(folder):
-        there = (
-            f"{printable(folder)}, which is no folder" if os.path.exists(folder) else f"no folder {printable(folder)}"
-        )
-        raise InvalidInputError(f"the folder for {printable(given)} must exist. Got: {there}")
+        there = f"{folder}, which is no folder" if os.path.exists(folder) else f"no folder {folder}"
+        raise InvalidInputError(f"the folder for {given} must exist. Got: {there}")
 
 
 def _check_writable(folder: Path, name: str, given: StrPath) -> None:
@@ -207,7 +203,7 @@ def _check_writable(folder: Path, name: str, given: StrPath) -> None:
         with made_beside(name, folder):
             pass
     except OSError as error:
-        raise InvalidInputError(f"the folder for {printable(given)} must be writable. Got: {error.strerror}") from None
+        raise InvalidInputError(f"the folder for {given} must be writable. Got: {error.strerror}") from None
 
 
 def _kind(status: os.stat_result) -> str:

@@ -59,7 +59,7 @@ def checked_points(
     if max(width, height) > 1:
         require_pixels("points", [(float(x), float(y)) for x, y in seeds])
     seeds = np.minimum(seeds, np.array([width, height]) - 0.5)
-    cells = [tuple(cell) for cell in seeds.astype(int)]
+    cells = [tuple(cell) for cell in seeds.astype(int).tolist()]
     clash = {c for c, p in zip(cells, positive, strict=True) if p} & {
         c for c, p in zip(cells, positive, strict=True) if not p
     }

@@ -2,27 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from pathlib import Path
+
 from ..physics.errors import InvalidInputError
 from .atomic import replacing
-from .places import StrPath, check_file_place, printable, suffix_of
+from .places import StrPath, check_file_place, suffix_of
 
 __all__ = ["check_text_output", "write_text"]
 
 
-def check_text_output(path: StrPath, suffix: str) -> None:
+def check_text_output(path: StrPath, suffix: str, *, coming: Collection[Path] = ()) -> None:
     """Refuse a place that :func:`write_text` could not write to, before any long work.
 
     Args:
         path: where the file is to be.
         suffix: how its name must end, such as ``.json``.
+        coming: see :func:`~physanimator.rendering.places.check_file_place`.
 
     Raises:
         InvalidInputError: the name ends otherwise, or nothing can be written there; see
             :func:`~physanimator.rendering.places.check_file_place`.
     """
     if suffix_of(path) != suffix:
-        raise InvalidInputError(f"the name must end in {suffix}. Got: {printable(path)}")
-    check_file_place(path)
+        raise InvalidInputError(f"the name must end in {suffix}. Got: {path}")
+    check_file_place(path, coming=coming)
 
 
 def write_text(path: StrPath, text: str) -> None:

@@ -6,7 +6,7 @@ import itertools
 import math
 import numbers
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
@@ -20,7 +20,7 @@ from .atomic import replacing
 from .bleeding import bled
 from .frame_folder import check_frame_folder, write_frame_folder
 from .pixels import as_uint8
-from .places import StrPath, check_file_place, is_folder_name, place_of, printable, suffix_of
+from .places import StrPath, check_file_place, is_folder_name, place_of, suffix_of
 
 if TYPE_CHECKING:
     import av
@@ -108,13 +108,16 @@ _BT709 = 1
 _LIMITED_RANGE = 1
 
 
-def check_output(path: StrPath, *, alpha: bool = False, size: tuple[int, int] | None = None) -> Path:
+def check_output(
+    path: StrPath, *, alpha: bool = False, size: tuple[int, int] | None = None, coming: Collection[Path] = ()
+) -> Path:
     """Refuse a place that :func:`write_animation` could not write to, before any long work.
 
     Args:
         path: a file ending in one of ``FORMATS``, or a folder ending in ``/``.
         alpha: whether the frames will have an alpha channel.
         size: width and height of the frames [px], where they are known.
+        coming: see :func:`~physanimator.rendering.places.check_file_place`.
 
     Returns:
         Where the file or folder really comes to lie.
@@ -124,26 +127,22 @@ def check_output(path: StrPath, *, alpha: bool = False, size: tuple[int, int] | 
             be written there, or the folder holds frames that :func:`write_animation` did not write.
     """
     if is_folder_name(path):
-        return check_frame_folder(path)
+        return check_frame_folder(path, coming=coming)
     suffix, kinds = suffix_of(path), ", ".join(FORMATS)
     if os.path.isdir(place_of(path)):
-        raise InvalidInputError(
-            f"output must end in '/' to fill the folder with numbered pictures. Got: {printable(path)}"
-        )
+        raise InvalidInputError(f"output must end in '/' to fill the folder with numbered pictures. Got: {path}")
     if suffix not in FORMATS:
-        raise InvalidInputError(
-            f"output must end in {kinds}, or in '/' for a folder of pictures. Got: {printable(path)}"
-        )
+        raise InvalidInputError(f"output must end in {kinds}, or in '/' for a folder of pictures. Got: {path}")
     chosen = FORMATS[suffix]
     if alpha and chosen.alpha_pixels is None:
         able = ", ".join(suffix for suffix, each in FORMATS.items() if each.alpha_pixels)
-        raise InvalidInputError(f"output with transparency must end in {able}, or in '/'. Got: {printable(path)}")
+        raise InvalidInputError(f"output with transparency must end in {able}, or in '/'. Got: {path}")
     if size is not None and max(size) > chosen.longest_side:
         raise InvalidInputError(
             f"frames in {suffix} must be at most {chosen.longest_side} px on a side. Got: {size[0]} x {size[1]} px"
         )
     _check_encoder(chosen)
-    return check_file_place(path)
+    return check_file_place(path, coming=coming)
 
 
 def check_frame_rate(frame_rate: float | Fraction) -> None:

@@ -75,7 +75,7 @@ def test_the_table_names_measures_and_units(folder: Path, capsys: Output) -> Non
     ("arguments", "words"),
     [
         (["--clip", "none.mp4"], "--clip must be a video or a folder"),
-        (["--clip", "girl.png"], "frames must be one for each of the motion's 4 frames. Got: 1"),
+        (["--clip", "girl.png"], "--clip must be one for each of the motion's 4 frames. Got: 1"),
         (["--clip", "hair.txt"], "clip hair.txt cannot be read"),
         (["--clip", "empty"], "holds pictures"),
         (["--fid", "w.pth"], "--fid and --reference need each other"),

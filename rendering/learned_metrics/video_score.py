@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError, require
-from ..images import to_uint8
+from ..pixels import as_uint8
 from .files import VIDEO_SCORE_FOLDER, require_file
 
 __all__ = ["DIMENSIONS", "PROMPT_FILE", "video_score"]
@@ -47,7 +47,7 @@ def video_score(frames: Sequence[NDArray[Any]], description: str, folder: Path) 
     require_file(folder, VIDEO_SCORE_FOLDER)
     question = _question(folder).replace("{text_prompt}", description)
     chosen = np.unique(np.linspace(0, len(frames) - 1, _MOST_FRAMES).round().astype(int))
-    pictures = [Image.fromarray(to_uint8(frames[k])) for k in chosen]
+    pictures = [Image.fromarray(as_uint8(frames[k])) for k in chosen]
     question += " <image>" * max(0, len(pictures) - question.count("<image>"))
     model, processor = _loaded(folder)
     inputs = processor(text=question, images=pictures, return_tensors="pt")

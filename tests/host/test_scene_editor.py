@@ -123,6 +123,24 @@ def test_the_plate_is_made_when_asked_for(host: Any, info: dict[str, Any]) -> No
     assert not changed[~mask].any()
 
 
+def test_a_sprite_keeps_its_transparency(host: Any) -> None:
+    prompt = editor(SIZE)
+    prompt["around"] = core("SolidMask", value=1.0, width=1280, height=720)
+    prompt["clear"] = core("CropMask", mask=["around", 0], x=0, y=0, width=300, height=720)
+    prompt["none"] = core("SolidMask", value=0.0, width=1280, height=720)
+    prompt["alpha"] = core("MaskComposite", destination=["none", 0], source=["clear", 0], x=0, y=0, operation="add")
+    prompt["sprite"] = core("JoinImageWithAlpha", image=["example", 0], alpha=["alpha", 0])
+    prompt["editor"]["inputs"] |= {"image": ["sprite", 0], "plate": ["sprite", 0]}
+    told = host.run(prompt)["editor"]["physanimator_editor"][0]
+    made = host.read(f"/physanimator/plate/{told['key']}")
+    for file in (host.view(told["image"]), host.view(told["plate"]), made):
+        shown = Image.open(io.BytesIO(file))
+        assert shown.mode == "RGBA"
+        opacity = np.asarray(shown)[..., 3]
+        assert not opacity[:, :300].any()
+        assert opacity[:, 1200:].min() == 255
+
+
 def test_a_connected_plate_is_saved_and_must_fit(host: Any) -> None:
     prompt = editor(SIZE)
     prompt["editor"]["inputs"]["plate"] = ["example", 0]

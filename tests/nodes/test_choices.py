@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from physanimator.nodes import choices
-from physanimator.nodes.choices import check_choices, check_numbers, check_types, checked
+from physanimator.nodes.choices import check_choices, check_values, checked
 from physanimator.physics.errors import InvalidInputError
 
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
@@ -81,10 +81,10 @@ def test_an_unknown_choice_is_refused(node: str, chosen: Path_, name: str) -> No
 @pytest.mark.parametrize(("node", "chosen", "name", "options"), NUMBERS)
 def test_a_number_out_of_its_range_is_refused(node: str, chosen: Path_, name: str, options: dict[str, Any]) -> None:
     described = SCHEMAS[node]["input"]
-    check_numbers(described, usual(described, chosen), None)
+    check_values(described, usual(described, chosen), None, bounded=True)
     for wrong in (options["min"] - 1, options["max"] + 1, float("nan"), "many"):
         with pytest.raises(InvalidInputError, match=rf"{name} must be a number from"):
-            check_numbers(described, placed(usual(described, chosen), chosen, name, wrong), None)
+            check_values(described, placed(usual(described, chosen), chosen, name, wrong), None, bounded=True)
 
 
 @pytest.mark.parametrize("sent", [{"renderer": UNKNOWN}, {"renderer": 3}, {"renderer": True}, {"renderer": ["9", 0]}])
@@ -132,11 +132,11 @@ TYPED = [each[:4] for each in EVERY if each[3] in ("INT", "FLOAT", "STRING")]
 @pytest.mark.parametrize(("node", "chosen", "name", "kind"), TYPED)
 def test_a_value_of_another_kind_is_refused(node: str, chosen: Path_, name: str, kind: str) -> None:
     described = SCHEMAS[node]["input"]
-    check_types(described, usual(described, chosen), None)
+    check_values(described, usual(described, chosen), None)
     asked = "a text" if kind == "STRING" else "a finite number"
     for wrong in ([1, 2, 3], {}, float("nan"), 3 if kind == "STRING" else "many"):
         with pytest.raises(InvalidInputError, match=rf"{name} must be {asked}\. Got: "):
-            check_types(described, placed(usual(described, chosen), chosen, name, wrong), None)
+            check_values(described, placed(usual(described, chosen), chosen, name, wrong), None)
 
 
 @pytest.mark.parametrize("digits", [400, 5000])
@@ -144,17 +144,17 @@ def test_a_number_of_very_many_digits_is_one_short_sentence(digits: int) -> None
     described = SCHEMAS["PhysAnimator_Simulate"]["input"]
     values = usual(described) | {"frames": 10**digits}
     with pytest.raises(InvalidInputError, match=r"^frames must be a finite number\. Got: .{10,80}$"):
-        check_types(described, values, None)
+        check_values(described, values, None)
     with pytest.raises(InvalidInputError, match=r"^frames must be a number from 1 to 100000\. Got: .{10,80}$"):
-        check_numbers(described, values, None)
+        check_values(described, values, None, bounded=True)
 
 
 def test_a_list_that_is_no_link_is_refused() -> None:
     described = SCHEMAS["PhysAnimator_SegmentByPoints"]["input"]
     values = usual(described) | {"points": [1, 2, 3]}
-    check_types(described, values, {"points": ["4", 0]})
+    check_values(described, values, {"points": ["4", 0]})
     with pytest.raises(InvalidInputError, match=r"^points must be a text\. Got: \[1, 2, 3\]"):
-        check_types(described, values, {"points": [1, 2, 3]})
+        check_values(described, values, {"points": [1, 2, 3]})
 
 
 def test_nothing_is_refused_where_a_link_is_needed() -> None:

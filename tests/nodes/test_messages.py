@@ -7,6 +7,7 @@ import sys
 import types
 from typing import Any, NamedTuple
 
+import numpy as np
 import pytest
 from physanimator.nodes import messages, running
 
@@ -68,6 +69,15 @@ def test_without_a_browser_nobody_else_s_is_written_to(monkeypatch: pytest.Monke
     assert messages.tell_user(Simulate, ["one"]) == {"advice": ["one"]}
     assert messages.tell_user(Simulate, []) == {}
     assert server.sent == []
+
+
+def test_pixel_art_is_told_how_it_stays_hard(monkeypatch: pytest.MonkeyPatch) -> None:
+    server = host(monkeypatch, Server("me"), Node("p", "7"))
+    smooth = np.linspace(0, 1, 64 * 64 * 3, dtype=np.float32).reshape(64, 64, 3)
+    assert messages.hint_of_pixel_art(Simulate, smooth) == {}
+    told = messages.hint_of_pixel_art(Simulate, np.round(smooth * 2) / 2)
+    assert told["advice"][0].endswith("pixel_art keeps its pixels hard")
+    assert server.sent[0][1]["sentences"] == told["advice"]
 
 
 def test_what_was_told_is_joined() -> None:

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.images import LONGEST_SIDE, load_image, load_mask, save_image, to_uint8
+from physanimator.rendering.images import LONGEST_SIDE, load_image, load_mask, save_image
+from physanimator.rendering.pixels import as_uint8
 from PIL import Image, ImageCms
 
 
@@ -261,7 +262,7 @@ def test_failed_save_keeps_the_earlier_file(tmp_path: Path) -> None:
     assert len(list(tmp_path.iterdir())) == 1
 
 
-def test_to_uint8_rounds_and_clips() -> None:
-    assert to_uint8(np.array([-0.1, 0.0, 0.5, 0.9999, 1.1])).tolist() == [0, 0, 128, 255, 255]
+def test_as_uint8_rounds_and_clips() -> None:
+    assert as_uint8(np.array([-0.1, 0.0, 0.5, 0.9999, 1.1])).tolist() == [0, 0, 128, 255, 255]
     same = drawing()
-    assert to_uint8(same) is same
+    assert as_uint8(same) is same

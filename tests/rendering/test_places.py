@@ -10,10 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.errors import InvalidInputError, printable
 from physanimator.rendering.atomic import replacing
 from physanimator.rendering.images import check_image_output, load_image, save_image
-from physanimator.rendering.places import check_windows_name, printable
+from physanimator.rendering.places import check_windows_name
 from physanimator.rendering.text_files import check_text_output, write_text
 from physanimator.rendering.unfinished import made_beside, remove_unfinished
 from physanimator.rendering.video import check_output, write_animation

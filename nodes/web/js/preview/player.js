@@ -228,6 +228,7 @@ function texture(gl) {
  */
 function upload(gl, target, source) {
   gl.bindTexture(gl.TEXTURE_2D, target);
+  gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL, true); // the canvas is so, too: sprites let the stage show through
   gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, source);
 }
 

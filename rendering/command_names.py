@@ -1,0 +1,105 @@
+"""What errors call the values of a command: by the options that they were given with, not by the library's names."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+from ..physics.errors import InvalidInputError, SceneError
+
+__all__ = ["named_as", "named_by_options", "option_of"]
+
+_OPTIONS = {
+    "every": "--interpolate",
+    "frame_rate": "--fps",
+    "image": "IMAGE",
+    "max_minutes": "--max-minutes",
+    "sway_frequency": "--sway",
+    "wind_angle": "--wind-angle",
+    "wind_strength": "--wind",
+} | {name: f"--{name}" for name in ("attach", "background", "frames", "loop", "plate", "preset", "skip", "spacing")}
+_OPTIONS |= {"turbulence": "--turbulence", "width": "--width"}
+_LISTS = {"masks": ("mask", "--mask"), "colliders": ("collider", "--collider"), "points": ("points", "--points")}
+
+_ITEM = re.compile(r"(masks|colliders|points)\[(\d+)\](?=:| must)")
+_HEAD = re.compile(r"(?P<before>|.*?: )(?P<name>[a-z_]+)(?= must )", re.DOTALL)
+_REMEDIES = (
+    ("max_minutes", re.compile(r"\bset max_minutes\b"), "set --max-minutes"),
+    ("spacing", re.compile(r"\ba (larger|smaller) spacing\b"), r"a \1 --spacing"),
+    ("sway", re.compile(r"\ba lower sway_frequency\b"), "a lower --sway"),
+)
+
+
+def option_of(name: str) -> str:
+    """An option as a person writes it, from what the parser calls it."""
+    return "IMAGE" if name == "image" else "--" + name.replace("_", "-")
+
+
+@contextmanager
+def named_as(option: str, *names: str) -> Iterator[None]:
+    """Let an error about one option's value name that option.
+
+    Args:
+        option: as a person writes it.
+        names: what the library calls the value; the first word of its sentences.
+    """
+    try:
+        yield
+    except InvalidInputError as error:
+        text = str(error)
+        if text.startswith("--"):  # it tells already
+            raise
+        name = next((each for each in names if text.startswith(f"{each} ")), None)
+        said = f"{option}: {text}" if name is None else option + text[len(name) :]
+        raise InvalidInputError(said) from error
+
+
+@contextmanager
+def named_by_options(options: argparse.Namespace) -> Iterator[None]:
+    """Let errors about the parameters of the library name the command's options."""
+    try:
+        yield
+    except SceneError as error:
+        scene = getattr(options, "scene", None)
+        if scene is None:
+            raise
+        raise InvalidInputError(f"--scene {scene}: {error}") from error
+    except InvalidInputError as error:
+        raise InvalidInputError(_in_options(str(error), options)) from error
+
+
+def _in_options(text: str, options: argparse.Namespace) -> str:
+    if found := _ITEM.match(text):
+        attribute, option = _LISTS[found[1]]
+        given = _given(options, attribute)
+        if int(found[2]) < len(given):
+            text = f"{option} {given[int(found[2])]}{text[found.end() :]}"
+    elif text.startswith("points must ") and len(clicked := _given(options, "points")) == 1:
+        text = f"--points {clicked[0]}: {text}"
+    elif text.startswith("mask must ") and len(parts := _parts(options)) == 1:
+        text = f"{parts[0]}: {text}"
+    elif text.startswith("masks must "):
+        text = ("--mask" if _given(options, "mask") else "--points") + text[len("masks") :]
+    if (found := _HEAD.match(text)) and hasattr(options, _attribute(option := _OPTIONS.get(found["name"], ""))):
+        text = found["before"] + option + text[found.end() :]
+    for attribute, pattern, replacement in _REMEDIES:
+        # What a scene file says is lowered there, unless the option is in its place.
+        if hasattr(options, attribute) and not (attribute == "sway" and options.scene and options.sway is None):
+            text = pattern.sub(replacement, text)
+    return text
+
+
+def _parts(options: argparse.Namespace) -> list[str]:
+    """The options that moving parts are given by."""
+    return [f"--{name} {path}" for name in ("mask", "points") for path in _given(options, name)]
+
+
+def _given(options: argparse.Namespace, name: str) -> Sequence[str]:
+    """The paths of an option that may be repeated; none where the command does not have it."""
+    return getattr(options, name, None) or ()
+
+
+def _attribute(option: str) -> str:
+    return option.lower().lstrip("-").replace("-", "_") or "-"
