@@ -121,7 +121,9 @@ class _TaichiThread:
     def keep_compiled(self, aside: bool) -> bool:
         if self._shared or (aside and self._can_go_aside()):
             return self._worker.keep_compiled()
-        if not self._is_ours() or self._program.get_total_compilation_time() < _WORTH_KEEPING:
+        if not self._is_ours() or not self._cache.usable:
+            return False
+        if self._program.get_total_compilation_time() < _WORTH_KEEPING:
             return False
         self._drop()
         return True
