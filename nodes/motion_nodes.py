@@ -78,15 +78,16 @@ class Simulate(io.ComfyNode):
         cls, scene: MaskedScene, frames: int, loop: float = 0.0, max_minutes: float = DEFAULT_MINUTES
     ) -> io.NodeOutput:
         from ..physics.advice import advice, stillness
-        from ..physics.kernel_preparation import compile_aside
+        from ..physics.kernel_preparation import compile_aside, simulated_aside
         from ..physics.simulation import simulate
 
         acting = replace(scene.scene, loop=loop) if loop else scene.scene
         told = tell_user(cls, advice(acting, masks=False))  # Mask to Mesh has spoken of those
         wanted = None if acting.loop else frames
-        with interruptible(host_check()):
-            if server() is not None:  # which has to answer meanwhile
-                compile_aside(contact=acting.contact is not None)
+        touches, serves = acting.contact is not None, server() is not None  # it has to answer meanwhile
+        with interruptible(host_check()), simulated_aside(contact=touches and serves):
+            if serves:
+                compile_aside(contact=touches)
             motion = simulate(acting, frames=wanted, progress=host_progress(), max_minutes=max_minutes)
         told = all_told(told, tell_user(cls, stillness(motion)))
         return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate, ui=told or None)

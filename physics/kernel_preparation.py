@@ -1,7 +1,8 @@
 """Kernels compiled in a process of their own, for servers that have to answer meanwhile.
 
 Taichi holds Python's global lock while it compiles: for ten seconds and more nothing else would run in this process.
-What another process has compiled is read from disk in a fraction of a second.
+What another process has compiled is read from disk, the kernels of bodies that do not touch in a fraction of a second.
+That for contact takes seconds even then, so it also runs in a process of its own.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import logging
 import platform
 import threading
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import AbstractContextManager, suppress
 from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -22,7 +23,7 @@ from .interruption import checkpoint
 from .kernel_cache import kernel_cache
 from .taichi_worker import TaichiWorker
 
-__all__ = ["compile_aside"]
+__all__ = ["compile_aside", "simulated_aside"]
 
 _POLL_SECONDS = 0.05
 
@@ -46,6 +47,15 @@ def compile_aside(*, contact: bool, check: Callable[[], None] = checkpoint) -> N
             threading.Thread(target=_compile, args=(contact, done), name="physanimator-compile", daemon=True).start()
     while not done.wait(_POLL_SECONDS):
         check()
+
+
+def simulated_aside(*, contact: bool) -> AbstractContextManager[None]:
+    """What is simulated meanwhile, in this thread, shall not keep others in this process from answering.
+
+    Args:
+        contact: whether parts touch.
+    """
+    return taichi_runtime.aside(contact)
 
 
 def _compile(contact: bool, done: threading.Event) -> None:

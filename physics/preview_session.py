@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from .errors import Cancelled, PhysAnimatorError
 from .interruption import interruptible
-from .kernel_preparation import compile_aside
+from .kernel_preparation import compile_aside, simulated_aside
 from .loop import first_frame, periodic
 from .preparation import Preparations, Prepare, Prepared
 from .preview_limits import MAX_EDITORS, MAX_PREVIEW_WORK
@@ -190,14 +190,15 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) ->
         compile_aside(contact=scene.contact is not None, check=run.check)
         if prepared is None:
             prepared = run.prepare(scene)
-        simulate(
-            scene,
-            frames=None if scene.loop else frames,
-            on_frame=send,
-            progress=_checking(run),
-            max_work=MAX_PREVIEW_WORK,
-            prepare=lambda _: prepared,  # what is prepared is the same for the scene and for its periodic form
-        )
+        with simulated_aside(contact=scene.contact is not None):
+            simulate(
+                scene,
+                frames=None if scene.loop else frames,
+                on_frame=send,
+                progress=_checking(run),
+                max_work=MAX_PREVIEW_WORK,
+                prepare=lambda _: prepared,  # what is prepared is the same for the scene and for its periodic form
+            )
     seconds = time.perf_counter() - begun
     return record(END, {"frames": frames, "seconds": seconds, "largest_displacement": largest})
 
@@ -217,9 +218,10 @@ def warm_up(*, contact: bool = False) -> None:
     from .taichi_runtime import keep_compiled
 
     compile_aside(contact=contact)
-    simulate_samples(contact=contact)
-    if keep_compiled():
+    with simulated_aside(contact=contact):
         simulate_samples(contact=contact)
+        if keep_compiled():
+            simulate_samples(contact=contact)
 
 
 def simulate_samples(*, contact: bool) -> None:

@@ -39,6 +39,7 @@ EDGE = 1e-6
 
 
 _CORNERS_AT_ONCE = 64
+_ROWS_AT_ONCE = 64
 _PIXELS_OF_DISTANCES = 2**24  # of a scene's masks: of more, distances are measured on coarser ones
 
 
@@ -251,14 +252,12 @@ def _coarser(mask: NDArray[np.bool_], coarse: int) -> NDArray[np.uint8]:
     if coarse == 1:
         return painted
     rows, columns = (-(-length // coarse) for length in mask.shape)
-    whole = len(mask) // coarse
-    bands = np.zeros((rows, columns * coarse), np.uint8)
-    bands[:whole, : mask.shape[1]] = np.bitwise_or.reduce(
-        painted[: whole * coarse].reshape(whole, coarse, mask.shape[1]), axis=1
-    )
-    if whole < rows:
-        bands[whole, : mask.shape[1]] = np.bitwise_or.reduce(painted[whole * coarse :], axis=0)
-    result = bands[:, ::coarse].copy()
-    for first in range(1, coarse):
-        result |= bands[:, first::coarse]
+    result = np.zeros((rows, columns), np.uint8)
+    bands = np.zeros((min(rows, _ROWS_AT_ONCE), columns * coarse), np.uint8)
+    for top in range(0, rows, len(bands)):
+        filled = result[top : top + len(bands)]
+        for number, band in enumerate(bands[: len(filled)], start=top):
+            np.bitwise_or.reduce(painted[number * coarse : (number + 1) * coarse], axis=0, out=band[: mask.shape[1]])
+        for first in range(coarse):
+            filled |= bands[: len(filled), first::coarse]
     return result

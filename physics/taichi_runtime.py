@@ -6,18 +6,22 @@ Taichi when the first job arrives and runs every kernel. Where others have, or a
 run in a process of their own (``taichi_worker``), and the program in this one is the others' alone.
 
 Taichi holds Python's global lock while a kernel runs: a long kernel stops every other thread, so callers keep their
-launches to some tens of milliseconds. Kernels take arrays only, never Taichi fields.
+launches to some tens of milliseconds. It also holds it while it makes machine code of a kernel, which takes seconds
+where that is large: servers let such kernels run in the process of our own (``aside``). Kernels take arrays only, never
+Taichi fields.
 """
 
 from __future__ import annotations
 
 import atexit
+import logging
 import os
 import queue
 import sys
 import threading
-from collections.abc import Callable
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from contextvars import ContextVar
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar, cast
 
@@ -27,7 +31,7 @@ from .taichi_program import end_program, import_taichi, is_initialising, new_pro
 from .taichi_reading import quick_reading
 from .taichi_worker import TaichiWorker
 
-__all__ = ["compiled", "compiles_here", "keep_compiled", "launch", "own_this_process", "read_anew", "run"]
+__all__ = ["aside", "compiled", "compiles_here", "keep_compiled", "launch", "own_this_process", "read_anew", "run"]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -36,6 +40,8 @@ _POLL_SECONDS = 0.2
 _LAST_SECONDS = 30.0  # that the end of the process, or of our program, waits for a kernel which still runs: some 15 ms
 _IDLE_SECONDS = 300.0  # after which a process of our own, which holds some 200 MB, is ended
 _WORTH_KEEPING = 0.25  # seconds of compiling: kernels that were on disk already take some hundredths to read
+
+_goes_aside: ContextVar[bool] = ContextVar("physanimator_goes_aside", default=False)
 
 
 class _Job:
@@ -86,6 +92,7 @@ class _TaichiThread:
         self._shared = False
         self._closed = False
         self._worker = TaichiWorker()
+        self._worker_fails = False
         self._during_job = ExitStack()
 
     def run(self, call: Callable[[], T]) -> T:
@@ -106,15 +113,17 @@ class _TaichiThread:
             self._kernels[build] = build(self._taichi)
         return cast(T, self._kernels[build])
 
-    def launched(self, function: Callable[..., T], constant: Any, state: Any, *arguments: Any) -> T:
-        if self._is_here():
-            return function(constant, state, *arguments)
-        return cast(T, self._worker.launch(function, constant, state, arguments))
+    def launched(self, aside: bool, function: Callable[..., T], constant: Any, state: Any, *arguments: Any) -> T:
+        if (aside and self._can_go_aside()) or not self._is_here():
+            return cast(T, self._worker.launch(function, constant, state, arguments))
+        return function(constant, state, *arguments)
 
-    def keep_compiled(self) -> bool:
-        if self._shared:
+    def keep_compiled(self, aside: bool) -> bool:
+        if self._shared or (aside and self._can_go_aside()):
             return self._worker.keep_compiled()
-        if not self._is_ours() or self._program.get_total_compilation_time() < _WORTH_KEEPING:
+        if not self._is_ours() or not self._cache.usable:
+            return False
+        if self._program.get_total_compilation_time() < _WORTH_KEEPING:
             return False
         self._drop()
         return True
@@ -176,10 +185,26 @@ class _TaichiThread:
         self._kernels.clear()
         end_program(self._reset, program, self._cache)
 
-    def _is_here(self) -> bool:
-        """Whether kernels run in this process, in which our program then is in place."""
+    def _can_go_aside(self) -> bool:
+        """Whether there is a process of our own, or one could be started."""
+        self._check_open()
+        if not self._worker_fails and not self._alone:
+            try:
+                self._worker.start()
+            except PhysAnimatorError:
+                logging.info(
+                    "PhysAnimator: kernels stay in this process: none could be started from %s", sys.executable
+                )
+                self._worker_fails = True
+        return not self._worker_fails and not self._alone
+
+    def _check_open(self) -> None:
         if self._closed:  # a program that is made while the process ends would end it with an abort
             raise PhysAnimatorError("Nothing more can be simulated: the process is ending")
+
+    def _is_here(self) -> bool:
+        """Whether kernels run in this process, in which our program then is in place."""
+        self._check_open()
         if self._taichi is None and not self._shared:
             self._shared = "taichi" in sys.modules and not self._alone
             if not self._shared:
@@ -244,7 +269,20 @@ def launch(function: Callable[..., T], constant: Any, state: Any, *arguments: An
     Raises:
         PhysAnimatorError: as ``run``, or the other process cannot be started, or has ended.
     """
-    return run(_taichi_thread.launched, function, constant, state, *arguments)
+    return run(_taichi_thread.launched, _goes_aside.get(), function, constant, state, *arguments)
+
+
+@contextmanager
+def aside(wanted: bool = True) -> Iterator[None]:
+    """What this thread launches meanwhile runs in a process of ours, where one can be had, and this one can answer.
+
+    A whole simulation belongs inside: what it has noted in one process is not known in the other.
+    """
+    token = _goes_aside.set(wanted)
+    try:
+        yield
+    finally:
+        _goes_aside.reset(token)
 
 
 def compiled(build: Callable[[Any], T]) -> T:
@@ -262,7 +300,7 @@ def keep_compiled() -> bool:
     Taichi writes them only where its program ends, and never in a process that a signal ends. So the program is ended
     between two jobs; the next one reads its kernels from disk, which takes half a second.
     """
-    return _taichi_thread.run(_taichi_thread.keep_compiled)
+    return run(_taichi_thread.keep_compiled, _goes_aside.get())
 
 
 def read_anew() -> None:

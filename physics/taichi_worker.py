@@ -1,4 +1,4 @@
-"""A process of our own for the kernels, where another part of this one uses Taichi, of which one process has one.
+"""A process of our own for kernels: where another part of this one uses Taichi, or this one has to answer meanwhile.
 
 It is started anew from the interpreter, so that nothing of the host's main module runs in it, and reads its work from
 its standard input: when that is closed, which happens however this process ends, it ends as well.
@@ -67,7 +67,7 @@ class TaichiWorker:
         Raises:
             PhysAnimatorError: there is no process, or it has ended since the first launch with this constant.
         """
-        self._start_unless_running()
+        self.start()
         forgotten = self._forget()
         leaves = list(_leaves(constant))
         key = tuple(id(leaf) if isinstance(leaf, np.ndarray) else leaf for leaf in leaves)
@@ -89,7 +89,7 @@ class TaichiWorker:
         Raises:
             PhysAnimatorError: as ``launch``.
         """
-        self._start_unless_running()
+        self.start()
         return self._answer(("call", function, arguments))[0]
 
     def end_idle(self) -> None:
@@ -109,7 +109,7 @@ class TaichiWorker:
 
     def keep_compiled(self) -> bool:
         """Let the process write what it has compiled to disk."""
-        self._start_unless_running()
+        self.start()
         return bool(self._answer(("keep",))[0])
 
     def close(self) -> None:
@@ -127,7 +127,12 @@ class TaichiWorker:
             process.kill()
             process.wait()
 
-    def _start_unless_running(self) -> None:
+    def start(self) -> None:
+        """Start the process unless it runs.
+
+        Raises:
+            PhysAnimatorError: it cannot be started.
+        """
         if self._process is not None and self._process.poll() is None:
             return
         self.close()

@@ -104,6 +104,8 @@ FORMATS = {
     ".apng": VideoFormat("apng", "apng", "rgb24", "rgba", container_options={"plays": "0"}),
 }
 
+_LOOKAHEAD = 40  # frames that x264 holds to choose between them, with the preset
+_LOOKAHEAD_PIXELS = 150_000_000  # of these frames together: it takes three bytes and more for each
 _BT709 = 1
 _LIMITED_RANGE = 1
 
@@ -296,6 +298,8 @@ def _mux(
     height, width = (size + size % 2 if even else size for size in shape[:2])
     with av.open(str(path), "w", format=chosen.container, options=chosen.container_options) as container:
         options = chosen.options | (chosen.alpha_options if alpha else {}) | (chosen.exact_options if exact else {})
+        if even:
+            options |= {"rc-lookahead": str(_lookahead(width * height))}
         stream = container.add_stream(chosen.codec, rate=rate, options=options)
         stream.width, stream.height = width, height
         stream.pix_fmt = (chosen.alpha_pixels if alpha else None) or chosen.pixels
@@ -304,6 +308,11 @@ def _mux(
         for frame in _converted(frames, stream.pix_fmt, rate, even=even, exact=exact, folder=path.parent):
             container.mux(stream.encode(frame))
         container.mux(stream.encode(None))
+
+
+def _lookahead(pixels: int) -> int:
+    """How many frames of so many pixels x264 shall look ahead: of large pictures fewer, so that memory has a bound."""
+    return max(1, min(_LOOKAHEAD, _LOOKAHEAD_PIXELS // pixels))
 
 
 def _describe(stream: av.VideoStream) -> None:

@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physanimator.physics import modes, preparation, schedule, simulation, system, taichi_runtime
+from physanimator.physics import modes, preparation, preview_session, schedule, simulation, system, taichi_runtime
+from physanimator.physics.collision import Contact
 from physanimator.physics.errors import Cancelled
 from physanimator.physics.holds import Holds
 from physanimator.physics.material import Material
@@ -274,6 +275,29 @@ def test_the_kernel_for_shared_parts_is_loaded_as_well(monkeypatch: pytest.Monke
     warm_up(contact=True)
     assert warmed[-1].contact is not None
     assert len(warmed[-1].bodies) > 1
+
+
+@pytest.mark.parametrize("contact", [False, True])
+def test_large_kernels_run_where_they_stop_nobody_in_this_process(
+    contact: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[bool] = []
+    launched = taichi_runtime._TaichiThread.launched
+
+    def noted(thread: Any, aside: bool, *rest: Any) -> Any:
+        asked.append(aside)
+        return launched(thread, False, *rest)
+
+    monkeypatch.setattr(taichi_runtime._TaichiThread, "launched", noted)
+    monkeypatch.setattr(preview_session, "compile_aside", lambda **_: None)
+    runs, acting = PreviewRuns(), scene(contact=Contact() if contact else None)
+    run = runs.enter("one", next(ORDER))
+    assert run is not None
+    assert streamed(acting, 3, run)[-1][0] == END
+    assert set(asked) == {contact}
+    asked.clear()
+    simulate(acting, frames=3)
+    assert set(asked) == {False}, "elsewhere nobody waits for an answer"
 
 
 def test_what_was_compiled_is_kept_before_it_is_needed_again(monkeypatch: pytest.MonkeyPatch) -> None:

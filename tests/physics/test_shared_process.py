@@ -118,6 +118,27 @@ for _ in range(8):
 worker.join()
 results.append(simulated())
 """,
+    "nobody but us, aside": """\
+from physanimator.physics import taichi_runtime
+with taichi_runtime.aside():
+    results = [simulated()]
+assert "taichi" not in sys.modules
+first = taichi_runtime._taichi_thread._worker._process
+assert first.returncode is None
+results.append(simulated())
+assert "taichi" in sys.modules
+foreign()
+with taichi_runtime.aside():
+    results.append(simulated())
+results.append(simulated())
+assert taichi_runtime._taichi_thread._worker._process is first
+""",
+    "nobody but us, aside where there is no interpreter": """\
+from physanimator.physics import taichi_runtime
+sys.executable = ""
+with taichi_runtime.aside():
+    results = [simulated()]
+""",
     "workers together, one of them still at work at the end": """\
 results = []
 workers = [threading.Thread(target=lambda: results.append(simulated())) for _ in range(3)]

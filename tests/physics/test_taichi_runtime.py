@@ -160,6 +160,19 @@ def test_kernels_are_kept_although_a_signal_ends_the_process(tmp_path: Path) -> 
     assert list(tmp_path.rglob("*.tic"))
 
 
+@pytest.mark.parametrize("usable", [True, False])
+def test_kernels_that_cannot_be_kept_are_not_given_up(usable: bool, tmp_path: Path) -> None:
+    """They would have to be compiled again."""
+    code = (
+        f"import os; os.environ.update(TI_OFFLINE_CACHE_FILE_PATH={str(tmp_path)!r}, TI_OFFLINE_CACHE='{usable:d}')\n"
+        "from physanimator.physics import taichi_runtime\n"
+        "taichi_runtime._WORTH_KEEPING = 0.0\n"
+        "taichi_runtime.run(taichi_runtime.compiled, lambda ti: ti.__name__)\n"
+        "print(taichi_runtime.keep_compiled())\n"
+    )
+    assert script(code).stdout == f"{usable}\n"
+
+
 def test_modules_of_the_process_are_not_looked_through_while_taichi_is_imported() -> None:
     script = (
         PREAMBLE

@@ -12,6 +12,7 @@ import av
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
+from physanimator.rendering import video
 from physanimator.rendering.clip_reading import read_clip
 from physanimator.rendering.gif import shown_indices
 from physanimator.rendering.video import FORMATS, check_output, exact_frame_rate, write_animation
@@ -102,6 +103,29 @@ def test_mp4_plays_in_browsers_and_keeps_colours(tmp_path: Path) -> None:
     frame = result.frames[5]
     assert np.abs(colour_at(frame, 34, 32) - COLOUR).max() <= 4
     assert np.abs(colour_at(frame, 4, 4) - 255).max() <= 2
+
+
+def test_of_large_pictures_fewer_are_held_before_the_first_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rng = np.random.default_rng(0)
+
+    def held(name: str) -> int:
+        folder, before_any = tmp_path / name, []
+        folder.mkdir()
+
+        def frames() -> Iterator[np.ndarray]:
+            for number in range(60):
+                if sum(file.stat().st_size for file in folder.iterdir()) < 1_000:
+                    before_any.append(number)
+                yield rng.integers(0, 256, (256, 256, 3), dtype=np.uint8)
+
+        write_animation(frames(), folder / "clip.mp4", 24)
+        return len(before_any)
+
+    usual = held("usual")
+    monkeypatch.setattr(video, "_LOOKAHEAD_PIXELS", 4 * 256 * 256)
+    assert held("large") <= usual - 25
 
 
 @pytest.mark.parametrize(("width", "height"), [(97, 64), (96, 63), (97, 63)])
