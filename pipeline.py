@@ -30,6 +30,7 @@ from .physics.simulation import simulate
 from .rendering.animation import Animation, StageProgress, timed
 from .rendering.background import over, renderer_of
 from .rendering.drawing_checks import check_count
+from .rendering.part_meshes import part_mesh
 from .rendering.pixels import as_picture
 from .rendering.video import check_frame_rate
 
@@ -129,7 +130,11 @@ def animate(
     if on_cut is not None:
         on_cut(parts[len(masks) :])
     with timed(seconds, "mesh"):
-        meshes = [mesh_from_mask(each, spacing=spacing) for each in parts]
+        # Pixel art moves the very pixels of its mask.
+        meshes = [
+            mesh_from_mask(each, spacing=spacing) if pixel_art else part_mesh(image, each, spacing=spacing)
+            for each in parts
+        ]
     with timed(seconds, "scene"):
         if scene is None:
             whole = automatic_scene(
