@@ -126,7 +126,10 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
     near = _distance(shape) <= _REACH + np.minimum(edge.width, _WIDEST)
     # Where the picture has no edge, a soft transition is what somebody wanted.
     wanted = blurred & (edge_strength(image, shape) < _LEAST_STEP)
-    return np.where(rewritten & near & ~wanted, shape, mask).astype(np.float32)
+    # Where a slightly soft edge stays in its place, it says between pixels where that is.
+    narrowed = np.clip(_HALF + (mask - _HALF) * np.maximum(edge.width, 1), 0, 1)
+    stays = ~displaced & ~noisy & (edge.width <= _BLURRED) & ((narrowed > _HALF) == shape) & ~_in_blocks(mask)
+    return np.where(rewritten & near & ~wanted, np.where(stays, narrowed, shape), mask).astype(np.float32)
 
 
 def _share(moved: Mask, line: Mask) -> float:
