@@ -31,6 +31,7 @@ from .physics.simulation import simulate
 from .rendering.animation import Animation, StageProgress, timed
 from .rendering.background import over, renderer_of
 from .rendering.drawing_checks import check_count
+from .rendering.part_meshes import part_mesh
 from .rendering.pixels import as_picture
 
 __all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "Animation", "StageProgress", "animate"]
@@ -130,7 +131,8 @@ def animate(
     if on_cut is not None:
         on_cut(parts[len(masks) :])
     with timed(seconds, "mesh"):
-        meshes = [_meshed(part, spacing, name) for part, name in zip(parts, names, strict=True)]
+        seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
+        meshes = [_meshed(part, spacing, name, seen) for part, name in zip(parts, names, strict=True)]
     with timed(seconds, "scene"):
         if scene is None:
             whole = automatic_scene(
@@ -195,9 +197,11 @@ def _segmented(image: Image, points: Sequence[Any]) -> Iterator[Mask]:
             yield segment(image, [(p.x, p.y) for p in clicked], [int(p.positive) for p in clicked])
 
 
-def _meshed(part: Mask, spacing: float | None, name: str) -> TriangleMesh:
+def _meshed(part: Mask, spacing: float | None, name: str, image: Image | None) -> TriangleMesh:
     with _about(name):
-        return mesh_from_mask(part, spacing=spacing)
+        if image is None:
+            return mesh_from_mask(part, spacing=spacing)
+        return part_mesh(image, part, spacing=spacing)
 
 
 def _part_names(masks: int, parts: int) -> list[str]:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..physics.masks import coverage_of
 from ..physics.motion import Motion
 from ..physics.scene import Scene
 from .background import Background, background_of, is_transparent, over, shown_frame, usual_background
@@ -254,10 +255,12 @@ class Animation:
 
     def _with_in_betweens(self, every: int, background: Background) -> Iterator[Image]:
         from .interpolation import interpolate, keyframe_indices
+        from .part_meshes import shown_part
 
         indices = [self.first + t for t in keyframe_indices(len(self), every)]
         keyframes = [shown_frame(self.renderer, t, background) for t in indices]
-        yield from interpolate(keyframes, indices, motion=self.motion, masks=self.masks)
+        shown = [shown_part(self.image, coverage_of(mask)) for mask in self.masks]
+        yield from interpolate(keyframes, indices, motion=self.motion, masks=shown)
 
     def _measured(self, stage: str, pictures: Iterable[T], progress: StageProgress | None) -> Iterator[T]:
         iterator = iter(pictures)

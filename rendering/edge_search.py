@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from .mask_edges import SQUARE
 
-__all__ = ["found_shape"]
+__all__ = ["explained", "found_shape"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -59,7 +59,7 @@ def found_shape(image: FloatImage, mask: FloatImage, reach: FloatImage) -> tuple
     likely = np.full(mask.shape, _HALF, dtype=np.float32)
     if not (core.any() and outside.any() and band.any()):
         return inside, likely
-    part, rest = _explained(image, band, core), _explained(image, band, outside)
+    part, rest = explained(image, band, core), explained(image, band, outside)
     likely[band] = (part + _OUTLINE) / (part + rest + _OUTLINE + _STRANGE)
     way = np.clip((depth - away)[band] / (_UNSURE * reach[band]), -20, 20)
     odds = likely[band] / (1 - likely[band]) * np.exp(_WEIGHT * way)
@@ -80,7 +80,7 @@ def _middle(depth: FloatImage) -> Mask:
     return ridge & (depth > _MIDDLE * cv2.dilate(depth, _NEARBY))
 
 
-def _explained(image: FloatImage, band: Mask, side: Mask) -> FloatImage:
+def explained(image: FloatImage, band: Mask, side: Mask) -> FloatImage:
     """How well the colours of one side explain each pixel of the band, 0 to 1, shape [n]."""
     height, width = band.shape
     _, labels = cv2.distanceTransformWithLabels(
@@ -94,7 +94,7 @@ def _explained(image: FloatImage, band: Mask, side: Mask) -> FloatImage:
     random = np.random.default_rng(0)
     spans = np.repeat([_NEAR, _FAR], _SAMPLES // 2)[:, None]
     steps = np.rint(random.uniform(-1, 1, (_SAMPLES, 2)) * spans).astype(np.int64)
-    colours, own = image.reshape(-1, 3), image[band]
+    colours, own = image.reshape(-1, image.shape[2]), image[band]
     distances = np.empty((_SAMPLES, len(own)), dtype=np.float32)
     for number, (down, right) in enumerate(steps):
         sample = nearest[np.clip(row + down, 0, height - 1), np.clip(column + right, 0, width - 1)]

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .edge_search import found_shape
+from .lost_strands import lost_strands
 from .mask_edges import CROSS, FAINT, SQUARE, edge_strength, grown, mean_near
 from .pixel_windows import window_around
 
@@ -39,6 +40,9 @@ _STRONGER = 1.15
 _LEAST_STEP = 0.04
 # Where less of an edge would move, the mask has been made with care and is taken at its word.
 _MOVED = 0.3
+# Strands are looked for so many times, and their edges near by.
+_PIECES = 8
+_AROUND_STRANDS = np.ones((11, 11), np.uint8)
 _TOUCHING = np.ones((5, 5), np.uint8)
 _MARGIN = 40
 
@@ -70,7 +74,7 @@ def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
     between colours that cannot be told apart. A mask that nowhere becomes white is scaled up to white.
 
     Args:
-        image: RGB in 0 to 1, shape [h, w, 3].
+        image: RGB in 0 to 1, shape [h, w, 3], or with opacity as a further channel.
         mask: soft mask in 0 to 1, shape [h, w].
 
     Returns:
@@ -79,10 +83,23 @@ def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
     mask = _up_to_white(mask)
     if not (mask > _HALF).any() or (mask > _HALF).all():
         return mask
-    window = window_around(mask > FAINT, margin=_MARGIN)
+    margin = _MARGIN
+    while True:
+        window = window_around(mask > FAINT, margin=margin)
+        found = _regular(image[window], mask[window])
+        # A strand may go on beyond what has been looked at.
+        if found.shape == mask.shape or not _meets_border(found, mask[window]):
+            break
+        margin *= 2
     regular = mask.copy()
-    regular[window] = _regular(image[window], mask[window])
+    regular[window] = found
     return regular
+
+
+def _meets_border(found: FloatImage, mask: FloatImage) -> bool:
+    """Whether something that the mask did not have has been found to go on to the border."""
+    added = (found > _HALF) & (mask <= _HALF)
+    return bool(added[0].any() or added[-1].any() or added[:, 0].any() or added[:, -1].any())
 
 
 def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
@@ -98,6 +115,9 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
         again = shape.astype(np.float32)
         shape, further = _searched(image, again, _edge_of(again))
         moved |= further
+        strands = _with_strands(image, shape, edge.inside)
+        moved |= strands != shape
+        shape = strands
     else:
         moved &= blurred
         shape = np.where(moved, shape, edge.inside)
@@ -106,7 +126,10 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
     near = _distance(shape) <= _REACH + np.minimum(edge.width, _WIDEST)
     # Where the picture has no edge, a soft transition is what somebody wanted.
     wanted = blurred & (edge_strength(image, shape) < _LEAST_STEP)
-    return np.where(rewritten & near & ~wanted, shape, mask).astype(np.float32)
+    # Where a slightly soft edge stays in its place, it says between pixels where that is.
+    narrowed = np.clip(_HALF + (mask - _HALF) * np.maximum(edge.width, 1), 0, 1)
+    stays = ~displaced & ~noisy & (edge.width <= _BLURRED) & ((narrowed > _HALF) == shape) & ~_in_blocks(mask)
+    return np.where(rewritten & near & ~wanted, np.where(stays, narrowed, shape), mask).astype(np.float32)
 
 
 def _share(moved: Mask, line: Mask) -> float:
@@ -127,6 +150,22 @@ def _searched(image: FloatImage, mask: FloatImage, edge: _Edge) -> tuple[Mask, M
     thick = cv2.morphologyEx(moved.astype(np.uint8), cv2.MORPH_OPEN, np.ones((2, 2), np.uint8)) > 0
     moved &= grown(thick, SQUARE)
     return np.where(moved, shape, edge.inside), moved
+
+
+def _with_strands(image: FloatImage, shape: Mask, given: Mask) -> Mask:
+    """The shape with the strands that the mask has lost; a strand of several colours is found piece by piece."""
+    for _ in range(_PIECES):
+        strands = lost_strands(image, shape, given)
+        if not strands.any():
+            break
+        near = grown(strands, _AROUND_STRANDS)
+        window = window_around(strands, margin=_MARGIN)
+        start = (shape | strands)[window].astype(np.float32)
+        edged, _ = _searched(image[window], start, _edge_of(start))
+        joined = shape | strands
+        joined[window] = np.where(near[window], edged | strands[window], joined[window])
+        shape = joined
+    return shape
 
 
 def _edge_of(mask: FloatImage) -> _Edge:

@@ -25,6 +25,7 @@ from .mask_edges import FAINT, SQUARE, WIDE, grown
 from .matte import fitting_plate, mixed_rim, soft_alpha, with_outline
 from .pixel_windows import window_around
 from .premultiplied import premultiplied
+from .regular_mask import regular_mask
 
 __all__ = ["sprite_hole", "sprite_plate", "take_sprite_apart"]
 
@@ -64,6 +65,7 @@ def take_sprite_apart(
         to front.
     """
     flat = over(picture)
+    masks = [_regular(flat, picture[..., 3], mask) for mask in masks]
     supports = [_with_strips(with_outline(flat, mask), picture[..., 3]) for mask in masks]
     hole = sprite_hole(masks, supports)
     if plate is None or plate.shape[2] == 3:
@@ -87,6 +89,11 @@ def take_sprite_apart(
         layers.insert(0, Layer(mesh, canvas, np.dstack([texture, on_canvas(share, canvas)])))
         shown = below
     return shown, layers
+
+
+def _regular(flat: FloatImage, opacity: FloatImage, mask: FloatImage) -> FloatImage:
+    """A mask whose edge lies where the picture has one: the silhouette is an edge whatever the colours along it."""
+    return regular_mask(np.dstack([flat, opacity]), mask)
 
 
 def sprite_hole(masks: Sequence[FloatImage], supports: Sequence[Mask]) -> Mask:
@@ -114,8 +121,10 @@ def sprite_plate(picture: FloatImage, mask: FloatImage) -> FloatImage:
     Raises:
         InvalidInputError: the mask leaves nothing of the picture.
     """
-    support = _with_strips(with_outline(over(picture), mask), picture[..., 3])
-    return _filled(picture, sprite_hole([mask], [support]), None)
+    flat = over(picture)
+    regular = _regular(flat, picture[..., 3], mask)
+    support = _with_strips(with_outline(flat, regular) | (mask > FAINT), picture[..., 3])
+    return _filled(picture, sprite_hole([regular], [support]), None)
 
 
 def _filled(picture: FloatImage, hole: Mask, given: FloatImage | None) -> FloatImage:

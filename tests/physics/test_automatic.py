@@ -123,6 +123,8 @@ def test_smaller_bodies_sway_faster_unless_told_otherwise() -> None:
 @pytest.mark.parametrize("turbulence", [None, 0.5])
 def test_wind_beyond_what_acts_is_refused_by_its_own_name(strength: float, turbulence: float | None) -> None:
     body = body_of(grid(0, 0, 900, 1200))
-    with pytest.raises(InvalidInputError, match=r"wind_strength must be -100000 to 100000 \(1 is gentle, 3 a storm\)\. Got: "):
+    with pytest.raises(
+        InvalidInputError, match=r"wind_strength must be -100000 to 100000 \(1 is gentle, 3 a storm\)\. Got: "
+    ):
         automatic_scene([body], wind_strength=strength, turbulence=turbulence)
     assert automatic_scene([body], wind_strength=1e5, turbulence=turbulence).bodies

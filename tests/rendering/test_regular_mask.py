@@ -205,6 +205,14 @@ def test_a_mask_made_with_care_stays_as_it_is(kind: str) -> None:
         assert np.abs(regular_mask(as_floats(picture), mask) - mask).max() < 1e-6
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_slightly_soft_edge_keeps_its_place_between_pixels(kind: str) -> None:
+    """Blurred by less than a pixel, the mask still says which share of the edge's pixels is the part's."""
+    picture, _, alpha, _ = drawn(kind)
+    regular = regular_mask(as_floats(picture), MASKS["blurred by 0.7"](alpha))
+    assert np.abs(regular - alpha).sum() < 0.6 * np.abs(hard(alpha) - alpha).sum()
+
+
 def test_without_an_edge_in_the_picture_a_feathered_mask_keeps_its_feather() -> None:
     """Hair that moves at its ends only: the mask fades where the picture shows nothing."""
     plain = np.full((HEIGHT, WIDTH, 3), 0.5, dtype=np.float32)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
@@ -77,6 +78,29 @@ def test_what_moves_off_leaves_transparency_and_no_rim(hair: tuple[float, ...], 
         assert apart.mean() < 0.5
     # Around the lock nothing is left but what had been there.
     assert frame[(Y < 25) | (Y > 125)].max() == 0
+
+
+def made(kind: str) -> np.ndarray:
+    """The lock's mask as people make it."""
+    hard, square = (lock() > 0.5).astype(np.float32), np.ones((3, 3), np.uint8)
+    return {
+        "blurred": lambda: cv2.GaussianBlur(hard, (0, 0), 3),
+        "shrunk": lambda: cv2.erode(hard, square, iterations=3),
+        "grown": lambda: cv2.dilate(hard, square, iterations=4),
+        "shrunk and blurred": lambda: cv2.GaussianBlur(cv2.erode(hard, square, iterations=2), (0, 0), 2),
+    }[kind]()
+
+
+@pytest.mark.parametrize("kind", ["blurred", "shrunk", "grown", "shrunk and blurred"])
+@pytest.mark.parametrize("hair", [HAIR, WHITE], ids=["dark", "white"])
+def test_any_mask_leaves_as_little_behind_as_the_parts_own_alpha(hair: tuple[float, ...], kind: str) -> None:
+    """Neither opacity where only the lock was, nor the lock's colour over the body."""
+    moved_off = [drawn(sprite(hair=hair), mask, (60.0, 0.0)).frame(1) for mask in (lock(), made(kind))]
+    beside, over_body = (np.hypot(X - 80, Y - 80) > 46) & (X < 140), (np.hypot(X - 80, Y - 80) < 37) & (X < 106)
+    ghosts = [int((frame[..., 3][beside] > 38).sum()) for frame in moved_off]
+    stains = [int((np.abs(frame[..., :3] / 255 - SKIN).max(axis=2) > 0.15)[over_body].sum()) for frame in moved_off]
+    assert ghosts[1] <= 2 * max(ghosts[0], 10)
+    assert stains[1] <= 2 * max(stains[0], 10)
 
 
 def test_what_moves_off_bares_the_body_and_no_more() -> None:

@@ -1,0 +1,142 @@
+"""Strands that a mask has lost altogether, because it was made smaller than they are wide.
+
+A mask that has been shrunk still has the part's body, but nothing of strands narrower than what was taken off on
+either side. In a drawing they can be found again: a strand has a colour that goes on from the part's, and the same
+drawn outline along it. What is as wide as the part was before shrinking would have left something in the mask, so that
+it is something else: the part's neighbour, or what somebody has cut off on purpose.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from .edge_search import explained
+from .mask_edges import CROSS, SQUARE, grown, mean_near
+
+__all__ = ["lost_strands"]
+
+FloatImage = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+_HALF = 0.5
+# Drawn lines are darker, or lighter, than what is on either side of them by this, and no wider than this [px].
+_TOLERANCE = 0.055
+_LINE = 5
+# Lines are an outline where they follow this share of an edge; of a strand's edge more, as nothing else speaks for it.
+_OUTLINED = 0.45
+_ENCLOSED = 0.6
+# Colours of neighbouring pixels that differ by less go on in one another.
+_STEP = 0.1
+# So far a strand is followed at once [px].
+_AHEAD = 40
+_LUMINANCE = np.array([0.299, 0.587, 0.114], dtype=np.float32)
+
+
+def lost_strands(image: FloatImage, shape: Mask, given: Mask) -> Mask:
+    """What goes on from a part outside of it as its strands do.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3], or with further channels.
+        shape: the part as far as it is known, shape [h, w].
+        given: the same as the mask had it, shape [h, w].
+
+    Returns:
+        Strands beyond ``shape``, without their outlines, shape [h, w]; nothing if the mask has not been shrunk.
+    """
+    found = np.zeros_like(shape)
+    lost = _taken_off(shape, given)
+    if lost:
+        light = image[..., :3] @ _LUMINANCE
+        for lightness in (light, 1 - light):
+            line = _lines(lightness)
+            if _follows(line, shape):
+                found |= _outlined(lightness, shape, _thin(_going_on(image, shape, line), shape, given, lost))
+    return found
+
+
+def _taken_off(shape: Mask, given: Mask) -> int:
+    """How much smaller than the part its mask is at most of its edge [px]; 0 if it is not."""
+    line = shape & grown(~shape, CROSS)
+    beyond = line & ~given
+    if not given.any() or 2 * int(beyond.sum()) <= int(line.sum()):
+        return 0
+    away = _distance_from(given)
+    return int(np.ceil(np.median(away[beyond])))
+
+
+def _lines(lightness: FloatImage) -> Mask:
+    """Lines darker than what is on either side."""
+    return cv2.morphologyEx(lightness, cv2.MORPH_CLOSE, _disc(_LINE // 2)) - lightness > _TOLERANCE
+
+
+def _follows(line: Mask, shape: Mask) -> bool:
+    """Whether lines run along the edge of a part."""
+    edge = shape & grown(~shape, CROSS)
+    return int((edge & grown(line, SQUARE)).sum()) > _OUTLINED * max(1, int(edge.sum()))
+
+
+def _going_on(image: FloatImage, shape: Mask, line: Mask) -> Mask:
+    """What the part's colours go on in beyond its edge without a line between, and is of its colours."""
+    core = (cv2.erode(shape.astype(np.uint8), SQUARE) > 0) & ~line
+    asked = ~core & (_distance_from(shape) <= _AHEAD)
+    if not (core.any() and asked.any()):
+        return np.zeros_like(shape)
+    # Ink is no colour of the core, so that it divides.
+    own = core.copy()
+    own[asked] = explained(image, asked, core) > _HALF
+    own = cv2.morphologyEx(own.astype(np.uint8), cv2.MORPH_CLOSE, SQUARE) > 0
+    return _reached(image, core, own) & ~shape
+
+
+def _reached(image: FloatImage, core: Mask, free: Mask) -> Mask:
+    """Free pixels that hang together with the core by steps between like colours."""
+    height, width = core.shape
+    # Pixels have even coordinates here, and the ways between them odd ones.
+    ways = np.zeros((2 * height - 1, 2 * width - 1), dtype=np.uint8)
+    ways[::2, ::2] = free
+    ways[::2, 1::2] = _alike(image[:, 1:], image[:, :-1]) & free[:, 1:] & free[:, :-1]
+    ways[1::2, ::2] = _alike(image[1:], image[:-1]) & free[1:] & free[:-1]
+    _, labels = cv2.connectedComponents(ways, connectivity=4)
+    labels = labels[::2, ::2]
+    kept = np.zeros(int(labels.max()) + 1, dtype=bool)
+    kept[labels[core & free]] = True
+    kept[0] = False
+    return kept[labels]
+
+
+def _alike(one: FloatImage, other: FloatImage) -> Mask:
+    difference = one - other
+    return np.einsum("ijk,ijk->ij", difference, difference) < _STEP**2
+
+
+def _thin(strands: Mask, shape: Mask, given: Mask, lost: int) -> Mask:
+    """Without what is so wide that something of it would be in the mask."""
+    with_them, without = (cv2.erode(each.astype(np.uint8), _disc(lost + 1)) > 0 for each in (shape | strands, shape))
+    wide = with_them & ~without & ~grown(given, _disc(lost))
+    thin = strands & ~grown(wide, _disc(lost + 2))
+    return thin & grown(cv2.erode(thin.astype(np.uint8), np.ones((2, 2), np.uint8)) > 0, SQUARE)
+
+
+def _outlined(lightness: FloatImage, shape: Mask, strands: Mask) -> Mask:
+    """The strands that leave the part and have something darker along their edges."""
+    darker = lightness < mean_near(lightness, strands, sigma=3.0)[0] - _TOLERANCE
+    beside = grown(shape, SQUARE)
+    kept = np.zeros_like(strands)
+    _, labels, boxes, _ = cv2.connectedComponentsWithStats(strands.astype(np.uint8), connectivity=8)
+    for number, (left, top, width, height, _) in enumerate(boxes[1:], 1):
+        box = slice(max(0, top - 1), top + height + 1), slice(max(0, left - 1), left + width + 1)
+        strand = labels[box] == number
+        edge = grown(strand, SQUARE) & ~strand & ~beside[box]
+        if (strand & beside[box]).any() and int((darker[box] & edge).sum()) > _ENCLOSED * int(edge.sum()):
+            kept[box] |= strand
+    return kept
+
+
+def _distance_from(shape: Mask) -> FloatImage:
+    return np.asarray(cv2.distanceTransform((~shape).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5), dtype=np.float32)
+
+
+def _disc(radius: int) -> NDArray[np.uint8]:
+    return np.asarray(cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1,) * 2), dtype=np.uint8)

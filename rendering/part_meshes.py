@@ -1,0 +1,57 @@
+"""Meshes of parts as the picture shows them, which is what the renderer moves."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..physics.errors import InvalidInputError
+from ..physics.mesh import TriangleMesh
+from ..physics.meshing import mesh_from_mask
+from .background import is_transparent, over
+from .pixels import as_float
+from .regular_mask import regular_mask
+
+__all__ = ["part_mesh", "shown_part"]
+
+_HALF = 0.5
+
+
+def shown_part(image: NDArray[Any], mask: NDArray[Any]) -> NDArray[np.float32]:
+    """A part as the renderer cuts it out: its mask with its edge where the picture has one.
+
+    Args:
+        image: RGB or straight RGBA, uint8 or float32 in 0 to 1, shape [h, w, 3] or [h, w, 4].
+        mask: soft mask in 0 to 1, shape [h, w].
+
+    Returns:
+        Soft mask in 0 to 1, shape [h, w].
+    """
+    flat = as_float(over(image))
+    if is_transparent(image):
+        flat = np.dstack([flat, as_float(image)[..., 3]])
+    return regular_mask(flat, np.asarray(mask, dtype=np.float32))
+
+
+def part_mesh(image: NDArray[Any], mask: NDArray[Any], *, spacing: float | None = None) -> TriangleMesh:
+    """The mesh of a part as the picture shows it, so that all that is drawn moves with the mesh.
+
+    A mask whose edge is where the picture has it gives the same mesh as without a picture.
+
+    Args:
+        image: see :func:`shown_part`.
+        mask: soft mask in 0 to 1, shape [h, w].
+        spacing: see :func:`~physanimator.physics.meshing.mesh_from_mask`.
+
+    Raises:
+        InvalidInputError: the mask gives no mesh.
+    """
+    shown = shown_part(image, mask)
+    if ((shown > _HALF) == (np.asarray(mask) > _HALF)).all():
+        return mesh_from_mask(mask, spacing=spacing)
+    try:
+        return mesh_from_mask(shown, spacing=spacing)
+    except InvalidInputError:
+        return mesh_from_mask(mask, spacing=spacing)
