@@ -183,10 +183,10 @@ def _animate(options: argparse.Namespace) -> None:
 
 def _measure(options: argparse.Namespace) -> None:
     from .pipeline import animate
-    from .rendering.background import over
     from .rendering.command_inputs import check_inputs, check_taken, read_inputs, read_plate
     from .rendering.command_measures import check_measures, measured, table
     from .rendering.command_messages import show
+    from .rendering.transparency import over
 
     check_inputs(options)
     check_measures(options)
@@ -206,7 +206,7 @@ def _measure(options: argparse.Namespace) -> None:
 
 def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     """Animate, write everything that was asked for, and report."""
-    from .physics.advice import stillness
+    from .physics.stillness import stillness
     from .pipeline import animate
     from .rendering.command_inputs import read_plate
     from .rendering.command_messages import say, warn

@@ -29,10 +29,11 @@ from .physics.progress import Progress
 from .physics.scene import Body, Scene, check_scene_rate
 from .physics.simulation import simulate
 from .rendering.animation import Animation, StageProgress, timed
-from .rendering.background import over, renderer_of
+from .rendering.background import renderer_of
 from .rendering.drawing_checks import check_count
 from .rendering.part_meshes import part_mesh
 from .rendering.pixels import as_picture
+from .rendering.transparency import over
 
 __all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "Animation", "StageProgress", "animate"]
 

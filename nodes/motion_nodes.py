@@ -77,9 +77,10 @@ class Simulate(io.ComfyNode):
     def execute(
         cls, scene: MaskedScene, frames: int, loop: float = 0.0, max_minutes: float = DEFAULT_MINUTES
     ) -> io.NodeOutput:
-        from ..physics.advice import advice, stillness
+        from ..physics.advice import advice
         from ..physics.kernel_preparation import compile_aside, simulated_aside
         from ..physics.simulation import simulate
+        from ..physics.stillness import stillness
 
         acting = replace(scene.scene, loop=loop) if loop else scene.scene
         told = tell_user(cls, advice(acting, masks=False))  # Mask to Mesh has spoken of those

@@ -102,7 +102,8 @@ class Render(io.ComfyNode):
         image_alpha: torch.Tensor | None = None,
         pixel_art: bool = False,
     ) -> io.NodeOutput:
-        from ..rendering.background import over, renderer_of
+        from ..rendering.background import renderer_of
+        from ..rendering.transparency import over
 
         behind, by_model = background_chosen(background), renderer is not None and renderer["renderer"] == _SKETCH_VIDEO
         picture = picture_with_alpha(image, image_alpha)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError, require
-from ..rendering.background import over
+from ..rendering.transparency import over
 
 if TYPE_CHECKING:
     import torch

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .masks import may_be_inverted
 from .mesh import TriangleMesh
-from .motion import Motion
 from .pixel_box import PixelBox
 from .raster import triangle_ids
-from .rigging import leaders_of, unused_rig_points
+from .rig import Circle, MaskRegion, Polygon, RigPoint
+from .rigging import coarseness_of, distances_of, leaders_of, vertices_of
 from .scene import Scene
 
-__all__ = ["advice", "inverted_masks", "loose_parts", "mask_advice", "stillness"]
+__all__ = ["advice", "inverted_masks", "loose_parts", "mask_advice", "unused_rig_points"]
 
 _NAMED = 3
 _LOOKED_AT = 128  # longest side at which it is seen what a mesh covers [px]
-# What nobody sees: frames drawn with less differ by resampling alone [px].
-_UNSEEN = 0.25
-# Shorter trials end before the wind has come [s].
-_LONG_ENOUGH = 0.5
 # A smaller part, and a smaller share of the picture, is rather a slip of the brush than something that bends [px^2].
 _TINY = 64
 _TINY_SHARE = 0.005
@@ -88,17 +88,29 @@ def loose_parts(scene: Scene) -> list[str]:
     return sentences
 
 
-def stillness(motion: Motion) -> list[str]:
-    """A sentence where a motion of several frames shows nothing that anybody could see."""
-    moved = motion.positions - motion.positions[:1]
-    farthest = float(np.hypot(moved[..., 0], moved[..., 1]).max(initial=0.0))
-    if len(motion) < max(2, _LONG_ENOUGH * motion.frame_rate) or farthest >= _UNSEEN:
-        return []
-    what = f"nothing moves by more than {farthest:.2f} px" if farthest >= 0.01 else "nothing moves at all"
-    return [
-        f"{what} in {len(motion)} frames: is everything held, do strokes and wind"
-        " reach the bodies, and are they strong and early enough?"
-    ]
+def unused_rig_points(scene: Scene) -> list[str]:
+    """A sentence for each rig point whose region selects no vertex, to show as a warning."""
+    sentences, coarse = [], coarseness_of([replace(each, falloff=1.0) for each in scene.rig_points])
+    for index, rig_point in enumerate(scene.rig_points):
+        bodies = scene.bodies if rig_point.body is None else (scene.bodies[rig_point.body],)
+        if not any(vertices_of(rig_point, body.mesh).any() for body in bodies):
+            touched = "no body" if rig_point.body is None else f"no vertex of body {rig_point.body}"
+            where = _whereabouts(rig_point, [body.mesh for body in bodies], coarse)
+            sentences.append(f"rig_points[{index}] touches {touched}: {where}")
+    return sentences
+
+
+def _whereabouts(rig_point: RigPoint, meshes: Sequence[TriangleMesh], coarse: int) -> str:
+    region = rig_point.region
+    if isinstance(region, MaskRegion) and not region.mask.any():
+        return "nothing is painted in its mask"
+    distance = min(float(distances_of(rig_point, mesh, coarse=coarse).min()) for mesh in meshes)
+    if isinstance(region, Circle):
+        away = f"its region of radius {region.radius:g} px lies {round(distance, 1):g} px away"
+        return f"{away}; a radius of {math.ceil(region.radius + distance)} px would reach it"
+    if isinstance(region, Polygon):
+        return f"its polygon lies {round(distance, 1):g} px away from the nearest vertex"
+    return f"its mask lies about {round(distance, 1):g} px away from the nearest vertex"
 
 
 def mask_advice(mask: ArrayLike) -> list[str]:

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import taichi_runtime
+from .alignment import LANES
 from .collision import Contact
 from .contact_kernels import build_contact_kernel
 from .contact_surface import ContactSurface, contact_surface
@@ -28,7 +29,6 @@ from .pace import Pace
 from .scene import Scene
 from .schedule import most_threads
 from .solver import Drive, Solid, State
-from .solver_arrays import LANES
 from .system import System
 
 __all__ = ["TouchingBodies"]

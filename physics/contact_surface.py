@@ -7,9 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .boundary import boundary_edges
 from .collision import Contact
 from .interruption import checkpoint
-from .outlines import LEAST_SPACING, crossed, outlines, segment_distances, window_of, within_reach
+from .outline_spacing import outline_spacing
+from .outlines import crossed, outlines, segment_distances, window_of, within_reach
 from .scene import Scene
 from .system import System
 
@@ -37,7 +39,6 @@ __all__ = [
     "WALKED",
     "ContactSurface",
     "contact_surface",
-    "outline_spacing",
     "signed_distances",
 ]
 
@@ -150,7 +151,7 @@ class ContactSurface(NamedTuple):
 def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[ContactSurface, FloatArray]:
     """The surfaces of a scene, and the vertices of its colliders [side], shape [c, 2]."""
     side = scene.bodies[0].mesh.longest_side
-    body_edges = _boundary_edges(system.rest.triangles)
+    body_edges = boundary_edges(system.rest.triangles)
     spacing, window = outline_spacing(scene, system), window_of(scene)
     count, parts = len(system.parts), int(system.parts[-1]) + 1
     positions, edges, edge_parts = [], [body_edges], [system.parts[body_edges[:, 0]]]
@@ -215,20 +216,6 @@ def _signed_distances(points: FloatArray, starts: FloatArray, ends: FloatArray) 
     """The same with every edge beside every point in memory."""
     distance = segment_distances(points, starts, ends)
     return np.where(crossed(points, starts, ends) % 2 == 1, -distance, distance)
-
-
-def outline_spacing(scene: Scene, system: System) -> float:
-    """Distance of the points of colliders' outlines [px]: that of the bodies' boundary vertices."""
-    edges = _boundary_edges(system.rest.triangles)
-    lengths = np.linalg.norm(np.diff(system.rest.positions[edges], axis=1)[:, 0], axis=1)
-    return max(float(np.median(lengths)) * scene.bodies[0].mesh.longest_side, LEAST_SPACING)
-
-
-def _boundary_edges(triangles: Int32Array) -> Int32Array:
-    half = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    low, high = half.min(axis=1).astype(np.int64), half.max(axis=1)
-    _, inverse, counts = np.unique(low << 32 | high, return_inverse=True, return_counts=True)
-    return half[counts[inverse] == 1]
 
 
 def _neighbours(edges: Int32Array) -> Int32Array:

@@ -7,10 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .alignment import LANES
 from .contact_surface import POINTS_AT_ONCE
 from .kernels import BLOCKS_AT_ONCE, VERTICES_AT_ONCE
 from .schedule import TRIANGLES_PER_THREAD
-from .solver_arrays import LANES, Solid
+from .solver_arrays import Solid
 
 __all__ = ["FLAGS", "FREE", "LARGE", "LINE", "Pieces", "Team", "pieces_of", "team_for"]
 

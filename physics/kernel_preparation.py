@@ -82,7 +82,7 @@ def _compile(contact: bool, done: threading.Event) -> None:
 
 def _compile_here(contact: bool) -> None:
     """Compile in the other process, which writes to disk what it has compiled at once."""
-    from .preview_session import simulate_samples
+    from .sample_simulations import simulate_samples
 
     simulate_samples(contact=contact)
     taichi_runtime.keep_compiled()

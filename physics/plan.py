@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .contact_surface import outline_spacing
 from .errors import SimulationError, require
 from .limits import DEFAULT_MINUTES, MAX_OUTLINE_POINTS, MOST_MINUTES
+from .outline_spacing import outline_spacing
 from .outlines import MAX_OUTLINE_CROSSINGS, OutlineCounts, count_outlines
 from .particles import most_alive
 from .scene import Scene

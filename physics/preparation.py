@@ -17,12 +17,14 @@ from .holds import Holds, holds_of
 from .interruption import checkpoint
 from .paint import Paint
 from .prestress import unsagged
-from .preview_limits import MAX_PREPARED_BYTES
 from .rig import MaskRegion, RigRegion
 from .scene import Body, Scene
 from .system import System, assemble
 
 __all__ = ["AtRest", "Preparations", "Prepare", "Prepared"]
+
+MAX_PREPARED_BYTES = 256 * 2**20
+"""Memory for what simulations need before their first step; beyond, what was not used for longest is forgotten."""
 
 
 _BYTES_OF_A_TRIANGLE = 700  # what is kept of one in an assembled system

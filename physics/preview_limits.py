@@ -11,7 +11,6 @@ __all__ = [
     "MAX_LISTS",
     "MAX_NESTING",
     "MAX_OBJECTS",
-    "MAX_PREPARED_BYTES",
     "MAX_PREVIEW_CROSSINGS",
     "MAX_PREVIEW_CROWDING",
     "MAX_PREVIEW_MASK_PIXELS",
@@ -81,9 +80,6 @@ MAX_PREVIEW_WORK = 3e9
 
 MAX_PREVIEW_PAINT_WORK = 1_500_000
 """Entries of paint times triangles."""
-
-MAX_PREPARED_BYTES = 256 * 2**20
-"""Memory for what simulations need before their first step; beyond, what was not used for longest is forgotten."""
 
 MAX_ANSWER_BYTES = 64 * 2**20
 """Size of all frames of one cycle."""

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
 import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,13 +18,10 @@ from .preparation import Preparations, Prepare, Prepared
 from .preview_limits import MAX_EDITORS, MAX_PREVIEW_WORK
 from .preview_queue import RecordQueue
 from .preview_records import END, ERROR, FRAME, HEADER, FrameEncoder, record
+from .sample_simulations import simulate_samples
 from .scene import Scene
-from .schedule import TRIANGLES_PER_THREAD
 
-if TYPE_CHECKING:
-    from .mesh import TriangleMesh
-
-__all__ = ["SUPERSEDED", "PreviewRun", "PreviewRuns", "simulate_samples", "stream", "warm_up"]
+__all__ = ["SUPERSEDED", "PreviewRun", "PreviewRuns", "stream", "warm_up"]
 
 SUPERSEDED = "superseded"
 """Why a run was cancelled when its editor has asked for another."""
@@ -222,40 +217,3 @@ def warm_up(*, contact: bool = False) -> None:
         simulate_samples(contact=contact)
         if keep_compiled():
             simulate_samples(contact=contact)
-
-
-def simulate_samples(*, contact: bool) -> None:
-    """Simulate a little scene that needs every kernel."""
-    from .simulation import simulate
-
-    simulate(_touching() if contact else _moving(), frames=2)
-
-
-def _moving() -> Scene:
-    from .rig import Circle, RigPoint
-    from .scene import Body
-    from .strokes import EnergyStroke
-
-    # A part that a thread computes alone, and one that several may share, for which there is another kernel.
-    small, large = (Body(_grid(cells)) for cells in (1, math.ceil(math.sqrt(TRIANGLES_PER_THREAD)) + 1))
-    stroke = EnergyStroke("wind", ((0.0, 4.0), (8.0, 4.0)), 4.0)
-    return Scene((small, large), (stroke,), (RigPoint((0.0, 0.0), Circle(1.0)),))
-
-
-def _touching() -> Scene:
-    from .collision import Contact
-    from .scene import Body
-
-    return Scene((Body(_grid(2)), Body(_grid(2))), contact=Contact())
-
-
-def _grid(cells: int) -> TriangleMesh:
-    """A square of 8 px cut into so many cells each way, of two triangles each."""
-    from .mesh import TriangleMesh
-
-    x, y = np.meshgrid(*2 * [np.linspace(0.0, 8.0, cells + 1)])
-    corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
-    upper = np.column_stack([corner, corner + 1, corner + cells + 1])
-    lower = np.column_stack([corner + 1, corner + cells + 2, corner + cells + 1])
-    triangles = np.concatenate([upper, lower]).astype(np.int32)
-    return TriangleMesh(np.column_stack([x.ravel(), y.ravel()]), triangles, 8, 8)

@@ -18,7 +18,6 @@ from .easing import eased, eased_rate
 from .interruption import checkpoint
 from .mesh import TriangleMesh
 from .rig import Circle, Combined, KeyedPath, MaskRegion, Polygon, RigMotion, RigPoint, Wave
-from .scene import Scene
 
 __all__ = [
     "EDGE",
@@ -27,7 +26,6 @@ __all__ = [
     "displacement",
     "distances_of",
     "leaders_of",
-    "unused_rig_points",
     "velocity",
     "vertices_of",
 ]
@@ -171,31 +169,6 @@ def velocity(motion: RigMotion, t: ArrayLike) -> FloatArray:
     if isinstance(motion, KeyedPath):
         return eased_rate(motion.times, motion.points, motion.easing, times)
     return np.zeros((*times.shape, 2))
-
-
-def unused_rig_points(scene: Scene) -> list[str]:
-    """A sentence for each rig point whose region selects no vertex, to show as a warning."""
-    sentences, coarse = [], coarseness_of([replace(each, falloff=1.0) for each in scene.rig_points])
-    for index, rig_point in enumerate(scene.rig_points):
-        bodies = scene.bodies if rig_point.body is None else (scene.bodies[rig_point.body],)
-        if not any(vertices_of(rig_point, body.mesh).any() for body in bodies):
-            touched = "no body" if rig_point.body is None else f"no vertex of body {rig_point.body}"
-            where = _whereabouts(rig_point, [body.mesh for body in bodies], coarse)
-            sentences.append(f"rig_points[{index}] touches {touched}: {where}")
-    return sentences
-
-
-def _whereabouts(rig_point: RigPoint, meshes: Sequence[TriangleMesh], coarse: int) -> str:
-    region = rig_point.region
-    if isinstance(region, MaskRegion) and not region.mask.any():
-        return "nothing is painted in its mask"
-    distance = min(float(distances_of(rig_point, mesh, coarse=coarse).min()) for mesh in meshes)
-    if isinstance(region, Circle):
-        away = f"its region of radius {region.radius:g} px lies {round(distance, 1):g} px away"
-        return f"{away}; a radius of {math.ceil(region.radius + distance)} px would reach it"
-    if isinstance(region, Polygon):
-        return f"its polygon lies {round(distance, 1):g} px away from the nearest vertex"
-    return f"its mask lies about {round(distance, 1):g} px away from the nearest vertex"
 
 
 def _outside_circle(centre: tuple[float, float], radius: float, points: FloatArray) -> FloatArray:

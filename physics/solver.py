@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import taichi_runtime
+from .alignment import LANES, aligned, check_aligned
 from .kernel_functions import MOST_REFINEMENT
 from .kernels import build_kernels
 from .pace import Pace
 from .schedule import Schedule, schedule
-from .solver_arrays import CALM, LANES, Drive, Solid, State, WindTable, aligned, check_aligned
+from .solver_arrays import CALM, Drive, Solid, State, WindTable
 
 __all__ = ["CALM", "Drive", "Solid", "State", "WindTable", "advance", "internal_forces"]
 

@@ -5,21 +5,14 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import NDArray
 
-__all__ = ["CALM", "LANES", "Drive", "Solid", "State", "WindTable", "aligned", "check_aligned"]
+from .alignment import LANES, aligned
+
+__all__ = ["CALM", "Drive", "Solid", "State", "WindTable"]
 
 Float32Array = NDArray[np.float32]
 Int32Array = NDArray[np.int32]
-
-LANES = 16
-"""Triangles that are computed together, one in each lane of the processor's vectors.
-
-Wider than most processors' vectors, so that two of these are under way at once: 215 million triangles a second with
-16 lanes and 178 with 8 on a core with vectors of 8.
-"""
-
-_ALIGNMENT = 4 * LANES  # [bytes] that the compiler takes for granted when it loads a vector
 
 
 class Solid(NamedTuple):
@@ -178,25 +171,6 @@ class Drive(NamedTuple):
     kinds: Int32Array
     gravity: tuple[float, float]
     wind: WindTable = CALM
-
-
-def aligned(shape: tuple[int, ...], dtype: DTypeLike = np.float32) -> NDArray[Any]:
-    """Zeros at an address from which the kernels can load vectors."""
-    size = int(np.prod(shape)) * np.dtype(dtype).itemsize
-    room = np.zeros(size + _ALIGNMENT, dtype=np.uint8)
-    first = -room.ctypes.data % _ALIGNMENT
-    return room[first : first + size].view(dtype).reshape(shape)
-
-
-def check_aligned(*arrays: NDArray[Any]) -> None:
-    """Refuse arrays at other addresses, which would end the process.
-
-    Raises:
-        ValueError: there is one.
-    """
-    for array in arrays:
-        if array.size and array.ctypes.data % _ALIGNMENT:
-            raise ValueError(f"an array of the solver must come from aligned(). Got: shape {array.shape} elsewhere")
 
 
 def _in_blocks(rows: NDArray[Any]) -> NDArray[Any]:

@@ -14,7 +14,7 @@ from .errors import SimulationError
 from .holds import Holds, holds_of
 from .mesh import TriangleMesh
 from .modes import highest_eigenvalue
-from .paint import with_paint
+from .painted_bodies import with_paint
 from .scene import Body, Scene
 from .stepping import frequency_limits, substeps, vertex_frequencies
 from .sway import SwayPart, resolve_stiffness

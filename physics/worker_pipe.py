@@ -11,7 +11,7 @@ from typing import IO, Any
 
 import numpy as np
 
-from .solver_arrays import aligned
+from .alignment import aligned
 
 __all__ = ["receive", "send"]
 

@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 from ..physics.masks import coverage_of
 from ..physics.motion import Motion
 from ..physics.scene import Scene
-from .background import Background, background_of, is_transparent, over, shown_frame, usual_background
+from .background import Background, background_of, shown_frame, usual_background
 from .drawing_checks import check_drawing, height_at
 from .premultiplied import resized
 from .text_files import check_text_output, write_text
+from .transparency import is_transparent, over
 from .video import check_output, holds_alpha, write_animation
 
 if TYPE_CHECKING:

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from ..physics.errors import require
 from .pixels import as_float
+from .transparency import WHITE, Colour, is_transparent, over
 
 if TYPE_CHECKING:
     from ..physics.motion import Motion
@@ -28,11 +29,8 @@ if TYPE_CHECKING:
     from .pixel_art import PixelArtRenderer
 
 __all__ = [
-    "WHITE",
     "Background",
     "background_of",
-    "is_transparent",
-    "over",
     "renderer_of",
     "shown_frame",
     "shown_frame_and_alpha",
@@ -40,9 +38,6 @@ __all__ = [
 ]
 
 Image = NDArray[Any]
-Colour = tuple[int, int, int]
-
-WHITE: Colour = (255, 255, 255)
 
 
 @dataclass(frozen=True)
@@ -99,32 +94,6 @@ def usual_background(*, transparent_picture: bool, file_has_alpha: bool, parts: 
     if transparent_picture:
         return Background("transparent")
     return Background("parts" if parts else "picture")
-
-
-def is_transparent(image: Image) -> bool:
-    """Whether a picture has an alpha channel."""
-    return image.ndim == 3 and image.shape[2] == 4
-
-
-def over(image: Image, colour: Colour = WHITE) -> Image:
-    """A picture laid over a colour.
-
-    Args:
-        image: RGB or straight RGBA, uint8 or 0..1 float, shape [h, w, 3] or [h, w, 4]; RGB comes back as it is.
-        colour: red, green and blue, 0 to 255.
-
-    Returns:
-        RGB in the image's dtype, shape [h, w, 3].
-    """
-    if not is_transparent(image):
-        return image
-    if image.dtype == np.uint8:
-        beneath = np.array(colour, dtype=np.float32)
-        share = image[..., 3:].astype(np.float32) / np.float32(255)
-        mixed = beneath + share * (image[..., :3].astype(np.float32) - beneath)
-        return np.rint(mixed).astype(np.uint8)
-    share, below = image[..., 3:], np.array(colour, dtype=image.dtype) / image.dtype.type(255)
-    return np.asarray(share * image[..., :3] + (1 - share) * below)
 
 
 def renderer_of(

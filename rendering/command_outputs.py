@@ -175,9 +175,10 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
     Raises:
         InvalidInputError: in-betweens are asked for where it is transparent.
     """
-    from .background import is_transparent, usual_background
+    from .background import usual_background
     from .drawing_checks import check_drawing
     from .places import suffix_of
+    from .transparency import is_transparent
     from .video import holds_alpha
 
     if options.background is not None:

@@ -16,12 +16,12 @@ from ..physics.masks import coverage_of, fitted
 from ..physics.motion import Motion
 from ..physics.pixel_box import PixelBox
 from ..physics.progress import Progress
-from .background import is_transparent
 from .kept_layers import apart
 from .layers import take_apart
 from .pixels import as_dtype, as_float, as_picture
 from .premultiplied import straight
 from .sprite_layers import take_sprite_apart
+from .transparency import is_transparent
 
 __all__ = ["LayeredRenderer", "render_frames"]
 

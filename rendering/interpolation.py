@@ -18,12 +18,12 @@ from ..physics.errors import InvalidInputError, require
 from ..physics.masks import coverage_of
 from ..physics.motion import Motion
 from ..physics.progress import Progress
-from .background import is_transparent
 from .flow_inbetweens import FlowInterpolator
 from .inbetweening import Clip, Interpolator, ModelFile, as_float, like
 from .motion_inbetweens import MotionInterpolator
 from .pixels import as_picture
 from .premultiplied import premultiplied, straight
+from .transparency import is_transparent
 
 __all__ = [
     "BACKENDS",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,19 +12,22 @@ from .mask_cleanup import clean_mask
 from .prompts import Prompt
 from .segmentation import segment
 
-if TYPE_CHECKING:
-    from .sam.segmenter import SamSegmenter
-
-__all__ = ["segment_parts"]
+__all__ = ["Segmenter", "segment_parts"]
 
 Mask = NDArray[np.bool_]
+
+
+class Segmenter(Protocol):
+    """A network that cuts parts out, such as ``sam.SamSegmenter``."""
+
+    def segment(self, image: NDArray[np.uint8], prompts: Sequence[Prompt]) -> tuple[list[Mask], Any]: ...
 
 
 def segment_parts(
     image: NDArray[np.uint8],
     prompts: Sequence[Prompt],
     *,
-    network: SamSegmenter | None = None,
+    network: Segmenter | None = None,
     smallest_speck: int = 0,
     largest_hole: int = 0,
     smoothing: float = 0.0,

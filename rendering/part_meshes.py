@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from ..physics.errors import InvalidInputError
 from ..physics.mesh import TriangleMesh
 from ..physics.meshing import mesh_from_mask
-from .background import is_transparent, over
 from .pixels import as_float
 from .regular_mask import regular_mask
+from .transparency import is_transparent, over
 
 __all__ = ["part_mesh", "shown_part"]
 

@@ -21,9 +21,9 @@ from ..physics.motion import Motion
 from ..physics.pixel_box import PixelBox, bounding_box
 from ..physics.raster import interpolate, triangle_ids
 from .apron import ApronedMesh, canvas_of
-from .background import is_transparent
 from .beyond_border import on_canvas
 from .pixels import check_picture
+from .transparency import is_transparent
 
 __all__ = ["PixelArtRenderer", "block_size", "looks_like_pixel_art", "pixel_art_hint", "pixel_plate"]
 

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError
 from ..physics.mesh import TriangleMesh
-from .background import over
 from .beyond_border import on_canvas
 from .bleeding import carried_on
 from .clean_plate import fill_hole
@@ -26,6 +25,7 @@ from .matte import fitting_plate, mixed_rim, soft_alpha, with_outline
 from .pixel_windows import window_around
 from .premultiplied import premultiplied
 from .regular_mask import regular_mask
+from .transparency import over
 
 __all__ = ["sprite_hole", "sprite_plate", "take_sprite_apart"]
 

@@ -29,6 +29,7 @@ import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
 from contact_cost import contact_costs
 from peers.problem import Advance, Problem
+from physanimator.physics.alignment import LANES
 from physanimator.physics.automatic import automatic_scene
 from physanimator.physics.material import Material, preset
 from physanimator.physics.mesh import TriangleMesh
@@ -39,7 +40,6 @@ from physanimator.physics.schedule import schedule
 from physanimator.physics.simulation import _solid, plan, simulate
 from physanimator.physics.solver import Drive, Solid, State
 from physanimator.physics.solver import advance as advance_solid
-from physanimator.physics.solver_arrays import LANES
 from physanimator.physics.stepping import TICK
 from physanimator.physics.system import assemble
 

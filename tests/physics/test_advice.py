@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.physics.advice import advice, inverted_masks, mask_advice, stillness
+from physanimator.physics.advice import advice, inverted_masks, mask_advice
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.meshing import mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.rig import Circle, RigPoint
 from physanimator.physics.scene import Body, Scene
+from physanimator.physics.stillness import stillness
 
 
 def two_triangles() -> TriangleMesh:

@@ -14,7 +14,8 @@ from physanimator.physics.errors import InvalidInputError, SimulationError
 from physanimator.physics.material import Material, preset
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.motion import Motion
-from physanimator.physics.paint import Paint, with_paint
+from physanimator.physics.paint import Paint
+from physanimator.physics.painted_bodies import with_paint
 from physanimator.physics.plan import plan, work_of_minutes
 from physanimator.physics.query_points import QueryPoint
 from physanimator.physics.rig import Circle, Combined, KeyedPath, MaskRegion, Polygon, RigPoint, Wave
@@ -186,10 +187,10 @@ def test_minutes_that_are_allowed_decide() -> None:
 
 
 def test_paint_is_rasterised_once_for_all_bodies(monkeypatch: pytest.MonkeyPatch) -> None:
-    from physanimator.physics import paint
+    from physanimator.physics import painted_bodies
 
-    made, mask = [], paint._mask
-    monkeypatch.setattr(paint, "_mask", lambda region, mesh: made.append(region) or mask(region, mesh))
+    made, mask = [], painted_bodies._mask
+    monkeypatch.setattr(painted_bodies, "_mask", lambda region, mesh: made.append(region) or mask(region, mesh))
     entries = (Paint(Polygon(((0, 0), (99, 0), (99, 79))), stiffness=2.0, density=3.0), Paint(Polygon(TRIANGLE)))
     painted = with_paint(BODIES, entries)
     assert len(made) == 1

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from physanimator.physics import contact_stepping
+from physanimator.physics.alignment import LANES
 from physanimator.physics.collision import Collider, Contact
 from physanimator.physics.contact_stepping import TouchingBodies
 from physanimator.physics.contact_surface import CONTACTS, contact_surface, signed_distances
@@ -23,7 +24,6 @@ from physanimator.physics.pace import Pace
 from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.simulation import _solid, simulate
-from physanimator.physics.solver_arrays import LANES
 from physanimator.physics.strokes import EnergyStroke
 from physanimator.physics.system import assemble
 

@@ -7,7 +7,8 @@ import pytest
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.paint import Paint, with_paint
+from physanimator.physics.paint import Paint
+from physanimator.physics.painted_bodies import with_paint
 from physanimator.physics.rig import Circle, MaskRegion, Polygon, RigPoint
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.simulation import simulate

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physanimator.physics import modes, preparation, preview_session, schedule, simulation, system, taichi_runtime
+from physanimator.physics import modes, preparation, preview_session, sample_simulations, schedule, simulation, system, taichi_runtime
 from physanimator.physics.collision import Contact
 from physanimator.physics.errors import Cancelled
 from physanimator.physics.holds import Holds
@@ -267,7 +267,7 @@ def kept(seed: int, *, pixels: int = 0) -> PreviewBodies:
 def test_the_kernel_for_shared_parts_is_loaded_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
     warmed: list[Scene] = []
     monkeypatch.setattr(schedule, "most_threads", lambda: 2)
-    monkeypatch.setattr(simulation, "simulate", lambda scene, **_: warmed.append(scene))
+    monkeypatch.setattr(sample_simulations, "simulate", lambda scene, **_: warmed.append(scene))
     monkeypatch.setattr(taichi_runtime, "keep_compiled", lambda: False)
     warm_up()
     planned = simulation.plan(warmed[0], frames=2)
@@ -302,7 +302,7 @@ def test_large_kernels_run_where_they_stop_nobody_in_this_process(
 
 def test_what_was_compiled_is_kept_before_it_is_needed_again(monkeypatch: pytest.MonkeyPatch) -> None:
     done: list[str] = []
-    monkeypatch.setattr(simulation, "simulate", lambda *_, **__: done.append("simulated"))
+    monkeypatch.setattr(sample_simulations, "simulate", lambda *_, **__: done.append("simulated"))
     monkeypatch.setattr(taichi_runtime, "keep_compiled", lambda: done.append("kept") or True)
     warm_up()
     assert done == ["simulated", "kept", "simulated"]

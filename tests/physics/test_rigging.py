@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from physanimator.physics import rigging
+from physanimator.physics.advice import unused_rig_points
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.holds import holds_of
 from physanimator.physics.mesh import TriangleMesh
@@ -19,7 +20,6 @@ from physanimator.physics.rigging import (
     displacement,
     distances_of,
     leaders_of,
-    unused_rig_points,
     velocity,
     vertices_of,
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from physanimator.physics import solver
+from physanimator.physics.alignment import LANES, aligned
 from physanimator.physics.elasticity import (
     RestShape,
     deformation_gradients,
@@ -22,7 +23,6 @@ from physanimator.physics.pace import Pace
 from physanimator.physics.particles import acceleration, all_particles
 from physanimator.physics.schedule import Schedule
 from physanimator.physics.solver import Drive, Solid, State, advance, internal_forces
-from physanimator.physics.solver_arrays import LANES, aligned
 from physanimator.physics.stepping import TICK, squared_frequencies, substeps
 from physanimator.physics.strokes import EnergyStroke
 

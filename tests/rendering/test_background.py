@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.background import Background, background_of, over, usual_background
+from physanimator.rendering.background import Background, background_of, usual_background
+from physanimator.rendering.transparency import over
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,9 @@ from pathlib import Path
 import av
 import numpy as np
 import pytest
-from physanimator.rendering.background import over
 from physanimator.rendering.bleeding import bled, carried_on
 from physanimator.rendering.premultiplied import premultiplied, resized, straight
+from physanimator.rendering.transparency import over
 from physanimator.rendering.video import write_animation
 from PIL import Image
 

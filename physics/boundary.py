@@ -1,0 +1,22 @@
+"""The boundary of a triangulation."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["boundary_edges"]
+
+Int32Array = NDArray[np.int32]
+
+
+def boundary_edges(triangles: Int32Array) -> Int32Array:
+    """The edges that belong to one triangle alone, each in the direction in which its triangle has it, shape [e, 2].
+
+    Args:
+        triangles: indices of vertices, shape [t, 3].
+    """
+    half = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    low, high = half.min(axis=1).astype(np.int64), half.max(axis=1)
+    _, inverse, counts = np.unique(low << 32 | high, return_inverse=True, return_counts=True)
+    return half[counts[inverse] == 1]
