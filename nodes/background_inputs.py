@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
-from .literals import chosen
+from .host import chosen
 
 if TYPE_CHECKING:
-    from ..rendering.background import Background
+    from ..rendering.composite import Background
 
 __all__ = ["background_chosen", "background_inputs"]
 
@@ -50,7 +50,7 @@ def background_chosen(choice: dict[str, Any] | None) -> Background:
     Raises:
         InvalidInputError: the choice or the colour is unknown.
     """
-    from ..rendering.background import background_of
+    from ..rendering.composite import background_of
 
     if choice is None:
         return background_of("picture")

@@ -6,13 +6,13 @@ from typing import Any
 
 from comfy_api.latest import io
 
-from ..physics.automatic import ATTACHMENTS, Attachment
 from ..physics.material import PRESETS
 from ..physics.material import Material as PhysicalMaterial
 from ..physics.material import preset as preset_material
+from ..physics.scene import ATTACHMENTS, Attachment
 from ..physics.scene import Body as PhysicalBody
-from .literals import chosen
-from .wires import BodiesWire, MaskedBody, MaskedMesh, MaterialWire, MeshWire
+from .host import chosen
+from .host.wires import BodiesWire, MaskedBody, MaskedMesh, MaterialWire, MeshWire
 
 __all__ = ["Body", "Material"]
 

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from comfy_api.latest import io
 
-from ..physics.collision import Collider
-from ..physics.collision import Contact as PhysicalContact
-from .tensors import mask_of
-from .wires import ContactWire, Touch
+from ..physics.scene import Collider
+from ..physics.scene import Contact as PhysicalContact
+from .host import mask_of
+from .host.wires import ContactWire, Touch
 
 if TYPE_CHECKING:
     import torch

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from comfy_api.latest import io, ui
 
-from .tensors import batch_of_masks, batch_of_pictures
+from .host import batch_of_masks, batch_of_pictures
 
 __all__ = ["EXAMPLE_MASKS", "ExampleIllustration"]
 

@@ -5,18 +5,17 @@ from __future__ import annotations
 from comfy_api.latest import ComfyExtension, io
 
 from .body_nodes import Body, Material
-from .choices import checked
 from .contact_nodes import Contact
 from .example_nodes import ExampleIllustration
 from .flow_nodes import OpticalFlow, PreviewFlow
+from .host import checked, watch_prompts
 from .mask_nodes import MaskToMesh, SegmentByPoints
 from .metric_nodes import Metrics
 from .motion_nodes import PreviewMotion, Simulate
 from .paint_nodes import PaintMaterial
-from .preview_server import register_routes
+from .preview import register_routes
 from .render_nodes import Interpolate, Render
 from .rig_nodes import RigPoint
-from .running import watch_prompts
 from .save_nodes import SaveAnimation
 from .scene_editor_nodes import SceneEditor
 from .scene_nodes import AutomaticScene, Scene, SceneFromJSON

@@ -7,15 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from comfy_api.latest import io
 
-from .batches import announce_batch
-from .messages import shown_with
-from .previews import animated
-from .progress import host_progress
-from .tensors import picture_batch
-from .wires import FlowWire, MaskedMotion, MotionWire
+from .host import announce_batch, host_progress, picture_batch, shown_with
+from .host.previews import animated
+from .host.wires import FlowWire, MaskedMotion, MotionWire
 
 if TYPE_CHECKING:
-    from ..physics.flow import FlowSequence
+    from ..physics.motion import FlowSequence
 
 __all__ = ["OpticalFlow", "PreviewFlow"]
 
@@ -34,7 +31,7 @@ class OpticalFlow(io.ComfyNode):
 
     @classmethod
     def execute(cls, motion: MaskedMotion) -> io.NodeOutput:
-        from ..physics.flow import FlowSequence
+        from ..physics.motion import FlowSequence
 
         return io.NodeOutput(FlowSequence(motion.motion))
 
@@ -65,7 +62,7 @@ class PreviewFlow(io.ComfyNode):
 
     @classmethod
     def execute(cls, flow: FlowSequence, every: int, largest: float) -> io.NodeOutput:
-        from ..rendering.flow_colour import flow_to_color
+        from ..rendering.overlays import flow_to_color
 
         shown, report = range(0, len(flow), every), host_progress()
         instead = "raise every to show fewer frames"

@@ -8,21 +8,29 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from comfy_api.latest import io, ui
 
+from ..physics.document import parse_points
 from ..physics.errors import InvalidInputError, MeshingError
-from ..rendering.points import parse_points
-from .defaults import default_of
-from .literals import boxes_of, chosen, refusal
-from .messages import shown_with, tell_user
-from .other_segmenters import segmenter_advice
-from .running import sent_inputs
-from .sam_backend import missing_sam_files, sam_inputs, sam_network
-from .tensors import batch_of_masks, batch_of_pictures, mask_of, picture_of
-from .wires import MaskedMesh, MeshWire
+from .host import (
+    batch_of_masks,
+    batch_of_pictures,
+    boxes_of,
+    chosen,
+    default_of,
+    mask_of,
+    picture_of,
+    refusal,
+    sent_inputs,
+    shown_with,
+    tell_user,
+)
+from .host.wires import MaskedMesh, MeshWire
+from .models import segmenter_advice
+from .models.sam_backend import missing_sam_files, sam_inputs, sam_network
 
 if TYPE_CHECKING:
     import torch
 
-    from ..physics.query_points import QueryPoint
+    from ..physics.scene import QueryPoint
 
 __all__ = ["MaskToMesh", "SegmentByPoints"]
 
@@ -127,10 +135,8 @@ class SegmentByPoints(io.ComfyNode):
         largest_hole: int = 0,
         smoothing: float = 0.0,
     ) -> io.NodeOutput:
-        from ..rendering.cut_judgement import judge_cuts
-        from ..rendering.part_masks import segment_parts
-        from ..rendering.pixels import as_uint8
-        from ..rendering.prompts import prompts_of
+        from ..rendering.pictures import as_uint8
+        from ..rendering.segmentation import judge_cuts, prompts_of, segment_parts
 
         picture = picture_of(image)
         height, width = picture.shape[:2]
@@ -157,7 +163,7 @@ def _points_of(text: str, width: int, height: int, *, needed: bool) -> list[Quer
 class MaskToMesh(io.ComfyNode):
     @classmethod
     def define_schema(cls) -> io.Schema:
-        from ..physics.meshing import mesh_from_mask
+        from ..physics.mesh import mesh_from_mask
 
         return io.Schema(
             node_id="PhysAnimator_MaskToMesh",
@@ -210,10 +216,9 @@ class MaskToMesh(io.ComfyNode):
         mask_index: int,
         image: torch.Tensor | None = None,
     ) -> io.NodeOutput:
-        from ..physics.advice import mask_advice
-        from ..physics.masks import fitted
-        from ..physics.meshing import mesh_from_mask
-        from ..rendering.overlay import draw_wireframe
+        from ..physics.mesh import fitted, mesh_from_mask
+        from ..physics.scene import mask_advice
+        from ..rendering.overlays import draw_wireframe
 
         coverage = mask_of(mask, index=mask_index)
         picture = np.repeat(coverage[..., None], 3, axis=2) if image is None else picture_of(image)

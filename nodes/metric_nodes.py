@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
-from .progress import host_progress
-from .tensors import picture_of, pictures_of
-from .wires import MaskedMotion, MotionWire
+from .host import host_progress, picture_of, pictures_of
+from .host.wires import MaskedMotion, MotionWire
 
 if TYPE_CHECKING:
     import torch
@@ -69,7 +68,7 @@ class Metrics(io.ComfyNode):
 
     @classmethod
     def validate_inputs(cls, fid: bool | None = None, description: str | None = None, **others: Any) -> bool | str:
-        from ..rendering.learned_metrics.files import FID_FILE, VIDEO_SCORE_FOLDER
+        from ..rendering.metrics.learned import FID_FILE, VIDEO_SCORE_FOLDER
 
         wanted = [FID_FILE] * bool(fid) + [VIDEO_SCORE_FOLDER] * bool((description or "").strip())
         told = [file.missing(f"models/{_FOLDER}/{file.name}") for file in wanted if not _place(file.name).exists()]
@@ -108,17 +107,17 @@ def _learned(
 ) -> dict[str, float | None]:
     """What networks say of the frames."""
     from ..physics.errors import require
-    from ..rendering.learned_metrics.files import FID_FILE, VIDEO_SCORE_FOLDER
+    from ..rendering.metrics.learned import FID_FILE, VIDEO_SCORE_FOLDER
 
     found: dict[str, float | None] = {}
     if wanted:
-        from ..rendering.learned_metrics.fid import frechet_inception_distance
+        from ..rendering.metrics.learned.fid import frechet_inception_distance
 
         require("references", references, references is not None, "connected where fid is on")
         compared = pictures_of(references, name="references")
         found["fid"] = frechet_inception_distance(frames, compared, _place(FID_FILE.name))
     if description:
-        from ..rendering.learned_metrics.video_score import video_score
+        from ..rendering.metrics.learned import video_score
 
         grades = video_score(frames, description, _place(VIDEO_SCORE_FOLDER.name))
         found |= {f"video_score_{name}": grade for name, grade in grades.items()}

@@ -11,13 +11,19 @@ from numpy.typing import NDArray
 
 from ..physics.interruption import interruptible
 from ..physics.limits import DEFAULT_MINUTES, MAX_LOOP, MOST_MINUTES
-from .batches import announce_batch
-from .messages import all_told, shown_with, tell_user
-from .previews import animated
-from .progress import host_check, host_progress
-from .running import server
-from .tensors import picture_batch, pictures_for
-from .wires import MaskedMotion, MaskedScene, MotionWire, SceneWire
+from .host import (
+    all_told,
+    announce_batch,
+    host_check,
+    host_progress,
+    picture_batch,
+    pictures_for,
+    server,
+    shown_with,
+    tell_user,
+)
+from .host.previews import animated
+from .host.wires import MaskedMotion, MaskedScene, MotionWire, SceneWire
 
 if TYPE_CHECKING:
     import torch
@@ -77,10 +83,9 @@ class Simulate(io.ComfyNode):
     def execute(
         cls, scene: MaskedScene, frames: int, loop: float = 0.0, max_minutes: float = DEFAULT_MINUTES
     ) -> io.NodeOutput:
-        from ..physics.advice import advice
-        from ..physics.kernel_preparation import compile_aside, simulated_aside
-        from ..physics.simulation import simulate
-        from ..physics.stillness import stillness
+        from ..physics.motion import stillness
+        from ..physics.scene import advice
+        from ..physics.simulation import compile_aside, simulate, simulated_aside
 
         acting = replace(scene.scene, loop=loop) if loop else scene.scene
         told = tell_user(cls, advice(acting, masks=False))  # Mask to Mesh has spoken of those
@@ -132,7 +137,7 @@ class PreviewMotion(io.ComfyNode):
     def execute(
         cls, image: torch.Tensor, motion: MaskedMotion, longest_side: int, every: int, scene: MaskedScene | None = None
     ) -> io.NodeOutput:
-        from ..rendering.overlay import preview
+        from ..rendering.overlays import preview
 
         moved, acting = motion.motion, scene.scene if scene else None
         pictures = _shrunk(pictures_for(image, moved.width, moved.height, frames=len(moved)), longest_side)

@@ -9,9 +9,8 @@ from comfy_api.latest import io
 from ..physics.material import PRESETS
 from ..physics.material import Material as PhysicalMaterial
 from ..physics.material import preset as preset_material
-from .defaults import default_of
-from .tensors import mask_of
-from .wires import MaskedMesh, MaterialWire, MeshWire
+from .host import default_of, mask_of
+from .host.wires import MaskedMesh, MaterialWire, MeshWire
 
 if TYPE_CHECKING:
     import torch
@@ -22,7 +21,7 @@ __all__ = ["PaintMaterial"]
 class PaintMaterial(io.ComfyNode):
     @classmethod
     def define_schema(cls) -> io.Schema:
-        from ..physics.painting import painted
+        from ..physics.material import painted
 
         return io.Schema(
             node_id="PhysAnimator_PaintMaterial",
@@ -59,7 +58,7 @@ class PaintMaterial(io.ComfyNode):
         damping: torch.Tensor | None = None,
         mass: torch.Tensor | None = None,
     ) -> io.NodeOutput:
-        from ..physics.painting import painted
+        from ..physics.material import painted
 
         given = {"stiffness": stiffness, "damping": damping, "density": mass}
         masks = {name: mask_of(mask, name=name) for name, mask in given.items() if mask is not None}

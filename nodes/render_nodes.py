@@ -9,28 +9,36 @@ from comfy_api.latest import io
 
 from ..physics.errors import require
 from .background_inputs import background_chosen, background_inputs
-from .batches import announce_batch
-from .cartoon_interpolation import missing_tooncrafter_files, tooncrafter_backend
-from .literals import chosen, refusal, whole_numbers_of
-from .messages import all_told, hint_of_pixel_art
-from .model_files import find_model_file
-from .progress import host_progress
-from .running import is_wanted, not_made
-from .sketch_video import missing_sketch_video_files, sketch_video_frames
-from .sketch_video_inputs import sketch_video_inputs
-from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_with_alpha, pictures_of
-from .tooncrafter_inputs import tooncrafter_inputs
-from .wires import MaskedMotion, MotionWire
+from .host import (
+    all_told,
+    announce_batch,
+    batch_of_pictures,
+    chosen,
+    hint_of_pixel_art,
+    host_progress,
+    is_wanted,
+    mask_batch,
+    not_made,
+    picture_batch,
+    picture_with_alpha,
+    pictures_of,
+    refusal,
+    whole_numbers_of,
+)
+from .host.wires import MaskedMotion, MotionWire
+from .models import find_model_file
+from .models.sketch_video import missing_sketch_video_files, sketch_video_frames
+from .models.sketch_video_inputs import sketch_video_inputs
+from .models.tooncrafter import missing_tooncrafter_files, tooncrafter_backend
+from .models.tooncrafter_inputs import tooncrafter_inputs
 
 if TYPE_CHECKING:
     import torch
     from numpy.typing import NDArray
 
     from ..physics.motion import Motion
-    from ..rendering.background import Background
-    from ..rendering.composite import LayeredRenderer
-    from ..rendering.pixel_art import PixelArtRenderer
-    from .tensors import FrameBatch
+    from ..rendering.composite import Background, LayeredRenderer, PixelArtRenderer
+    from .host import FrameBatch
 
 __all__ = ["Interpolate", "Render"]
 
@@ -102,8 +110,8 @@ class Render(io.ComfyNode):
         image_alpha: torch.Tensor | None = None,
         pixel_art: bool = False,
     ) -> io.NodeOutput:
-        from ..rendering.background import renderer_of
-        from ..rendering.transparency import over
+        from ..rendering.composite import renderer_of
+        from ..rendering.pictures import over
 
         behind, by_model = background_chosen(background), renderer is not None and renderer["renderer"] == _SKETCH_VIDEO
         picture = picture_with_alpha(image, image_alpha)
@@ -138,7 +146,7 @@ def _compose(
     alpha: FrameBatch | None,
 ) -> None:
     """Draw into the batches that there are."""
-    from ..rendering.background import shown_frame, shown_frame_and_alpha
+    from ..rendering.composite import shown_frame, shown_frame_and_alpha
 
     report = host_progress()
     for number in range(len(layers) if frames or alpha else 0):
@@ -155,7 +163,7 @@ def _compose(
 class Interpolate(io.ComfyNode):
     @classmethod
     def define_schema(cls) -> io.Schema:
-        from ..rendering.interpolation import BACKENDS, DEFAULT_GAP
+        from ..rendering.inbetweens import BACKENDS, DEFAULT_GAP
 
         described = "; ".join(f"{name}: {backend.description}" for name, backend in BACKENDS.items())
         return io.Schema(
@@ -226,7 +234,7 @@ class Interpolate(io.ComfyNode):
         motion: MaskedMotion | None = None,
         keyframes_at: str = "",
     ) -> io.NodeOutput:
-        from ..rendering.interpolation import BACKENDS, interpolate
+        from ..rendering.inbetweens import BACKENDS, interpolate
 
         name, choice = chosen(backend, "backend", (*BACKENDS, _TOONCRAFTER))
         known = motion.motion if motion else None
@@ -265,7 +273,7 @@ def _keyframes(
     pictures: NDArray[Any], images_are: str, every: int, at: tuple[int, ...], motion: Motion | None
 ) -> tuple[NDArray[Any], list[int]]:
     """The keyframes among the pictures and their frame numbers."""
-    from ..rendering.interpolation import keyframe_indices
+    from ..rendering.inbetweens import keyframe_indices
 
     if images_are == _IMAGES_ARE[1]:
         last = len(motion) - 1 if motion else every * len(pictures)

@@ -7,11 +7,24 @@ from typing import Any
 import numpy as np
 from comfy_api.latest import io
 
-from ..physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigMotion, RigPoint, RigRegion, Wave
-from ..physics.rig_turns import EASINGS, Pulse, Rotation, Squash, Swing
-from ..rendering.points import parse_polyline
-from .literals import PATH_FORMS, chosen, numbers_of, times_of
-from .tensors import mask_of
+from ..physics.document import parse_polyline
+from ..physics.rig import (
+    EASINGS,
+    Circle,
+    KeyedPath,
+    MaskRegion,
+    Pinned,
+    Polygon,
+    Pulse,
+    RigMotion,
+    RigPoint,
+    RigRegion,
+    Rotation,
+    Squash,
+    Swing,
+    Wave,
+)
+from .host import PATH_FORMS, chosen, mask_of, numbers_of, times_of
 
 __all__ = [
     "OPTIONAL_INPUTS",

@@ -8,10 +8,11 @@ from typing import Any
 
 from comfy_api.latest import io
 
+from ..physics.document import parse_polyline
 from ..physics.rig import Combined, Pinned, RigMotion
 from ..physics.rig import RigPoint as PhysicalRigPoint
-from ..rendering.points import parse_polyline
-from .literals import PATH_FORMS, refusal
+from .host import PATH_FORMS, refusal
+from .host.wires import RigWire
 from .rig_inputs import (
     OPTIONAL_INPUTS,
     motion_of,
@@ -23,7 +24,6 @@ from .rig_inputs import (
     turn_of,
     turn_options,
 )
-from .wires import RigWire
 
 __all__ = ["RigPoint"]
 

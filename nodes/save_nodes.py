@@ -9,22 +9,27 @@ from typing import TYPE_CHECKING, Any
 from comfy_api.latest import io, ui
 
 from ..physics.errors import require
-from ..rendering.video import FORMATS, check_output
+from ..rendering.pictures import FORMATS, check_output
 from .background_inputs import background_chosen, background_inputs
-from .literals import refusal
-from .messages import hint_of_pixel_art, shown_with
-from .progress import host_progress
-from .saving import FILE_TYPES, FRAMES, Place, check_prefix, free_place
-from .tensors import picture_with_alpha
-from .wires import MaskedMotion, MotionWire
+from .host import (
+    FILE_TYPES,
+    FRAMES,
+    Place,
+    check_prefix,
+    free_place,
+    hint_of_pixel_art,
+    host_progress,
+    picture_with_alpha,
+    refusal,
+    shown_with,
+)
+from .host.wires import MaskedMotion, MotionWire
 
 if TYPE_CHECKING:
     import torch
     from numpy.typing import NDArray
 
-    from ..rendering.background import Background
-    from ..rendering.composite import LayeredRenderer
-    from ..rendering.pixel_art import PixelArtRenderer
+    from ..rendering.composite import Background, LayeredRenderer, PixelArtRenderer
 
 __all__ = ["SaveAnimation"]
 
@@ -103,9 +108,8 @@ class SaveAnimation(io.ComfyNode):
         image_alpha: torch.Tensor | None = None,
         pixel_art: bool = False,
     ) -> io.NodeOutput:
-        from ..rendering.background import renderer_of
-        from ..rendering.pixels import as_uint8
-        from ..rendering.video import write_animation
+        from ..rendering.composite import renderer_of
+        from ..rendering.pictures import as_uint8, write_animation
 
         behind = background_chosen(background)
         _check_format(file_type, behind)
@@ -126,8 +130,8 @@ def _frames(
     renderer: LayeredRenderer | PixelArtRenderer, background: Background, size: tuple[int, int], *, nearest: bool
 ) -> Iterator[NDArray[Any]]:
     """The frames one after another, with the host's progress and interruption."""
-    from ..rendering.background import shown_frame
-    from ..rendering.premultiplied import resized
+    from ..rendering.composite import shown_frame
+    from ..rendering.pictures import resized
 
     report = host_progress()
     for number in range(len(renderer)):

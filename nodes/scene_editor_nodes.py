@@ -12,12 +12,11 @@ import numpy as np
 from comfy_api.latest import io, ui
 
 from ..physics.errors import require
-from ..physics.preview_store import PreviewBodies
-from .literals import refusal
-from .preview_server import STORE, warm_up
+from .host import batch_of_pictures, picture_with_alpha, refusal
+from .host.wires import BodiesWire, MaskedBody
+from .preview import STORE, PreviewBodies
+from .preview.server import warm_up
 from .scene_nodes import scene_output, scene_outputs
-from .tensors import batch_of_pictures, picture_with_alpha
-from .wires import BodiesWire, MaskedBody
 
 if TYPE_CHECKING:
     import torch
@@ -58,8 +57,7 @@ class SceneEditor(io.ComfyNode):
 
     @classmethod
     def validate_inputs(cls, scene: str | None = None) -> bool | str:
-        from ..physics.json_text import read_json
-        from ..physics.scene_checking import check_document
+        from ..physics.document import check_document, read_json
 
         return scene is None or refusal(lambda: check_document(read_json(scene)))
 
@@ -71,8 +69,7 @@ class SceneEditor(io.ComfyNode):
         image: torch.Tensor | None = None,
         plate: torch.Tensor | None = None,
     ) -> io.NodeOutput:
-        from ..physics.json_text import read_json
-        from ..physics.scene_over import scene_over
+        from ..physics.document import read_json, scene_over
 
         drawn = scene_over(read_json(scene), [item.body for item in bodies])
         shown = None if image is None else _shown(image, drawn.width, drawn.height, "image")

@@ -7,14 +7,13 @@ from typing import Any
 
 from comfy_api.latest import io
 
-from ..physics.automatic import automatic_scene
 from ..physics.errors import InvalidInputError
+from ..physics.forces import EnergyStroke, Wind
 from ..physics.rig import RigPoint
 from ..physics.scene import Scene as PhysicalScene
-from ..physics.strokes import EnergyStroke
-from ..physics.wind import Wind
-from .literals import refusal
-from .wires import (
+from ..physics.scene import automatic_scene
+from .host import refusal
+from .host.wires import (
     BodiesWire,
     ContactWire,
     MaskedBody,
@@ -178,15 +177,13 @@ class SceneFromJSON(io.ComfyNode):
 
     @classmethod
     def validate_inputs(cls, scene: str | None = None) -> bool | str:
-        from ..physics.json_text import read_json
-        from ..physics.scene_checking import check_document
+        from ..physics.document import check_document, read_json
 
         return scene is None or refusal(lambda: check_document(read_json(scene)))
 
     @classmethod
     def execute(cls, bodies: tuple[MaskedBody, ...], scene: str) -> io.NodeOutput:
-        from ..physics.json_text import read_json
-        from ..physics.scene_over import scene_over
+        from ..physics.document import read_json, scene_over
 
         return scene_output(scene_over(read_json(scene), _physical(bodies)), bodies)
 
@@ -207,7 +204,7 @@ def _physical(bodies: tuple[MaskedBody, ...]) -> tuple[Any, ...]:
 
 def scene_output(scene: PhysicalScene, bodies: tuple[MaskedBody, ...], *, ui: Any = None) -> io.NodeOutput:
     """What the nodes of this file give: the scene with the bodies' masks, and its document."""
-    from ..physics.scene_json import dumps
+    from ..physics.document import dumps
 
     return io.NodeOutput(MaskedScene(scene, tuple(item.mask for item in bodies)), dumps(scene, meshes=False), ui=ui)
 

@@ -6,19 +6,25 @@ from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
-from .batches import announce_batch
-from .defaults import default_of
-from .drawing_network import drawing_network_inputs, missing_drawing_file, network_sketch
-from .progress import host_progress
-from .running import is_wanted, not_made
-from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of
-from .wires import FlowWire
+from .host import (
+    announce_batch,
+    batch_of_pictures,
+    default_of,
+    host_progress,
+    is_wanted,
+    mask_batch,
+    not_made,
+    picture_batch,
+    picture_of,
+)
+from .host.wires import FlowWire
+from .models.drawing_network import drawing_network_inputs, missing_drawing_file, network_sketch
 
 if TYPE_CHECKING:
     import torch
 
-    from ..physics.flow import FlowSequence
-    from ..rendering.sketch_warping import WarpMode
+    from ..physics.motion import FlowSequence
+    from ..rendering.sketch import WarpMode
 
 __all__ = ["ExtractSketch", "WarpSketch"]
 
@@ -112,7 +118,7 @@ class ExtractSketch(io.ComfyNode):
 class WarpSketch(io.ComfyNode):
     @classmethod
     def define_schema(cls) -> io.Schema:
-        from ..rendering.sketch_warping import WARP_MODES, warped_sketches
+        from ..rendering.sketch import WARP_MODES, warped_sketches
 
         return io.Schema(
             node_id="PhysAnimator_WarpSketch",
@@ -168,7 +174,7 @@ class WarpSketch(io.ComfyNode):
         blur_sigma: float,
         lines_behind: torch.Tensor | None = None,
     ) -> io.NodeOutput:
-        from ..rendering.sketch_warping import warped_sketches
+        from ..rendering.sketch import warped_sketches
 
         drawing, report = picture_of(sketch, name="sketch").mean(axis=2), host_progress()
         behind = None if lines_behind is None else picture_of(lines_behind, name="lines_behind").mean(axis=2)

@@ -6,11 +6,11 @@ from typing import Any
 
 from comfy_api.latest import io
 
-from ..physics.strokes import FALLOFFS, STROKE_KINDS
-from ..physics.strokes import EnergyStroke as PhysicalStroke
-from ..rendering.points import parse_polyline
-from .literals import PATH_FORMS, keys_of, refusal
-from .wires import StrokesWire
+from ..physics.document import parse_polyline
+from ..physics.forces import FALLOFFS, STROKE_KINDS
+from ..physics.forces import EnergyStroke as PhysicalStroke
+from .host import PATH_FORMS, keys_of, refusal
+from .host.wires import StrokesWire
 
 __all__ = ["EnergyStroke"]
 

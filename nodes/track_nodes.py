@@ -7,17 +7,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from comfy_api.latest import io
 
-from ..physics.tracks import FITS, Fit
-from .previews import animated
-from .progress import host_progress
-from .tensors import picture_batch, pictures_for
-from .wires import MaskedMotion, MotionWire
+from ..physics.motion import FITS, Fit
+from .host import host_progress, picture_batch, pictures_for
+from .host.previews import animated
+from .host.wires import MaskedMotion, MotionWire
 
 if TYPE_CHECKING:
     import torch
     from numpy.typing import NDArray
 
-    from ..physics.tracks import Tracks as PointTracks
+    from ..physics.motion import Tracks as PointTracks
 
 __all__ = ["Tracks"]
 
@@ -108,7 +107,7 @@ class Tracks(io.ComfyNode):
         weighting: float,
         image: torch.Tensor | None = None,
     ) -> io.NodeOutput:
-        from ..physics.tracks import tracks
+        from ..physics.motion import tracks
 
         moved = motion.motion
         found = tracks(
@@ -140,7 +139,7 @@ def _core_tracks(found: PointTracks) -> dict[str, Any]:
 
 def _preview(found: PointTracks, pictures: NDArray[np.float32] | None, fit: Fit) -> torch.Tensor:
     """Every second sample on its picture, or on a dark ground."""
-    from ..rendering.track_overlay import draw_tracks, fitted
+    from ..rendering.overlays import draw_tracks, fitted
 
     scale = min(1.0, _LONGEST_PREVIEW / max(found.width, found.height))
     # Even sides: a video of the preview can be saved.

@@ -6,12 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
-from ..physics.tracks import FITS, Fit
-from ..rendering.video_format import FRAME_STEP, SIZE_STEP, VideoFormat
-from .batches import announce_batch
-from .progress import host_progress
-from .tensors import batch_of_pictures, mask_batch, picture_batch, picture_of
-from .wires import MaskedMotion, MotionWire
+from ..physics.motion import FITS, Fit
+from ..rendering.control import FRAME_STEP, SIZE_STEP, VideoFormat
+from .host import announce_batch, batch_of_pictures, host_progress, mask_batch, picture_batch, picture_of
+from .host.wires import MaskedMotion, MotionWire
 
 if TYPE_CHECKING:
     import torch
@@ -123,7 +121,7 @@ class WarpedVideo(io.ComfyNode):
         grow: int,
         clean_plate: torch.Tensor | None = None,
     ) -> io.NodeOutput:
-        from ..rendering.control_video import warped_frames
+        from ..rendering.control import warped_frames
 
         form, plate, report = VideoFormat(frames, width, height, fit), _given(clean_plate), host_progress()
         told = announce_batch(cls, frames, width, height, channels=4)
@@ -167,7 +165,7 @@ class LineControlVideo(io.ComfyNode):
     def execute(
         cls, sketch: torch.Tensor, motion: MaskedMotion, frames: int, width: int, height: int, fit: Fit, lines: str
     ) -> io.NodeOutput:
-        from ..rendering.control_video import line_frames
+        from ..rendering.control import line_frames
 
         form, report = VideoFormat(frames, width, height, fit), host_progress()
         told, batch = announce_batch(cls, frames, width, height), picture_batch(frames)
@@ -228,7 +226,7 @@ class FirstAndLastFrame(io.ComfyNode):
         fit: Fit,
         clean_plate: torch.Tensor | None = None,
     ) -> io.NodeOutput:
-        from ..rendering.control_video import first_and_last
+        from ..rendering.control import first_and_last
 
         form, plate = VideoFormat(width=width, height=height, fit=fit), _given(clean_plate)
         chosen = {"first": first_frame, "last": last_frame, "plate": plate}

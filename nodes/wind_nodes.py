@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from comfy_api.latest import io
 
-from ..physics.wind import Wind as PhysicalWind
-from .wires import WindWire
+from ..physics.forces import Wind as PhysicalWind
+from .host.wires import WindWire
 
 __all__ = ["Wind"]
 

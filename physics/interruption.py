@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
-from .ending import stop_at_end
+from .process_end import stop_at_end
 
 __all__ = ["checkpoint", "interruptible"]
 

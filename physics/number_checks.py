@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..physics.errors import require
+from .errors import require
 
 __all__ = ["check_number", "check_whole"]
 

@@ -12,19 +12,16 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.masks import coverage_of
+from ..physics.mesh import coverage_of
 from ..physics.motion import Motion
 from ..physics.scene import Scene
-from .background import Background, background_of, shown_frame, usual_background
+from .composite import Background, background_of, shown_frame, usual_background
 from .drawing_checks import check_drawing, height_at
-from .premultiplied import resized
-from .text_files import check_text_output, write_text
-from .transparency import is_transparent, over
-from .video import check_output, holds_alpha, write_animation
+from .files import check_text_output, write_text
+from .pictures import check_output, holds_alpha, is_transparent, over, resized, write_animation
 
 if TYPE_CHECKING:
-    from .composite import LayeredRenderer
-    from .pixel_art import PixelArtRenderer
+    from .composite import LayeredRenderer, PixelArtRenderer
 
 __all__ = ["Animation", "StageProgress", "timed"]
 
@@ -66,7 +63,7 @@ class Animation:
     @property
     def pixel_art(self) -> bool:
         """Whether pixels are moved whole, and no colours are mixed."""
-        from .pixel_art import PixelArtRenderer
+        from .composite import PixelArtRenderer
 
         return isinstance(self.renderer, PixelArtRenderer)
 
@@ -79,7 +76,7 @@ class Animation:
         """The background of a name or colour; without one, transparency stays where the file can hold it.
 
         Args:
-            text: see :func:`~physanimator.rendering.background.background_of`.
+            text: see :func:`~physanimator.rendering.composite.background_of`.
             file_has_alpha: what is written can hold transparency.
 
         Raises:
@@ -104,7 +101,7 @@ class Animation:
             every: draw each so many-th frame anew and fill in the others from the known motion.
             progress: called after each frame with the stage "render".
             background: what is there where nothing moves: "picture", "transparent", "parts" or a colour (see
-                :mod:`~physanimator.rendering.background`); None keeps the transparency that the picture has.
+                :mod:`~physanimator.rendering.composite.background`); None keeps the transparency that the picture has.
 
         Raises:
             InvalidInputError: in-betweens and transparency are asked for together, or the background is unknown.
@@ -123,9 +120,8 @@ class Animation:
 
     def sketches(self, *, progress: StageProgress | None = None) -> Iterator[Image]:
         """The line drawing of the illustration, warped along the motion: float32 0..1, shape [h, w], lines dark."""
-        from ..physics.flow import FlowSequence
-        from .sketch import extract_sketch
-        from .sketch_warping import warped_sketches
+        from ..physics.motion import FlowSequence
+        from .sketch import extract_sketch, warped_sketches
 
         def drawn() -> Iterator[Image]:
             sketch, behind = extract_sketch(over(self.image)), extract_sketch(over(self.renderer.plate))
@@ -136,8 +132,8 @@ class Animation:
 
     def flows(self, *, progress: StageProgress | None = None) -> Iterator[Image]:
         """The optical flow from the drawing as colours, on one scale for the whole clip."""
-        from ..physics.flow import FlowSequence
-        from .flow_colour import flow_to_color
+        from ..physics.motion import FlowSequence
+        from .overlays import flow_to_color
 
         rest = np.concatenate([body.mesh.vertices for body in self.motion.bodies]).astype(np.float32)
         longest = max(1.0, float(np.linalg.norm(self.motion.positions - rest, axis=2).max()))
@@ -148,7 +144,7 @@ class Animation:
 
     def previews(self, *, progress: StageProgress | None = None) -> Iterator[Image]:
         """The animation with meshes, pins and strokes drawn over it."""
-        from .overlay import preview
+        from .overlays import preview
 
         drawn = (preview(over(self.renderer.frame(t)), self.motion, self.scene, t) for t in self.shown)
         return self._measured("preview", drawn, progress)
@@ -211,7 +207,7 @@ class Animation:
         return height_at(self.image, width)
 
     def save_motion(self, path: StrPath) -> None:
-        """Write every vertex of every frame as JSON; see :func:`~physanimator.physics.export.motion_to_dict`.
+        """Write every vertex of every frame as JSON; see :func:`~physanimator.physics.motion.export.motion_to_dict`.
 
         Args:
             path: a name in .json.
@@ -219,7 +215,7 @@ class Animation:
         Raises:
             InvalidInputError: nothing can be written there.
         """
-        from ..physics.export import motion_to_json
+        from ..physics.motion import motion_to_json
 
         check_text_output(path, ".json")
         write_text(path, motion_to_json(self.shown_motion))
@@ -233,30 +229,30 @@ class Animation:
         Raises:
             InvalidInputError: nothing can be written there.
         """
-        from ..physics.export import motion_to_svg
-        from .images import data_address
+        from ..physics.motion import motion_to_svg
+        from .pictures import data_address
 
         check_text_output(path, ".svg")
         write_text(path, motion_to_svg(self.shown_motion, background=data_address(over(self.image))))
 
     def save_tracks(self, path: StrPath, **options: Any) -> None:
-        """Write tracks for motion-controlled video models as JSON; see :func:`~physanimator.physics.tracks.tracks`.
+        """Write tracks for motion-controlled video models as JSON; see :func:`~physanimator.physics.motion.tracks`.
 
         Args:
             path: a name in .json.
-            options: those of :func:`~physanimator.physics.tracks.tracks`.
+            options: those of :func:`~physanimator.physics.motion.tracks`.
 
         Raises:
             InvalidInputError: nothing can be written there, or an option is out of its range.
         """
-        from ..physics.tracks import tracks
+        from ..physics.motion import tracks
 
         check_text_output(path, ".json")
         write_text(path, tracks(self.shown_motion, **options).to_json() + "\n")
 
     def _with_in_betweens(self, every: int, background: Background) -> Iterator[Image]:
-        from .interpolation import interpolate, keyframe_indices
-        from .part_meshes import shown_part
+        from .inbetweens import interpolate, keyframe_indices
+        from .matting import shown_part
 
         indices = [self.first + t for t in keyframe_indices(len(self), every)]
         keyframes = [shown_frame(self.renderer, t, background) for t in indices]

@@ -14,26 +14,21 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from .physics.automatic import Attachment, automatic_scene
-from .physics.collision import Collider, Contact
-from .physics.ending import working
-from .physics.errors import InvalidInputError, require
-from .physics.given_scene import given_scene, materials_of
-from .physics.loop import loop_frames
-from .physics.masks import coverage_of, fitted
-from .physics.material import Material
-from .physics.mesh import TriangleMesh
-from .physics.meshing import mesh_from_mask
-from .physics.plan import DEFAULT_MINUTES, work_of_minutes
-from .physics.progress import Progress
-from .physics.scene import Body, Scene, check_scene_rate
-from .physics.simulation import simulate
-from .rendering.animation import Animation, StageProgress, timed
-from .rendering.background import renderer_of
-from .rendering.drawing_checks import check_count
-from .rendering.part_meshes import part_mesh
-from .rendering.pixels import as_picture
-from .rendering.transparency import over
+from ..physics.assembly import work_of_minutes
+from ..physics.document import given_scene, materials_of
+from ..physics.errors import InvalidInputError, require
+from ..physics.limits import DEFAULT_MINUTES
+from ..physics.material import Material
+from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
+from ..physics.process_end import working
+from ..physics.progress import Progress
+from ..physics.scene import Attachment, Body, Collider, Contact, Scene, automatic_scene, check_scene_rate
+from ..physics.simulation import loop_frames, simulate
+from .animation import Animation, StageProgress, timed
+from .composite import renderer_of
+from .drawing_checks import check_count
+from .matting import part_mesh
+from .pictures import as_picture, over
 
 __all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "Animation", "StageProgress", "animate"]
 
@@ -76,11 +71,11 @@ def animate(
     Args:
         image: the illustration, RGB, or straight RGBA to move on transparency, shape [h, w, 3] or [h, w, 4]: uint8,
             uint16, other whole numbers 0..255, or floating-point numbers 0..1 of any precision, as
-            :func:`~physanimator.rendering.pixels.as_picture` says.
+            :func:`as_picture` says.
         masks: where each moving part is, bool, 0..1, 0..255 or 0..65535, each of shape [h, w] or, to be scaled, of the
             picture's proportions; later ones lie in front.
         points: for each further part its query points, in any form that
-            :func:`~physanimator.rendering.points.parse_points` reads.
+            :func:`~physanimator.physics.document.parse_points` reads.
         scene: what acts on the parts, as a ``Scene`` with one body for each part or as a decoded scene document;
             without one, the parts are pinned where they are attached and a gentle wind blows.
         preset: name of the material, one for all parts or one for each; replaces the scene's materials.
@@ -122,7 +117,7 @@ def animate(
         check_scene_rate(frame_rate)
     work_of_minutes(max_minutes)
     if scene is not None and not isinstance(scene, Scene):
-        from .physics.scene_checking import check_document
+        from ..physics.document import check_document
 
         check_document(scene)
     with timed(seconds, "segment"):
@@ -188,8 +183,8 @@ def _coverages(name: str, masks: Sequence[Mask], image: Image) -> list[Mask]:
 def _segmented(image: Image, points: Sequence[Any]) -> Iterator[Mask]:
     if not points:
         return
-    from .rendering.points import parse_points
-    from .rendering.segmentation import segment
+    from ..physics.document import parse_points
+    from .segmentation import segment
 
     height, width = image.shape[:2]
     for each, name in zip(points, _part_names(0, len(points)), strict=True):

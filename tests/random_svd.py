@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import torch
-from physanimator.rendering.checkpoints import build_without_storage
+from physanimator.rendering.networks.checkpoints import build_without_storage
+from physanimator.rendering.networks.image_encoder import ImageEncoder, ImageEncoderConfiguration
+from physanimator.rendering.svd import NetworkConfiguration
 from physanimator.rendering.svd.autoencoder import build_autoencoder
-from physanimator.rendering.svd.configuration import NetworkConfiguration
 from physanimator.rendering.svd.controlnet import SketchControlNet
-from physanimator.rendering.svd.image_encoder import ImageEncoder, ImageEncoderConfiguration
 from physanimator.rendering.svd.svd_weights import ModelSizes
 from physanimator.rendering.svd.unet import SpatioTemporalUNet
 from safetensors.torch import save_file

@@ -7,15 +7,15 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import torch
-from physanimator.rendering.checkpoints import build_without_storage
-from physanimator.rendering.svd.image_encoder import ImageEncoder, ImageEncoderConfiguration
-from physanimator.rendering.tooncrafter.autoencoder import DualReferenceAutoencoder
-from physanimator.rendering.tooncrafter.configuration import (
+from physanimator.rendering.networks.checkpoints import build_without_storage
+from physanimator.rendering.networks.image_encoder import ImageEncoder, ImageEncoderConfiguration
+from physanimator.rendering.tooncrafter import (
     AutoencoderConfiguration,
     ResamplerConfiguration,
     SketchEncoderConfiguration,
     UNetConfiguration,
 )
+from physanimator.rendering.tooncrafter.autoencoder import DualReferenceAutoencoder
 from physanimator.rendering.tooncrafter.models import ModelSizes
 from physanimator.rendering.tooncrafter.resampler import ImageResampler
 from physanimator.rendering.tooncrafter.sketch_encoder import SketchEncoder

@@ -12,11 +12,10 @@ from typing import Any
 import numpy as np
 from aiohttp import ClientResponse, web
 from aiohttp.test_utils import TestClient, TestServer
-from physanimator.nodes.preview_routes import PreviewRoutes
+from physanimator.nodes.preview import PreviewBodies, PreviewStore, split_records
+from physanimator.nodes.preview.routes import PreviewRoutes
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.preview_records import split_records
-from physanimator.physics.preview_store import PreviewBodies, PreviewStore
 from physanimator.physics.scene import Body
 
 __all__ = ["PATIENCE", "SCENE", "Served", "bodies", "in_a_server", "served"]

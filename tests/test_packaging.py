@@ -17,7 +17,7 @@ import physanimator
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-DATA = ("physics/*.schema.json", "nodes/web/**/*", "workflows/**/*")
+DATA = ("physics/document/*.schema.json", "nodes/web/**/*", "workflows/**/*")
 DATA_SUFFIXES = {".css", ".html", ".jpg", ".js", ".json", ".md", ".png", ".svg", ".webp"}
 
 
@@ -87,7 +87,7 @@ def test_wheel_holds_all_data(names: set[str]) -> None:
     expected = {f"physanimator/{path.relative_to(ROOT).as_posix()}" for path in files}
     expected.discard("physanimator/workflows/example/README.md")
     assert {name for name in names if not name.endswith(".py")} == expected
-    assert "physanimator/physics/scene.schema.json" in names
+    assert "physanimator/physics/document/scene.schema.json" in names
     assert {name for name in names if name.startswith("physanimator/nodes/web/")}
     assert {f"physanimator/workflows/example/{name}" for name in ("illustration.png", "scene.json")} <= names
 
@@ -163,7 +163,7 @@ def test_the_install_script_leaves_a_cv2_that_works_alone(installed: str, tmp_pa
 def test_console_script(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         (name,) = (name for name in archive.namelist() if name.endswith("entry_points.txt"))
-        assert "physanimator = physanimator.__main__:main" in archive.read(name).decode()
+        assert "physanimator = physanimator.rendering.command.commands:main" in archive.read(name).decode()
 
 
 def test_readme_commands_are_found_by_continuous_integration() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ..physics.errors import InvalidInputError
+from ...physics.errors import InvalidInputError
 from .messages import tell_user
 
 __all__ = ["announce_batch", "free_memory"]

@@ -12,7 +12,7 @@ from functools import wraps
 from inspect import signature
 from typing import Any, NamedTuple
 
-from ..physics.errors import InvalidInputError
+from ...physics.errors import InvalidInputError
 from .literals import refusal
 from .running import sent_inputs
 

@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
-from ..physics.errors import InvalidInputError, PhysAnimatorError, require
+from ...physics.errors import InvalidInputError, PhysAnimatorError, require
 
 __all__ = ["PATH_FORMS", "boxes_of", "chosen", "keys_of", "numbers_of", "refusal", "times_of", "whole_numbers_of"]
 

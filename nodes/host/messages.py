@@ -47,7 +47,7 @@ def hint_of_pixel_art(node: Any, picture: Any) -> dict[str, list[str]]:
         node: the node's class, as ``execute`` has it; its input is off.
         picture: RGB or RGBA, shape [h, w, c].
     """
-    from ..rendering.pixel_art import pixel_art_hint
+    from ...rendering.composite import pixel_art_hint
 
     return tell_user(node, pixel_art_hint(picture, option="pixel_art"))
 

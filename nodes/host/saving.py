@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 from typing import NamedTuple
 
-from ..physics.errors import InvalidInputError
-from ..rendering.video import FORMATS
+from ...physics.errors import InvalidInputError
+from ...rendering.pictures import FORMATS
 
 __all__ = ["FILE_TYPES", "FRAMES", "Place", "check_prefix", "free_place"]
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError, require
-from ..rendering.transparency import over
+from ...physics.errors import InvalidInputError, require
+from ...rendering.pictures import over
 
 if TYPE_CHECKING:
     import torch

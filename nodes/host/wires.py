@@ -13,11 +13,9 @@ import numpy as np
 from comfy_api.latest import io
 from numpy.typing import NDArray
 
-from ..physics.automatic import Attachment
-from ..physics.collision import Collider, Contact
-from ..physics.mesh import TriangleMesh
-from ..physics.motion import Motion
-from ..physics.scene import Body, Scene
+from ...physics.mesh import TriangleMesh
+from ...physics.motion import Motion
+from ...physics.scene import Attachment, Body, Collider, Contact, Scene
 
 __all__ = [
     "BodiesWire",

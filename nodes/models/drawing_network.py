@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
-from ..rendering.drawings.files import DRAWING_FILES
-from .computing import PRECISIONS, dtype_of
+from ...rendering.sketch.drawings import DRAWING_FILES
+from ..host import PRECISIONS, dtype_of
 from .networks import kept_networks
 
 if TYPE_CHECKING:
@@ -72,9 +72,9 @@ def network_sketch(picture: NDArray[Any], choice: dict[str, Any], **kept: Any) -
     """
     from comfy import model_management
 
-    from ..physics.errors import InvalidInputError
-    from ..rendering.drawings.extractor import STRIP_PIXELS, draw_sketch
-    from ..rendering.drawings.models import load_drawer
+    from ...physics.errors import InvalidInputError
+    from ...rendering.sketch.drawings.extractor import STRIP_PIXELS, draw_sketch
+    from ...rendering.sketch.drawings.models import load_drawer
 
     path = _file(choice["model"])
     if path is None:

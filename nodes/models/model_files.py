@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..rendering.interpolation import ModelFile
+    from ...rendering.inbetweens import ModelFile
 
 __all__ = ["SKETCH_VIDEO", "find_model_file", "lvcd_choices", "lvcd_file", "svd_choices", "svd_file"]
 

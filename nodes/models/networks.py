@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import torch
     from torch import nn
 
-    from ..rendering.svd.placement import Placement
+    from ...rendering.networks.placement import Placement
 
 __all__ = ["Networks", "kept_networks"]
 
@@ -167,7 +167,7 @@ def _detached(patcher: Any, everything: bool) -> None:
 
 @cache
 def _host_placement() -> Any:
-    from ..rendering.svd.placement import Placement
+    from ...rendering.networks.placement import Placement
 
     @dataclass(frozen=True, kw_only=True)
     class HostPlacement(Placement):

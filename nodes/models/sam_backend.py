@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
-from ..physics.errors import InvalidInputError
-from .computing import PRECISIONS, dtype_of
+from ...physics.errors import InvalidInputError
+from ..host import PRECISIONS, dtype_of
 from .networks import kept_networks
 from .sam_files import missing_sam_model, sam_choices, sam_file
 
 if TYPE_CHECKING:
-    from ..rendering.sam.segmenter import SamSegmenter
+    from ...rendering.segmentation.sam.segmenter import SamSegmenter
 
 __all__ = ["missing_sam_files", "sam_inputs", "sam_network"]
 
@@ -53,8 +53,8 @@ def sam_network(choice: dict[str, Any]) -> Iterator[SamSegmenter]:
     """
     from comfy import model_management
 
-    from ..rendering.sam.segmenter import SamSegmenter
-    from ..rendering.sam.weights import load_network
+    from ...rendering.segmentation.sam.segmenter import SamSegmenter
+    from ...rendering.segmentation.sam.weights import load_network
 
     path = sam_file(choice["sam_model"])
     if path is None:

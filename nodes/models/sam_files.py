@@ -29,7 +29,7 @@ def sam_file(choice: str) -> Path | None:
 
 def missing_sam_model(choice: str) -> str:
     """One sentence for each family: what to put where, and from which page."""
-    from ..rendering.sam.families import where_to_get
+    from ...rendering.segmentation.sam import where_to_get
 
     return f"{choice} is missing. {where_to_get('models/' + _KIND)}"
 

@@ -11,22 +11,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..rendering.still_parts import keep_still_parts, moving_region
-from ..rendering.svd.frame_layout import CLIP_FRAMES
-from ..rendering.svd.options import SketchVideoOptions
-from .computing import dtype_of
+from ...rendering.composite import keep_still_parts, moving_region
+from ...rendering.svd import CLIP_FRAMES, SketchVideoOptions
+from ..host import dtype_of, host_preview, host_progress, pictures_of
 from .model_files import SKETCH_VIDEO, lvcd_file, svd_file
 from .networks import Networks, kept_networks
-from .progress import host_preview, host_progress
 from .sketch_video_inputs import AREAS
-from .tensors import pictures_of
 
 if TYPE_CHECKING:
     import torch
 
-    from ..rendering.composite import LayeredRenderer
-    from ..rendering.svd.models import SketchVideoModels
-    from ..rendering.svd.sampler import SampledStep
+    from ...rendering.composite import LayeredRenderer
+    from ...rendering.svd.models import SketchVideoModels
+    from ...rendering.svd.sampler import SampledStep
 
 __all__ = ["missing_sketch_video_files", "sketch_video_frames"]
 
@@ -44,9 +41,9 @@ def sketch_video_frames(image: FloatImage, layers: LayeredRenderer, choice: dict
     import torch
     from comfy import model_management
 
-    from ..physics.errors import require
-    from ..rendering.svd.memory import peak_memory
-    from ..rendering.svd.renderer import SketchVideoRenderer
+    from ...physics.errors import require
+    from ...rendering.networks.memory import peak_memory
+    from ...rendering.svd.renderer import SketchVideoRenderer
 
     files = _files(choice)
     sketches = pictures_of(choice["sketches"], name="sketches")
@@ -85,7 +82,7 @@ def missing_sketch_video_files(choice: dict[str, Any]) -> str:
 
 def _files(choice: dict[str, Any]) -> tuple[Path, Path]:
     """The chosen model files."""
-    from ..physics.errors import InvalidInputError
+    from ...physics.errors import InvalidInputError
 
     svd, lvcd = svd_file(choice["svd_model"]), lvcd_file(choice["lvcd_model"])
     if svd is None or lvcd is None:
@@ -94,7 +91,7 @@ def _files(choice: dict[str, Any]) -> tuple[Path, Path]:
 
 
 def _networks(svd: Path, lvcd: Path, dtype: torch.dtype) -> Networks[SketchVideoModels]:
-    from ..rendering.svd.models import load_models
+    from ...rendering.svd.models import load_models
 
     key = svd, svd.stat().st_mtime, lvcd, lvcd.stat().st_mtime, dtype
     return kept_networks("sketch video", key, lambda: load_models(svd, lvcd, dtype=dtype))

@@ -6,9 +6,8 @@ from typing import Any
 
 from comfy_api.latest import io
 
-from ..rendering.svd.frame_layout import CLIP_FRAMES
-from ..rendering.svd.options import SketchVideoOptions
-from .computing import PRECISIONS
+from ...rendering.svd import CLIP_FRAMES, SketchVideoOptions
+from ..host import PRECISIONS
 from .model_files import lvcd_choices, svd_choices
 
 __all__ = ["AREAS", "sketch_video_inputs"]

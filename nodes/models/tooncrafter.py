@@ -6,21 +6,20 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from ..physics.errors import InvalidInputError, require
-from ..rendering.tooncrafter.options import InterpolationOptions
-from .computing import dtype_of
+from ...physics.errors import InvalidInputError, require
+from ...rendering.tooncrafter import InterpolationOptions
+from ..host import dtype_of, host_preview, host_progress
 from .networks import Networks, kept_networks
-from .progress import host_preview, host_progress
 from .tooncrafter_files import TOONCRAFTER, model_file, sketch_model_file
 from .tooncrafter_inputs import AREAS
 
 if TYPE_CHECKING:
     import torch
 
-    from ..rendering.tooncrafter.conditioning import Tokens
-    from ..rendering.tooncrafter.interpolator import ToonCrafterInterpolator
-    from ..rendering.tooncrafter.models import InterpolationModels
-    from ..rendering.tooncrafter.sampler import SampledStep
+    from ...rendering.tooncrafter.conditioning import Tokens
+    from ...rendering.tooncrafter.interpolator import ToonCrafterInterpolator
+    from ...rendering.tooncrafter.models import InterpolationModels
+    from ...rendering.tooncrafter.sampler import SampledStep
 
 __all__ = ["missing_tooncrafter_files", "tooncrafter_backend"]
 
@@ -35,7 +34,7 @@ def tooncrafter_backend(choice: dict[str, Any]) -> ToonCrafterInterpolator:
     """The backend with the chosen options and files, and the host's progress, preview, memory and encoders."""
     from comfy import model_management
 
-    from ..rendering.tooncrafter.interpolator import ToonCrafterInterpolator
+    from ...rendering.tooncrafter.interpolator import ToonCrafterInterpolator
 
     device = model_management.get_torch_device()
     networks = _networks(choice, device)
@@ -77,7 +76,7 @@ def _options(choice: dict[str, Any]) -> InterpolationOptions:
 
 
 def _networks(choice: dict[str, Any], device: torch.device) -> Networks[InterpolationModels]:
-    from ..rendering.tooncrafter.models import load_models
+    from ...rendering.tooncrafter.models import load_models
 
     model, sketch = model_file(choice["tooncrafter_model"]), None
     if model is None:
@@ -93,7 +92,7 @@ def _networks(choice: dict[str, Any], device: torch.device) -> Networks[Interpol
 
 def _with_kept_prompt(models: InterpolationModels, choice: dict[str, Any]) -> InterpolationModels:
     """With the empty prompt that an earlier run has kept beside the model's file, where that file has none."""
-    from ..rendering.tooncrafter.kept_prompt import kept_prompt
+    from ...rendering.tooncrafter.kept_prompt import kept_prompt
 
     model = model_file(choice["tooncrafter_model"])
     if models.empty_prompt is not None or model is None:
@@ -115,7 +114,7 @@ def _prompts(choice: dict[str, Any], models: InterpolationModels) -> tuple[torch
     require("clip", f"embeddings of shape {shape}", shape == expected, f"Stable Diffusion 2.1's, of shape {expected}")
     model = model_file(choice["tooncrafter_model"])
     if models.empty_prompt is None and model is not None:
-        from ..rendering.tooncrafter.kept_prompt import keep_prompt
+        from ...rendering.tooncrafter.kept_prompt import keep_prompt
 
         keep_prompt(model, empty)
     return prompt[:, : config.text_tokens], empty
@@ -127,8 +126,8 @@ def _look(clip_vision: Any) -> Callable[[Any], Tokens] | None:
         return None
     import torch
 
-    from ..rendering.svd.image_encoder import square_picture
-    from ..rendering.tooncrafter.conditioning import Tokens
+    from ...rendering.networks.image_encoder import square_picture
+    from ...rendering.tooncrafter.conditioning import Tokens
 
     def look(pictures: Any) -> Tokens:
         batch = torch.stack([*pictures, torch.zeros_like(pictures[0])])

@@ -6,8 +6,8 @@ from typing import Any
 
 from comfy_api.latest import io
 
-from ..rendering.tooncrafter.options import SOLVERS, InterpolationOptions
-from .computing import PRECISIONS
+from ...rendering.tooncrafter import SOLVERS, InterpolationOptions
+from ..host import PRECISIONS
 from .tooncrafter_files import model_choices, sketch_model_choices
 
 __all__ = ["AREAS", "tooncrafter_inputs"]

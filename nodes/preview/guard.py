@@ -8,9 +8,9 @@ from collections.abc import Awaitable, Callable
 
 from aiohttp import web
 
-from ..physics.errors import PhysAnimatorError
-from ..physics.preview_limits import MAX_REQUEST_BYTES
-from .preview_hosts import HOSTS_VARIABLE, Authority, authority_of, is_own_name, origin_of, told_origin
+from ...physics.errors import PhysAnimatorError
+from .hosts import HOSTS_VARIABLE, Authority, authority_of, is_own_name, origin_of, told_origin
+from .limits import MAX_REQUEST_BYTES
 
 __all__ = ["BUSY", "KEEP_NOTHING", "Guard", "body_of", "hung_up", "refused"]
 

@@ -9,8 +9,8 @@ import threading
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
 
-from ..physics.errors import InvalidInputError
-from ..physics.preview_store import PreviewBodies
+from ...physics.errors import InvalidInputError
+from .store import PreviewBodies
 
 __all__ = ["Plates"]
 
@@ -56,9 +56,9 @@ def _give_way() -> None:
 def _png_of(stored: PreviewBodies) -> bytes:
     import cv2
 
-    from ..rendering.clean_plate import clean_plate
-    from ..rendering.pixels import as_float, as_uint8
-    from ..rendering.sprite_layers import sprite_plate
+    from ...rendering.composite import sprite_plate
+    from ...rendering.pictures import as_float, as_uint8
+    from ...rendering.plate import clean_plate
 
     if stored.picture is None or stored.hole is None:
         raise InvalidInputError("the illustration must be connected to image. Got: none")

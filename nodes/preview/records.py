@@ -13,12 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .leading import lead
-from .particles import Particles, all_particles
-from .preview_limits import MAX_SHOWN_PARTICLES
-from .preview_store import PreviewBodies
-from .scene import Scene
-from .strokes import STROKE_KINDS
+from ...physics.forces import STROKE_KINDS, Particles, all_particles
+from ...physics.rig import lead
+from ...physics.scene import Scene
+from .limits import MAX_SHOWN_PARTICLES
+from .store import PreviewBodies
 
 __all__ = ["END", "ERROR", "FRAME", "HEADER", "FrameEncoder", "encode_mesh", "record", "split_records"]
 

@@ -7,12 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from .checks import is_whole
-from .errors import InvalidInputError, require
-from .json_text import read_json
-from .limits import MAX_SIDE
-from .loop import loop_frames
-from .preview_limits import (
+from ...physics.checks import is_whole
+from ...physics.document import read_json
+from ...physics.errors import InvalidInputError, require
+from ...physics.limits import MAX_SIDE
+from ...physics.scene import Body, Scene
+from ...physics.simulation import loop_frames
+from .limits import (
     MAX_ANSWER_BYTES,
     MAX_EDITOR_NAME,
     MAX_FRAMES,
@@ -33,7 +34,6 @@ from .preview_limits import (
     MAX_REQUEST_BYTES,
     MAX_VALUES,
 )
-from .scene import Body, Scene
 
 __all__ = ["PreviewRequest", "is_key", "preview_scene", "read_request"]
 
@@ -99,10 +99,8 @@ def preview_scene(request: PreviewRequest, bodies: Sequence[Body]) -> tuple[Scen
         SceneError: a value of the scene is wrong.
         InvalidInputError: it is more than a preview shows.
     """
-    from .holds import region_work
-    from .scene_checking import check_document
-    from .scene_json import mask_pixels
-    from .scene_over import checked_scene_over
+    from ...physics.document import check_document, checked_scene_over, mask_pixels
+    from ...physics.scene import region_work
 
     triangles = sum(len(body.mesh.triangles) for body in bodies)
     _require_preview("triangles", triangles, MAX_PREVIEW_TRIANGLES, "mesh the bodies with a larger spacing")
@@ -133,7 +131,7 @@ def _require_short_outlines(scene: Scene) -> None:
     """Refuse colliders whose outlines are so long or so ragged that to prepare them would take seconds."""
     if scene.contact is None or not scene.colliders:
         return
-    from .outlines import count_outlines, spacing_of
+    from ...physics.scene import count_outlines, spacing_of
 
     points, crossings, crowding = count_outlines(scene, spacing_of(scene.bodies))
     remedy = "draw the colliders with fewer corners, or mesh more coarsely"

@@ -18,21 +18,21 @@ from typing import Any
 
 from aiohttp import web
 
-from ..physics.errors import Cancelled, SimulationError
-from ..physics.interruption import interruptible
-from ..physics.preview_limits import MAX_EDITORS, MAX_REQUEST_BYTES
-from ..physics.preview_queue import RecordQueue
-from ..physics.preview_records import encode_mesh
-from ..physics.preview_requests import PreviewRequest, is_key, preview_scene, read_request
-from ..physics.preview_session import PreviewRun, PreviewRuns, stream
-from ..physics.preview_store import PreviewBodies, PreviewStore
-from .preview_guard import BUSY, KEEP_NOTHING, Guard, body_of, hung_up, refused
-from .preview_plates import Plates
+from ...physics.errors import Cancelled, SimulationError
+from ...physics.interruption import interruptible
+from .guard import BUSY, KEEP_NOTHING, Guard, body_of, hung_up, refused
+from .limits import MAX_EDITORS, MAX_REQUEST_BYTES
+from .plates import Plates
+from .queue import RecordQueue
+from .records import encode_mesh
+from .requests import PreviewRequest, is_key, preview_scene, read_request
+from .session import PreviewRun, PreviewRuns, stream
+from .store import PreviewBodies, PreviewStore
 
 __all__ = ["PreviewRoutes"]
 
 _FORGOTTEN = "The server does not hold these bodies any more: run the graph once, then edit on."
-_EXAMPLE = Path(__file__).resolve().parents[1] / "workflows" / "example" / "illustration.png"
+_EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example" / "illustration.png"
 _WRITE_SECONDS = 60.0
 _POLL_SECONDS = 0.25
 _CHECK_SECONDS = 20.0

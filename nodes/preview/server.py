@@ -6,7 +6,7 @@ import logging
 import sys
 import threading
 
-from ..physics.preview_store import PreviewStore
+from .store import PreviewStore
 
 __all__ = ["STORE", "register_routes", "warm_up"]
 
@@ -24,7 +24,7 @@ def register_routes() -> None:
     if server is None or _registered.is_set():
         return
     _registered.set()
-    from .preview_routes import PreviewRoutes
+    from .routes import PreviewRoutes
 
     PreviewRoutes(STORE, warm_up=warm_up).register(server.routes)
 
@@ -43,7 +43,7 @@ def warm_up(*, contact: bool = False) -> None:
 
 
 def _start_solver(wanted: list[bool]) -> None:
-    from ..physics.preview_session import warm_up
+    from .session import warm_up
 
     try:
         for contact in wanted:

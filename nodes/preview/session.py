@@ -10,16 +10,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import Cancelled, PhysAnimatorError
-from .interruption import interruptible
-from .kernel_preparation import compile_aside, simulated_aside
-from .loop import first_frame, periodic
-from .preparation import Preparations, Prepare, Prepared
-from .preview_limits import MAX_EDITORS, MAX_PREVIEW_WORK
-from .preview_queue import RecordQueue
-from .preview_records import END, ERROR, FRAME, HEADER, FrameEncoder, record
-from .sample_simulations import simulate_samples
-from .scene import Scene
+from ...physics.assembly import Preparations, Prepare, Prepared
+from ...physics.errors import Cancelled, PhysAnimatorError
+from ...physics.interruption import interruptible
+from ...physics.scene import Scene
+from ...physics.simulation import compile_aside, first_frame, periodic, simulate_samples, simulated_aside
+from .limits import MAX_EDITORS, MAX_PREVIEW_WORK
+from .queue import RecordQueue
+from .records import END, ERROR, FRAME, HEADER, FrameEncoder, record
 
 __all__ = ["SUPERSEDED", "PreviewRun", "PreviewRuns", "stream", "warm_up"]
 
@@ -166,7 +164,7 @@ def stream(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) -> No
 
 def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) -> bytes:
     """Put everything but the last record, which is returned."""
-    from .simulation import simulate
+    from ...physics.simulation import simulate
 
     begun, largest = time.perf_counter(), 0.0
     prepared = run.wants
@@ -210,7 +208,7 @@ def warm_up(*, contact: bool = False) -> None:
     Args:
         contact: the kernels for contact instead.
     """
-    from .taichi_runtime import keep_compiled
+    from ...physics.runtime import keep_compiled
 
     compile_aside(contact=contact)
     with simulated_aside(contact=contact):

@@ -12,9 +12,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .preview_limits import MAX_STORED_BYTES
-from .scene import Body
-from .scene_encoding import encode
+from ...physics.document import encode
+from ...physics.scene import Body
+from .limits import MAX_STORED_BYTES
 
 __all__ = ["PreviewBodies", "PreviewStore"]
 

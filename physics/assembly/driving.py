@@ -7,13 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from .leading import lead
-from .particles import particles_at
-from .rig import RigPoint
-from .scene import Scene
-from .solver import CALM, Drive, WindTable
-from .stepping import TICK
-from .wind import eddies, uniform
+from ..forces import eddies, particles_at, uniform
+from ..rig import RigPoint, lead
+from ..scene import Scene
+from ..solver import CALM, TICK, Drive, WindTable
 
 __all__ = ["drive"]
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .boundary import boundary_edges
-from .outlines import LEAST_SPACING
-from .scene import Scene
+from ..mesh import boundary_edges
+from ..scene import LEAST_SPACING, Scene
 from .system import System
 
 __all__ = ["outline_spacing"]

@@ -9,12 +9,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from .interruption import checkpoint
-from .mesh import TriangleMesh
-from .paint import QUANTITIES, Paint
-from .painting import mask_means, painted_by_means
-from .rig import MaskRegion, Polygon
-from .scene import Body
+from ..interruption import checkpoint
+from ..material import mask_means, painted_by_means
+from ..mesh import TriangleMesh
+from ..rig import MaskRegion, Polygon
+from ..scene import QUANTITIES, Body, Paint
 
 __all__ = ["with_paint"]
 

@@ -7,14 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .errors import SimulationError, require
-from .limits import DEFAULT_MINUTES, MAX_OUTLINE_POINTS, MOST_MINUTES
-from .outline_spacing import outline_spacing
-from .outlines import MAX_OUTLINE_CROSSINGS, OutlineCounts, count_outlines
-from .particles import most_alive
-from .scene import Scene
-from .schedule import schedule
-from .stepping import TICK
+from ..errors import SimulationError, require
+from ..forces import most_alive
+from ..limits import DEFAULT_MINUTES, MAX_OUTLINE_POINTS, MOST_MINUTES
+from ..scene import MAX_OUTLINE_CROSSINGS, OutlineCounts, Scene, count_outlines
+from ..solver import TICK, schedule
+from .outlines import outline_spacing
 from .sway import SwayPart
 from .system import System, assemble
 

@@ -12,13 +12,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .elasticity import RestShape
-from .holds import Holds, holds_of
-from .interruption import checkpoint
-from .paint import Paint
+from ..interruption import checkpoint
+from ..material import RestShape
+from ..rig import MaskRegion, RigRegion
+from ..scene import Body, Holds, Paint, Scene, holds_of
 from .prestress import unsagged
-from .rig import MaskRegion, RigRegion
-from .scene import Body, Scene
 from .system import System, assemble
 
 __all__ = ["AtRest", "Preparations", "Prepare", "Prepared"]

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .elasticity import RestShape, deformation_gradients, forces, rotations, stress
-from .errors import SimulationError
-from .interruption import checkpoint
-from .scene import Scene
+from ..errors import SimulationError
+from ..interruption import checkpoint
+from ..material import RestShape, deformation_gradients, forces, rotations, stress
+from ..scene import Scene
 from .system import System
 
 if TYPE_CHECKING:

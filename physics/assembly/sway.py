@@ -13,12 +13,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .elasticity import RestShape, lame_parameters, lumped_masses, rest_shape, stiffness_matrix
-from .interruption import checkpoint
-from .mesh import TriangleMesh
-from .modes import highest_eigenvalue, lowest_eigenvalue
-from .scene import Body
-from .stepping import SAFETY, TICK, frequency_limits, vertex_frequencies
+from ..interruption import checkpoint
+from ..material import (
+    RestShape,
+    highest_eigenvalue,
+    lame_parameters,
+    lowest_eigenvalue,
+    lumped_masses,
+    rest_shape,
+    stiffness_matrix,
+)
+from ..mesh import TriangleMesh
+from ..scene import Body
+from ..solver import SAFETY, TICK, frequency_limits, vertex_frequencies
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

@@ -9,14 +9,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .elasticity import RestShape, lame_parameters, lumped_masses, stiffness_matrix
-from .errors import SimulationError
-from .holds import Holds, holds_of
-from .mesh import TriangleMesh
-from .modes import highest_eigenvalue
+from ..errors import SimulationError
+from ..material import RestShape, highest_eigenvalue, lame_parameters, lumped_masses, stiffness_matrix
+from ..mesh import TriangleMesh
+from ..scene import Body, Holds, Scene, holds_of
+from ..solver import frequency_limits, substeps, vertex_frequencies
 from .painted_bodies import with_paint
-from .scene import Body, Scene
-from .stepping import frequency_limits, substeps, vertex_frequencies
 from .sway import SwayPart, resolve_stiffness
 
 __all__ = ["System", "assemble"]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .elasticity import RestShape
+from ..material import RestShape
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

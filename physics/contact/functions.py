@@ -6,8 +6,8 @@
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
-from .contact_surface import CONTACTS, STEPS
-from .stepping import TICK
+from ..solver import TICK
+from .surface import CONTACTS, STEPS
 
 __all__ = ["ContactOptions", "build_contact_functions"]
 

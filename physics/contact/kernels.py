@@ -13,15 +13,12 @@ are found and put apart by one of them. The result is the same to the last bit w
 
 from typing import Any, NamedTuple
 
-from .contact_functions import ContactOptions, build_contact_functions
-from .contact_phases import build_contact_phases
-from .contact_search import build_contact_search
-from .contact_surface import CONTACTS, GOOD_FOR, LEFT, STEPS, TOUCHING, ContactSurface
-from .contact_team import FREE, Team
-from .kernel_functions import build_functions
-from .kernels import array_types
-from .solver_arrays import Drive, Solid, State, WindTable
-from .stepping import TICK
+from ..solver import TICK, Drive, Solid, State, WindTable, array_types, build_functions
+from .functions import ContactOptions, build_contact_functions
+from .phases import build_contact_phases
+from .search import build_contact_search
+from .surface import CONTACTS, GOOD_FOR, LEFT, STEPS, TOUCHING, ContactSurface
+from .team import FREE, Team
 
 __all__ = ["build_contact_kernel"]
 

@@ -9,7 +9,7 @@ Edges go into a spatial hash by their middles; vertices that are near no box aro
 from types import SimpleNamespace
 from typing import Any
 
-from .contact_surface import CANDIDATES, FORESEEN, LONGEST, REACH, SPACING
+from .surface import CANDIDATES, FORESEEN, LONGEST, REACH, SPACING
 
 __all__ = ["INSIDE", "SLACK", "build_contact_listing"]
 

@@ -6,9 +6,8 @@
 from types import SimpleNamespace
 from typing import Any
 
-from .contact_team import FLAGS, FREE, LARGE, LINE
-from .kernels import BLOCKS_AT_ONCE, SMALL, VERTICES_AT_ONCE
-from .stepping import TICK
+from ..solver import BLOCKS_AT_ONCE, SMALL, TICK, VERTICES_AT_ONCE
+from .team import FLAGS, FREE, LARGE, LINE
 
 __all__ = ["build_contact_phases"]
 

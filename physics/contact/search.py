@@ -12,8 +12,9 @@ A search has a beginning and an end that one thread sees to, and pieces of point
 from types import SimpleNamespace
 from typing import Any
 
-from .contact_listing import INSIDE, SLACK, build_contact_listing
-from .contact_surface import (
+from ..solver import SPEED_FLOOR, TICK
+from .listing import INSIDE, SLACK, build_contact_listing
+from .surface import (
     CONTACTS,
     ENTERED,
     FASTEST,
@@ -31,8 +32,6 @@ from .contact_surface import (
     TOUCHING,
     WALKED,
 )
-from .kernel_functions import SPEED_FLOOR
-from .stepping import TICK
 
 __all__ = ["build_contact_search"]
 

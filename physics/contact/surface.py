@@ -7,13 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .boundary import boundary_edges
-from .collision import Contact
-from .interruption import checkpoint
-from .outline_spacing import outline_spacing
-from .outlines import crossed, outlines, segment_distances, window_of, within_reach
-from .scene import Scene
-from .system import System
+from ..assembly import System, outline_spacing
+from ..interruption import checkpoint
+from ..mesh import boundary_edges
+from ..scene import Contact, Scene, crossed, outlines, segment_distances, window_of, within_reach
 
 __all__ = [
     "CANDIDATES",

@@ -7,11 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .alignment import LANES
-from .contact_surface import POINTS_AT_ONCE
-from .kernels import BLOCKS_AT_ONCE, VERTICES_AT_ONCE
-from .schedule import TRIANGLES_PER_THREAD
-from .solver_arrays import Solid
+from ..runtime import LANES
+from ..solver import BLOCKS_AT_ONCE, TRIANGLES_PER_THREAD, VERTICES_AT_ONCE, Solid
+from .surface import POINTS_AT_ONCE
 
 __all__ = ["FLAGS", "FREE", "LARGE", "LINE", "Pieces", "Team", "pieces_of", "team_for"]
 

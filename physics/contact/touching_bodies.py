@@ -17,19 +17,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import taichi_runtime
-from .alignment import LANES
-from .collision import Contact
-from .contact_kernels import build_contact_kernel
-from .contact_surface import ContactSurface, contact_surface
-from .contact_team import Pieces, pieces_of, team_for
-from .drive import drive
-from .elasticity import RestShape
-from .pace import Pace
-from .scene import Scene
-from .schedule import most_threads
-from .solver import Drive, Solid, State
-from .system import System
+from ..assembly import System, drive
+from ..material import RestShape
+from ..runtime import LANES, taichi_runtime
+from ..scene import Contact, Scene
+from ..solver import Drive, Pace, Solid, State, most_threads
+from .kernels import build_contact_kernel
+from .surface import ContactSurface, contact_surface
+from .team import Pieces, pieces_of, team_for
 
 __all__ = ["TouchingBodies"]
 

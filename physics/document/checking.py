@@ -11,9 +11,9 @@ from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-from .errors import SceneError, shown
-from .scene_encoding import SCENE_VERSION
-from .scene_schema import scene_schema
+from ..errors import SceneError, shown
+from .encoding import SCENE_VERSION
+from .schema import scene_schema
 
 if TYPE_CHECKING:
     from jsonschema.exceptions import ValidationError

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from .collision import Collider, Contact
-from .scene_encoding import COLLIDER_TYPES
+from ..scene import Collider, Contact
+from .encoding import COLLIDER_TYPES
 from .schema_blocks import Schema, choice_of, number, object_of
 
 __all__ = ["contact_definitions"]

@@ -7,16 +7,24 @@ from typing import Any
 
 import numpy as np
 
-from .collision import Collider, Contact
-from .material import Material
-from .paint import Paint
-from .query_points import QueryPoint
-from .rig import Circle, Combined, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
-from .rig_turns import Pulse, Rotation, Squash, Swing
-from .run_lengths import runs_of
-from .scene import Body, Scene
-from .strokes import EnergyStroke
-from .wind import Wind
+from ..forces import EnergyStroke, Wind
+from ..material import Material
+from ..mesh import runs_of
+from ..rig import (
+    Circle,
+    Combined,
+    KeyedPath,
+    MaskRegion,
+    Pinned,
+    Polygon,
+    Pulse,
+    RigPoint,
+    Rotation,
+    Squash,
+    Swing,
+    Wave,
+)
+from ..scene import Body, Collider, Contact, Paint, QueryPoint, Scene
 
 __all__ = ["COLLIDER_TYPES", "MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "encode", "scene_to_dict"]
 

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from .errors import InvalidInputError
-from .material import Material
-from .material import preset as preset_of
-from .mesh import TriangleMesh
-from .scene import Scene
+from ..errors import InvalidInputError
+from ..material import Material
+from ..material import preset as preset_of
+from ..mesh import TriangleMesh
+from ..scene import Scene
 
 __all__ = ["given_scene", "materials_of"]
 

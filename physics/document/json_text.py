@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from .errors import SceneError
-from .limits import MAX_DOCUMENT_BYTES
+from ..errors import SceneError
+from ..limits import MAX_DOCUMENT_BYTES
 
 __all__ = ["read_json", "write_json"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .scene_encoding import SCENE_VERSION
+from .encoding import SCENE_VERSION
 
 __all__ = ["READABLE_VERSIONS", "migrated"]
 

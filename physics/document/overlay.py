@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from .scene import Body, Scene
-from .scene_checking import check_document
+from ..scene import Body, Scene
+from .checking import check_document
 from .scene_json import scene_from_checked
 
 __all__ = ["checked_scene_over", "scene_over"]

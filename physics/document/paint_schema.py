@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from .limits import MAX_BODIES, MAX_PARTS
-from .paint import LEAST_FACTOR, MOST_FACTOR, Paint
-from .query_points import QueryPoint
-from .scene_encoding import COLLIDER_TYPES
+from ..limits import MAX_BODIES, MAX_PARTS
+from ..scene import LEAST_FACTOR, MOST_FACTOR, Paint, QueryPoint
+from .encoding import COLLIDER_TYPES
 from .schema_blocks import ANY_SIZE, Schema, choice_of, number, object_of, whole_number
 
 __all__ = ["paint_definitions"]

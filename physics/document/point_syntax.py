@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ..physics.errors import InvalidInputError, require, shown
-from ..physics.limits import MAX_DOCUMENT_BYTES
+from ..errors import InvalidInputError, require, shown
+from ..limits import MAX_DOCUMENT_BYTES
 
 __all__ = ["POINT_FORMS", "decoded"]
 

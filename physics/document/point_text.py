@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ..physics.errors import InvalidInputError, require, shown
-from ..physics.limits import MAX_PARTS, MAX_POINTS, MAX_QUERY_POINTS
-from ..physics.query_points import QueryPoint
-from .point_text import POINT_FORMS, decoded
+from ..errors import InvalidInputError, require, shown
+from ..limits import MAX_PARTS, MAX_POINTS, MAX_QUERY_POINTS
+from ..scene import QueryPoint
+from .point_syntax import POINT_FORMS, decoded
 
 __all__ = ["QueryPoint", "parse_points", "parse_polyline", "require_pixels"]
 
@@ -198,8 +198,8 @@ def _from_prompt(data: Mapping[str, Any]) -> list[QueryPoint]:
 
 
 def _from_document(data: Mapping[str, Any], width: int, height: int) -> list[QueryPoint]:
-    from ..physics.scene_checking import check_document
-    from ..physics.scene_json import query_points_of
+    from .checking import check_document
+    from .scene_json import query_points_of
 
     document = check_document(dict(data))
     scale = (width / document["width"], height / document["height"], 1.0)

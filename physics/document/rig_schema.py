@@ -2,10 +2,26 @@
 
 from __future__ import annotations
 
-from .limits import LARGEST, MAX_BODIES, MAX_MASK_PIXELS, MAX_POINTS, MAX_SIDE
-from .rig import MOST_COMBINED, Circle, Combined, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
-from .rig_turns import EASINGS, MOST_DEGREES, MOST_STRETCH, Pulse, Rotation, Squash, Swing
-from .scene_encoding import MOTION_TYPES, REGION_TYPES
+from ..limits import LARGEST, MAX_BODIES, MAX_MASK_PIXELS, MAX_POINTS, MAX_SIDE
+from ..rig import (
+    EASINGS,
+    MOST_COMBINED,
+    MOST_DEGREES,
+    MOST_STRETCH,
+    Circle,
+    Combined,
+    KeyedPath,
+    MaskRegion,
+    Pinned,
+    Polygon,
+    Pulse,
+    RigPoint,
+    Rotation,
+    Squash,
+    Swing,
+    Wave,
+)
+from .encoding import MOTION_TYPES, REGION_TYPES
 from .schema_blocks import (
     ABOVE_0,
     ANY_SIZE,

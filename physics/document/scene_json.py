@@ -13,24 +13,19 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from .collision import Collider, Contact
-from .errors import InvalidInputError, SceneError
+from ..errors import InvalidInputError, SceneError
+from ..forces import EnergyStroke, Wind
+from ..limits import MAX_MASK_PIXELS
+from ..material import Material, preset
+from ..mesh import TriangleMesh, mask_of
+from ..points import Scale
+from ..rig import Combined, MaskRegion, RigPoint
+from ..scene import Body, Collider, Contact, Paint, QueryPoint, Scene
+from .checking import check_document, join_path
+from .encoding import COLLIDER_TYPES, MOTION_TYPES, REGION_TYPES, SCENE_VERSION, scene_to_dict
 from .json_text import read_json, write_json
-from .limits import MAX_MASK_PIXELS
-from .material import Material, preset
-from .mesh import TriangleMesh
-from .paint import Paint
-from .points import Scale
-from .query_points import QueryPoint
-from .rig import Combined, MaskRegion, RigPoint
-from .run_lengths import mask_of
-from .scene import Body, Scene
-from .scene_checking import check_document, join_path
-from .scene_encoding import COLLIDER_TYPES, MOTION_TYPES, REGION_TYPES, SCENE_VERSION, scene_to_dict
-from .scene_migration import migrated
-from .scene_schema import scene_schema
-from .strokes import EnergyStroke
-from .wind import Wind
+from .migration import migrated
+from .schema import scene_schema
 
 __all__ = [
     "SCENE_VERSION",

@@ -5,8 +5,8 @@ Units stand in square brackets in each title. Defaults are those of the dataclas
 
 from __future__ import annotations
 
-from .contact_schema import contact_definitions
-from .limits import (
+from ..forces import FALLOFFS, STROKE_KINDS, EnergyStroke, Wind
+from ..limits import (
     LARGEST,
     MAX_BODIES,
     MAX_COLLIDERS,
@@ -22,13 +22,14 @@ from .limits import (
     MAX_VERTICES,
     STIFFEST,
 )
-from .material import PRESETS, Material
+from ..material import PRESETS, Material
+from ..rig import MOST_DEGREES, MOST_STRETCH
+from ..scene import Body, Scene
+from .contact_schema import contact_definitions
+from .encoding import SCENE_VERSION
+from .migration import READABLE_VERSIONS
 from .paint_schema import paint_definitions
 from .rig_schema import rig_definitions
-from .rig_turns import MOST_DEGREES, MOST_STRETCH
-from .scene import Body, Scene
-from .scene_encoding import SCENE_VERSION
-from .scene_migration import READABLE_VERSIONS
 from .schema_blocks import (
     ABOVE_0,
     ANY_SIZE,
@@ -41,8 +42,6 @@ from .schema_blocks import (
     pair_of_numbers,
     whole_number,
 )
-from .strokes import FALLOFFS, STROKE_KINDS, EnergyStroke
-from .wind import Wind
 from .wind_schema import wind_properties
 
 __all__ = ["scene_schema"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import MISSING, fields
 from typing import Any
 
-from .limits import LARGEST
-from .scene_encoding import encode
+from ..limits import LARGEST
+from .encoding import encode
 
 __all__ = [
     "ABOVE_0",

@@ -12,7 +12,7 @@ from typing import Any
 import jsonschema
 from jsonschema.exceptions import ValidationError
 
-from .limits import LARGEST, MAX_MASK_PIXELS, MAX_VERTICES
+from ..limits import LARGEST, MAX_MASK_PIXELS, MAX_VERTICES
 
 __all__ = ["SceneValidator"]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .limits import LARGEST
+from ..limits import LARGEST
 from .schema_blocks import ANY_SIZE, Schema, defined, number, whole_number
 
 __all__ = ["wind_properties"]

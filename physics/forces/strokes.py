@@ -14,10 +14,10 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from .checks import within
-from .errors import require
-from .limits import LARGEST, MAX_PARTICLES_OF_STROKE
-from .points import Point, Scale, checked_points, scaled_points
+from ..checks import within
+from ..errors import require
+from ..limits import LARGEST, MAX_PARTICLES_OF_STROKE
+from ..points import Point, Scale, checked_points, scaled_points
 from .travel import Key, Travel, checked_keys
 
 __all__ = ["FALLOFFS", "ROUNDING", "STROKE_KINDS", "EnergyStroke", "Falloff", "Polyline", "StrokeKind"]

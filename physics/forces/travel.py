@@ -11,8 +11,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .checks import numbers_of
-from .errors import InvalidInputError, require
+from ..checks import numbers_of
+from ..errors import InvalidInputError, require
 
 __all__ = ["Key", "Travel", "checked_keys", "factors"]
 

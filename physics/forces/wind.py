@@ -13,10 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .checks import is_whole, within
-from .errors import require
-from .limits import LARGEST
-from .points import Point, Scale, checked_points, scaled_points
+from ..checks import is_whole, within
+from ..errors import require
+from ..limits import LARGEST
+from ..points import Point, Scale, checked_points, scaled_points
 from .rhythm import fitted_period
 
 __all__ = ["Eddies", "Wind", "eddies", "uniform", "wind_acceleration"]

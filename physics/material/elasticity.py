@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .mesh import TriangleMesh
+from ..mesh import TriangleMesh
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .checks import within
-from .errors import InvalidInputError, require
-from .limits import LARGEST, STIFFEST
+from ..checks import within
+from ..errors import InvalidInputError, require
+from ..limits import LARGEST, STIFFEST
 
 __all__ = ["PRESETS", "SCALES", "Material", "preset"]
 

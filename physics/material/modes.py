@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .interruption import checkpoint
+from ..interruption import checkpoint
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

@@ -12,12 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .checks import within
-from .errors import require
-from .limits import LARGEST
-from .masks import coverage_of
+from ..checks import within
+from ..errors import require
+from ..limits import LARGEST
+from ..mesh import TriangleMesh, coverage_of
 from .material import Material
-from .mesh import TriangleMesh
 
 __all__ = ["mask_means", "painted", "painted_by_means"]
 

@@ -8,8 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arrays import OVERSHOOT, as_array, beyond_one
-from .errors import InvalidInputError, MeshingError
+from ..arrays import OVERSHOOT, as_array, beyond_one
+from ..errors import InvalidInputError, MeshingError
 
 __all__ = [
     "continued",

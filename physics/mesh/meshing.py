@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..errors import MeshingError, require
+from ..process_end import working
 from .contours import area_of, contours_at_half, resampled, smoothed
-from .ending import working
-from .errors import MeshingError, require
 from .masks import continued, coverage_of, fitted, largest_area, with_sound_details, without_specks
-from .mesh import UNITS_ACROSS, TriangleMesh
 from .spacing import GAP_FACTOR, SpacingField, spacing_field
+from .triangle_mesh import UNITS_ACROSS, TriangleMesh
 from .triangulation import CrossingEdgesError, interior_seeds, morton_order, triangulate
 
 __all__ = ["MOST_TRIANGLES", "mesh_from_mask"]

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import require
+from ..errors import require
 
 __all__ = ["mask_of", "runs_of"]
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .checks import is_whole
-from .errors import InvalidInputError, require
+from ..checks import is_whole
+from ..errors import InvalidInputError, require
 
 __all__ = ["UNITS_ACROSS", "TriangleMesh"]
 

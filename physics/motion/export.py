@@ -9,7 +9,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import require
+from ..errors import require
 from .flow import layer_order
 from .motion import Motion
 from .trails import trails

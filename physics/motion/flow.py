@@ -15,10 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import require
+from ..errors import require
+from ..mesh import PixelBox, barycentric, triangle_ids
 from .motion import Motion
-from .pixel_box import PixelBox
-from .raster import barycentric, triangle_ids
 
 __all__ = ["FlowField", "FlowSequence", "layer_order"]
 

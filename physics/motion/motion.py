@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .checks import require_kind, within
-from .errors import InvalidInputError, require
-from .scene import Body
+from ..checks import require_kind, within
+from ..errors import InvalidInputError, require
+from ..scene import Body
 
 __all__ = ["LoopReport", "Motion"]
 

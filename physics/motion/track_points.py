@@ -8,12 +8,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import InvalidInputError
+from ..errors import InvalidInputError
+from ..mesh import PixelBox, barycentric, triangle_ids
 from .farthest_points import farthest_points
 from .flow import layer_order
 from .motion import Motion
-from .pixel_box import PixelBox
-from .raster import barycentric, triangle_ids
 
 __all__ = ["BodyPoints", "Frame", "background_points", "body_points", "stacked_triangles"]
 

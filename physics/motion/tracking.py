@@ -13,7 +13,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import require
+from ..errors import require
 from .flow import layer_order
 from .motion import Motion
 from .resampling import INTERPOLATIONS, Interpolation, frame_at, sample_times

@@ -13,9 +13,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from .mesh import TriangleMesh
-from .rig import RigPoint
-from .rigging import coarseness_of, distances_of
+from ..mesh import TriangleMesh
+from .regions import coarseness_of, distances_of
+from .rig_point import RigPoint
 
 __all__ = ["FIRMNESS", "grip_at", "grips_of"]
 

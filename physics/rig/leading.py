@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .easing import eased, eased_rate
-from .rig import Combined, KeyedPath, RigMotion, RigPoint, Wave
-from .rig_turns import Pulse, Rotation, Squash, Swing
-from .rigging import displacement, velocity
+from .regions import displacement, velocity
+from .rig_point import Combined, KeyedPath, RigMotion, RigPoint, Wave
+from .turns import Pulse, Rotation, Squash, Swing
 
 __all__ = ["Lead", "farthest_led", "lead", "linear_part"]
 

@@ -14,10 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..interruption import checkpoint
+from ..mesh import TriangleMesh
 from .easing import eased, eased_rate
-from .interruption import checkpoint
-from .mesh import TriangleMesh
-from .rig import Circle, Combined, KeyedPath, MaskRegion, Polygon, RigMotion, RigPoint, Wave
+from .rig_point import Circle, Combined, KeyedPath, MaskRegion, Polygon, RigMotion, RigPoint, Wave
 
 __all__ = [
     "EDGE",

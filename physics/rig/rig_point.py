@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .checks import is_whole, require_kind, within
-from .errors import InvalidInputError, require
-from .limits import LARGEST, MAX_BODIES
-from .points import Point, Scale, checked_pair, checked_points, scaled_points
-from .rig_turns import Easing, Pulse, Rotation, Squash, Swing, checked_easing, checked_phase, checked_times
+from ..checks import is_whole, require_kind, within
+from ..errors import InvalidInputError, require
+from ..limits import LARGEST, MAX_BODIES
+from ..points import Point, Scale, checked_pair, checked_points, scaled_points
+from .turns import Easing, Pulse, Rotation, Squash, Swing, checked_easing, checked_phase, checked_times
 
 __all__ = [
     "MOST_COMBINED",

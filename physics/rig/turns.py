@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal, TypeVar, get_args
 
-from .checks import numbers_of, within
-from .errors import require
-from .limits import LARGEST
-from .points import Scale
+from ..checks import numbers_of, within
+from ..errors import require
+from ..limits import LARGEST
+from ..points import Scale
 
 __all__ = [
     "EASINGS",

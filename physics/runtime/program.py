@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from types import CodeType, FrameType
 from typing import Any
 
-from .kernel_cache import KernelCache
+from .cache_folder import KernelCache
 
 __all__ = ["end_program", "import_taichi", "is_initialising", "new_program", "program_of"]
 

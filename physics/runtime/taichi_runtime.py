@@ -25,11 +25,11 @@ from contextvars import ContextVar
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar, cast
 
-from .errors import PhysAnimatorError
-from .kernel_cache import KernelCache, kernel_cache
-from .taichi_program import end_program, import_taichi, is_initialising, new_program, program_of
-from .taichi_reading import quick_reading
-from .taichi_worker import TaichiWorker
+from ..errors import PhysAnimatorError
+from .cache_folder import KernelCache, kernel_cache
+from .program import end_program, import_taichi, is_initialising, new_program, program_of
+from .reading import quick_reading
+from .worker import TaichiWorker
 
 __all__ = ["aside", "compiled", "compiles_here", "keep_compiled", "launch", "own_this_process", "read_anew", "run"]
 

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from .errors import PhysAnimatorError
+from ..errors import PhysAnimatorError
 from .worker_pipe import receive, send
 
 __all__ = ["TaichiWorker"]
@@ -45,7 +45,7 @@ import importlib, types
 package = types.ModuleType(given["package"])
 package.__path__ = [given["folder"]]
 sys.modules[given["package"]] = package
-importlib.import_module(given["package"] + ".physics.worker_process").serve()
+importlib.import_module(given["package"] + ".physics.runtime.worker_process").serve()
 """
 
 
@@ -187,8 +187,8 @@ def _start() -> subprocess.Popen[bytes]:
             f" interpreter with which to start another process; run PhysAnimator without it. Got: {name or 'none'}"
         )
     given = {
-        "package": __package__.rpartition(".")[0],
-        "folder": str(Path(__file__).resolve().parents[1]),
+        "package": __package__.rpartition(".physics.")[0],
+        "folder": str(Path(__file__).resolve().parents[2]),
         "path": [os.path.abspath(folder) for folder in sys.path],
     }
     try:

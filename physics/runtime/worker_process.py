@@ -7,8 +7,8 @@ import signal
 import sys
 from typing import IO, Any
 
+from ..errors import PhysAnimatorError
 from . import taichi_runtime
-from .errors import PhysAnimatorError
 from .worker_pipe import receive, send
 
 __all__ = ["serve"]

@@ -9,12 +9,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .masks import may_be_inverted
-from .mesh import TriangleMesh
-from .pixel_box import PixelBox
-from .raster import triangle_ids
-from .rig import Circle, MaskRegion, Polygon, RigPoint
-from .rigging import coarseness_of, distances_of, leaders_of, vertices_of
+from ..mesh import PixelBox, TriangleMesh, may_be_inverted, triangle_ids
+from ..rig import Circle, MaskRegion, Polygon, RigPoint, coarseness_of, distances_of, leaders_of, vertices_of
 from .scene import Scene
 
 __all__ = ["advice", "inverted_masks", "loose_parts", "mask_advice", "unused_rig_points"]

@@ -14,14 +14,13 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from .checks import within
-from .errors import require
-from .material import Material
-from .mesh import UNITS_ACROSS, TriangleMesh
-from .rig import Pinned, Polygon, RigPoint
+from ..checks import within
+from ..errors import require
+from ..forces import EnergyStroke, Wind
+from ..material import Material
+from ..mesh import UNITS_ACROSS, TriangleMesh
+from ..rig import Pinned, Polygon, RigPoint
 from .scene import Body, Scene
-from .strokes import EnergyStroke
-from .wind import Wind
 
 __all__ = [
     "ATTACHMENTS",

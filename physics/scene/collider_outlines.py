@@ -14,12 +14,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..interruption import checkpoint
+from ..limits import MAX_OUTLINE_POINTS
+from ..mesh import area_of, contours_at_half, resampled
+from ..rig import MaskRegion, farthest_led
 from .collision import Collider
-from .contours import area_of, contours_at_half, resampled
-from .interruption import checkpoint
-from .leading import farthest_led
-from .limits import MAX_OUTLINE_POINTS
-from .rig import MaskRegion
 from .scene import Body, Scene
 
 __all__ = [

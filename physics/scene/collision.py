@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .checks import within
-from .errors import require
-from .points import Scale
-from .rig import MaskRegion, Polygon
+from ..checks import within
+from ..errors import require
+from ..points import Scale
+from ..rig import MaskRegion, Polygon
 
 __all__ = ["Collider", "Contact"]
 

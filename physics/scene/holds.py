@@ -8,10 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import SimulationError
-from .falloff import grip_at
-from .rig import Polygon, RigPoint
-from .rigging import EDGE, Points, coarseness_of, distances_of, vertices_of
+from ..errors import SimulationError
+from ..rig import EDGE, Points, Polygon, RigPoint, coarseness_of, distances_of, grip_at, vertices_of
 from .scene import Body, Scene
 
 __all__ = ["Holds", "holds_of", "region_work"]

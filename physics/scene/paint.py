@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from .checks import is_whole, within
-from .errors import InvalidInputError, require
-from .limits import MAX_BODIES
-from .points import Scale
-from .rig import MaskRegion, Polygon
+from ..checks import is_whole, within
+from ..errors import InvalidInputError, require
+from ..limits import MAX_BODIES
+from ..points import Scale
+from ..rig import MaskRegion, Polygon
 
 if TYPE_CHECKING:
     pass

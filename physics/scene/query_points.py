@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from .checks import is_whole, within
-from .errors import require
-from .limits import LARGEST, MAX_PARTS
-from .points import Scale
+from ..checks import is_whole, within
+from ..errors import require
+from ..limits import LARGEST, MAX_PARTS
+from ..points import Scale
 
 __all__ = ["QueryPoint"]
 

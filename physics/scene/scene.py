@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from .checks import is_whole, numbers_of, require_kind, within
-from .collision import Collider, Contact
-from .errors import InvalidInputError, require
-from .limits import (
+from ..checks import is_whole, numbers_of, require_kind, within
+from ..errors import InvalidInputError, require
+from ..forces import EnergyStroke, Wind
+from ..limits import (
     LARGEST,
     MAX_BODIES,
     MAX_COLLIDERS,
@@ -18,13 +18,12 @@ from .limits import (
     MAX_RIG_POINTS,
     MAX_STROKES,
 )
-from .material import SCALES, Material
-from .mesh import TriangleMesh
+from ..material import SCALES, Material
+from ..mesh import TriangleMesh
+from ..rig import RigPoint
+from .collision import Collider, Contact
 from .paint import Paint
 from .query_points import QueryPoint
-from .rig import RigPoint
-from .strokes import EnergyStroke
-from .wind import Wind
 
 __all__ = ["Body", "Scene", "check_scene_rate"]
 

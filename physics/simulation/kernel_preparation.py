@@ -17,11 +17,9 @@ from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from . import taichi_runtime
-from .errors import PhysAnimatorError
-from .interruption import checkpoint
-from .kernel_cache import kernel_cache
-from .taichi_worker import TaichiWorker
+from ..errors import PhysAnimatorError
+from ..interruption import checkpoint
+from ..runtime import TaichiWorker, kernel_cache, taichi_runtime
 
 __all__ = ["compile_aside", "simulated_aside"]
 
@@ -94,6 +92,6 @@ def _fingerprint() -> str:
     digest = hashlib.sha256(platform.machine().encode())
     with suppress(PackageNotFoundError):
         digest.update(version("taichi").encode())
-    for source in sorted(Path(__file__).parent.glob("*.py")):
+    for source in sorted(Path(__file__).parents[1].rglob("*.py")):
         digest.update(source.read_bytes())
     return digest.hexdigest()[:16]

@@ -9,15 +9,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import InvalidInputError, SimulationError, require
-from .leading import lead
-from .motion import LoopReport
-from .progress import Progress
-from .rhythm import fitted_period
-from .rig import Combined, Pinned, RigMotion, Wave
-from .rig_turns import Pulse, Swing
-from .scene import Scene
-from .strokes import EnergyStroke
+from ..errors import InvalidInputError, SimulationError, require
+from ..forces import EnergyStroke, fitted_period
+from ..motion import LoopReport
+from ..progress import Progress
+from ..rig import Combined, Pinned, Pulse, RigMotion, Swing, Wave, lead
+from ..scene import Scene
 
 __all__ = ["MOST_CYCLES", "TOLERANCE", "first_frame", "loop_frames", "periodic", "settled"]
 

@@ -6,13 +6,12 @@ import math
 
 import numpy as np
 
-from .collision import Contact
-from .mesh import TriangleMesh
-from .rig import Circle, RigPoint
-from .scene import Body, Scene
-from .schedule import TRIANGLES_PER_THREAD
+from ..forces import EnergyStroke
+from ..mesh import TriangleMesh
+from ..rig import Circle, RigPoint
+from ..scene import Body, Contact, Scene
+from ..solver import TRIANGLES_PER_THREAD
 from .simulation import simulate
-from .strokes import EnergyStroke
 
 __all__ = ["simulate_samples"]
 

@@ -14,23 +14,30 @@ from itertools import count
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact_stepping import TouchingBodies
-from .drive import drive
-from .elasticity import RestShape
-from .ending import stop_at_end, working
-from .errors import InvalidInputError, SimulationError, require
-from .kernel_functions import REACH
+from ..assembly import (
+    AtRest,
+    Prepare,
+    Prepared,
+    SimulationPlan,
+    System,
+    check_work,
+    drive,
+    plan,
+    plan_system,
+    tethers,
+    work_of_minutes,
+)
+from ..contact import TouchingBodies
+from ..errors import InvalidInputError, SimulationError, require
+from ..limits import DEFAULT_MINUTES
+from ..material import RestShape
+from ..motion import Motion
+from ..process_end import stop_at_end, working
+from ..progress import Progress
+from ..rig import Pinned
+from ..scene import Scene
+from ..solver import REACH, TICK, Solid, State, advance, squared_frequencies
 from .loop import MOST_CYCLES, first_frame, loop_frames, periodic, settled
-from .motion import Motion
-from .plan import DEFAULT_MINUTES, SimulationPlan, check_work, plan, plan_system, work_of_minutes
-from .preparation import AtRest, Prepare, Prepared
-from .progress import Progress
-from .rig import Pinned
-from .scene import Scene
-from .solver import Solid, State, advance
-from .stepping import TICK, squared_frequencies
-from .system import System
-from .tethers import tethers
 
 __all__ = ["OnFrame", "SimulationPlan", "plan", "simulate"]
 

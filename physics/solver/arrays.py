@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .alignment import LANES, aligned
+from ..runtime import LANES, aligned
 
 __all__ = ["CALM", "Drive", "Solid", "State", "WindTable"]
 

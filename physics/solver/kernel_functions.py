@@ -12,8 +12,8 @@ The functions take the arrays of ``solver_arrays`` whole, by their names.
 from types import SimpleNamespace
 from typing import Any
 
-from .alignment import LANES
-from .falloff import FIRMNESS
+from ..rig import FIRMNESS
+from ..runtime import LANES
 from .stepping import SAFETY, TICK
 
 __all__ = ["LATE_SAFETY", "MOST_REFINEMENT", "REACH", "SPEED_FLOOR", "build_functions"]

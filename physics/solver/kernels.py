@@ -13,9 +13,9 @@ several threads, with the same result to the last bit.
 
 from typing import Any, NamedTuple
 
-from .alignment import LANES
+from ..runtime import LANES
+from .arrays import Drive, Solid, State, WindTable
 from .kernel_functions import build_functions
-from .solver_arrays import Drive, Solid, State, WindTable
 from .stepping import TICK
 
 __all__ = ["BLOCKS_AT_ONCE", "SMALL", "VERTICES_AT_ONCE", "Kernels", "array_types", "build_kernels"]

@@ -11,13 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import taichi_runtime
-from .alignment import LANES, aligned, check_aligned
+from ..runtime import LANES, aligned, check_aligned, taichi_runtime
+from .arrays import CALM, Drive, Solid, State, WindTable
 from .kernel_functions import MOST_REFINEMENT
 from .kernels import build_kernels
 from .pace import Pace
-from .schedule import Schedule, schedule
-from .solver_arrays import CALM, Drive, Solid, State, WindTable
+from .scheduling import Schedule, schedule
 
 __all__ = ["CALM", "Drive", "Solid", "State", "WindTable", "advance", "internal_forces"]
 

@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .elasticity import RestShape, gradient_products
+from ..material import RestShape, gradient_products
 
 __all__ = [
     "MASS_BUDGET",

@@ -1,22 +1,21 @@
-"""The command line: ``physanimator`` or ``python -m physanimator``. What each command does with its options."""
+"""What each command does with its options."""
 
 from __future__ import annotations
 
 import argparse
-import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import __version__
+from ... import __version__
 
 if TYPE_CHECKING:
-    from .rendering.animation import StageProgress
+    from ..animation import StageProgress
 
 __all__ = ["main"]
 
-EXAMPLE = Path(__file__).resolve().parent / "workflows" / "example"
+EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example"
 
 FAILED = 1
 BAD_INPUT = 2
@@ -34,9 +33,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         The exit status: 0, 1 when the disk is full or the like, 2 for bad input, 128 and the number of the signal that
         ended it, which is 130 for Ctrl+C and 141 where nobody reads what is printed.
     """
-    from .rendering.command_messages import printable_streams, warn
-    from .rendering.ending import ending_signals, ignore_signals
-    from .rendering.unfinished import remove_unfinished
+    from ..files import ending_signals, ignore_signals, remove_unfinished
+    from .messages import printable_streams, warn
 
     with printable_streams(), ending_signals():
         try:
@@ -52,9 +50,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _status(arguments: Sequence[str] | None) -> int:
     """Run a command, and say what went wrong."""
-    from .physics.errors import PhysAnimatorError
-    from .rendering.command_messages import warn
-    from .rendering.command_names import named_by_options
+    from ...physics.errors import PhysAnimatorError
+    from .messages import warn
+    from .names import named_by_options
 
     options = _parser().parse_args(arguments)
     try:
@@ -76,8 +74,8 @@ def _status(arguments: Sequence[str] | None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    from .rendering.command_options import add_animate, add_demo, add_figure, add_measure
-    from .rendering.command_parsing import CommandParser, PictureParser
+    from .options import add_animate, add_demo, add_figure, add_measure
+    from .parsing import CommandParser, PictureParser
 
     parser = CommandParser(
         prog="physanimator", description="Set parts of a still illustration in motion.", allow_abbrev=False
@@ -101,14 +99,14 @@ def _parser() -> argparse.ArgumentParser:
 def _schema(options: argparse.Namespace) -> None:
     import json
 
-    from .physics.scene_json import scene_schema
-    from .rendering.command_messages import show
+    from ...physics.document import scene_schema
+    from .messages import show
 
     show(json.dumps(scene_schema(), indent=2))
 
 
 def _demo(options: argparse.Namespace) -> None:
-    from .rendering.command_outputs import check_outputs, check_sizes
+    from .outputs import check_outputs, check_sizes
 
     check_outputs(options, bundled=_bundled())
     image, masks, scene = _example()
@@ -123,8 +121,8 @@ def _bundled() -> list[Path]:
 
 def _example() -> tuple[Any, list[Any], Any]:
     """The bundled illustration, the masks of its parts, and its scene document."""
-    from .physics.json_text import read_json
-    from .rendering.images import load_image, load_mask
+    from ...physics.document import read_json
+    from ..pictures import load_image, load_mask
 
     scene = read_json((EXAMPLE / "scene.json").read_text(encoding="utf-8"))
     image = load_image(EXAMPLE / "illustration.png")
@@ -134,13 +132,11 @@ def _example() -> tuple[Any, list[Any], Any]:
 
 
 def _figure(options: argparse.Namespace) -> None:
-    from .rendering.collision_figure import collision_figure
-    from .rendering.command_files import check_apart
-    from .rendering.command_messages import say
-    from .rendering.command_names import named_as
-    from .rendering.figures import stiffness_figure, strokes_figure
-    from .rendering.images import check_image_output, load_image, save_image
-    from .rendering.preset_figure import presets_figure
+    from ..figures import collision_figure, presets_figure, stiffness_figure, strokes_figure
+    from ..pictures import check_image_output, load_image, save_image
+    from .files import check_apart
+    from .messages import say
+    from .names import named_as
 
     check_apart(options, bundled=_bundled())
     with named_as("--output", "output", "a picture's name"):
@@ -158,8 +154,8 @@ def _figure(options: argparse.Namespace) -> None:
         elif options.name == "presets":
             figure = presets_figure(progress=progress)
         else:
-            from .physics.meshing import mesh_from_mask
-            from .physics.scene_json import scene_from_dict
+            from ...physics.document import scene_from_dict
+            from ...physics.mesh import mesh_from_mask
 
             image, masks, document = _example()
             scene = scene_from_dict(document, meshes=[mesh_from_mask(mask) for mask in masks])
@@ -170,8 +166,8 @@ def _figure(options: argparse.Namespace) -> None:
 
 
 def _animate(options: argparse.Namespace) -> None:
-    from .rendering.command_inputs import check_inputs, check_taken, read_inputs
-    from .rendering.command_outputs import check_outputs, check_sizes
+    from .inputs import check_inputs, check_taken, read_inputs
+    from .outputs import check_outputs, check_sizes
 
     check_inputs(options)
     check_outputs(options)
@@ -182,11 +178,11 @@ def _animate(options: argparse.Namespace) -> None:
 
 
 def _measure(options: argparse.Namespace) -> None:
-    from .pipeline import animate
-    from .rendering.command_inputs import check_inputs, check_taken, read_inputs, read_plate
-    from .rendering.command_measures import check_measures, measured, table
-    from .rendering.command_messages import show
-    from .rendering.transparency import over
+    from ..pictures import over
+    from ..pipeline import animate
+    from .inputs import check_inputs, check_taken, read_inputs, read_plate
+    from .measures import check_measures, measured, table
+    from .messages import show
 
     check_inputs(options)
     check_measures(options)
@@ -206,12 +202,12 @@ def _measure(options: argparse.Namespace) -> None:
 
 def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     """Animate, write everything that was asked for, and report."""
-    from .physics.stillness import stillness
-    from .pipeline import animate
-    from .rendering.command_inputs import read_plate
-    from .rendering.command_messages import say, warn
-    from .rendering.command_outputs import background_for, report, write_outputs
-    from .rendering.pixel_art import pixel_art_hint
+    from ...physics.motion import stillness
+    from ..composite import pixel_art_hint
+    from ..pipeline import animate
+    from .inputs import read_plate
+    from .messages import say, warn
+    from .outputs import background_for, report, write_outputs
 
     plate = read_plate(options)
     background_for(options, image)
@@ -242,11 +238,11 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
         say(f"{options.output}: {len(animation)} frames at {animation.motion.frame_rate:g} frames a second")
 
 
-def _advisers(options: argparse.Namespace, points: Sequence[str] = ()) -> dict[str, Callable[[Any], None]]:
+def _advisers(options: argparse.Namespace, points: Sequence[str] = ()) -> dict[str, Any]:
     """What says, before the simulation, what is suspicious about the cuts and the scene."""
-    from .physics.advice import advice
-    from .rendering.command_messages import warn
-    from .rendering.cut_judgement import judge_points
+    from ...physics.scene import advice
+    from ..segmentation import judge_points
+    from .messages import warn
 
     def tell(sentences: Sequence[str]) -> None:
         for sentence in sentences:
@@ -261,7 +257,7 @@ def _advisers(options: argparse.Namespace, points: Sequence[str] = ()) -> dict[s
 
 def _progress(options: argparse.Namespace, stack: ExitStack) -> StageProgress:
     """What is called with every step: it draws bars, unless the user wants none, and hears signals."""
-    from .rendering.ending import hear_signals
+    from ..files import hear_signals
 
     bars = None if options.quiet else _progress_bars(stack)
 
@@ -274,10 +270,6 @@ def _progress(options: argparse.Namespace, stack: ExitStack) -> StageProgress:
 
 
 def _progress_bars(stack: ExitStack) -> StageProgress | None:
-    from .rendering.command_messages import progress_bars
+    from .messages import progress_bars
 
     return progress_bars(stack)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

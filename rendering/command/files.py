@@ -7,11 +7,10 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from ..physics.errors import InvalidInputError
-from .command_names import named_as, option_of
-from .frame_folder import frames_in, is_frame_name
-from .frame_record import RECORD
-from .places import is_folder_name, place_of, same_name
+from ...physics.errors import InvalidInputError
+from ..files import is_folder_name, place_of, same_name
+from ..pictures import RECORD, frames_in, is_frame_name
+from .names import named_as, option_of
 
 __all__ = ["CLIPS", "INPUTS", "OUTPUTS", "check_apart", "coming_folders", "named", "writing_order"]
 

@@ -7,10 +7,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .command_names import named_as
+from .names import named_as
 
 if TYPE_CHECKING:
-    from ..physics.collision import Contact
+    from ...physics.scene import Contact
 
 __all__ = ["check_inputs", "check_taken", "read_inputs", "read_plate"]
 
@@ -25,7 +25,7 @@ def check_inputs(options: argparse.Namespace) -> None:
     Raises:
         InvalidInputError: the message names the options.
     """
-    from ..physics.errors import InvalidInputError
+    from ...physics.errors import InvalidInputError
 
     if not options.mask and not options.points:
         raise InvalidInputError(f"{options.command} needs --mask or --points to know what moves. Got: neither")
@@ -45,8 +45,8 @@ def check_taken(options: argparse.Namespace, image: Any) -> None:
     """
     import numpy as np
 
-    from ..physics.errors import InvalidInputError
-    from .command_messages import warn
+    from ...physics.errors import InvalidInputError
+    from .messages import warn
 
     option = getattr(options, "image_after", None)
     if option is None:
@@ -101,7 +101,7 @@ def read_plate(options: argparse.Namespace, *, alpha: bool = True) -> Any:
 
 
 def _picture(path: str, option: str, *, alpha: bool = True) -> Any:
-    from .images import load_image
+    from ..pictures import load_image
 
     with named_as(option, "picture"):
         return load_image(path, alpha=alpha)
@@ -109,7 +109,7 @@ def _picture(path: str, option: str, *, alpha: bool = True) -> Any:
 
 def _mask(path: str, option: str, width: int, height: int) -> Any:
     """A mask, after saying on standard error what may not be meant so in it."""
-    from .mask_files import read_mask
+    from ..pictures.mask_files import read_mask
 
     with named_as(option, "picture"):
         found = read_mask(path, width=width, height=height, name=option)
@@ -120,8 +120,7 @@ def _mask(path: str, option: str, width: int, height: int) -> Any:
 
 def _scene(options: argparse.Namespace) -> dict[str, Any] | None:
     """The scene file's document, which the simulation checks further."""
-    from ..physics.json_text import read_json
-    from ..physics.scene_checking import check_document
+    from ...physics.document import check_document, read_json
 
     if options.scene is None:
         return None
@@ -131,7 +130,7 @@ def _scene(options: argparse.Namespace) -> dict[str, Any] | None:
 
 def _points(path: str, width: int, height: int) -> str:
     """The text of a file of points, after a look at whether it holds points of this picture."""
-    from .points import parse_points
+    from ...physics.document import parse_points
 
     text = _text(path, "--points")
     with named_as(f"--points {path}"):
@@ -141,15 +140,15 @@ def _points(path: str, width: int, height: int) -> str:
 
 def _contact(options: argparse.Namespace, scene: Any) -> Contact | None:
     """The usual contact, unless the scene has its own."""
-    from ..physics.collision import Contact
+    from ...physics.scene import Contact
 
     wanted = options.contact or options.collider
     return Contact() if wanted and not (isinstance(scene, dict) and scene.get("contact")) else None
 
 
 def _text(path: str, name: str) -> str:
-    from ..physics.errors import InvalidInputError
-    from ..physics.limits import MAX_DOCUMENT_BYTES
+    from ...physics.errors import InvalidInputError
+    from ...physics.limits import MAX_DOCUMENT_BYTES
 
     try:
         with Path(path).open("rb") as file:

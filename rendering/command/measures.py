@@ -8,12 +8,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..physics.errors import InvalidInputError
-from .command_names import named_as
-from .learned_metrics.files import FID_FILE, VIDEO_SCORE_FOLDER, require_file
+from ...physics.errors import InvalidInputError
+from ..metrics.learned import FID_FILE, VIDEO_SCORE_FOLDER, require_file
+from .names import named_as
 
 if TYPE_CHECKING:
-    from .animation import Animation, StageProgress
+    from ..animation import Animation, StageProgress
 
 __all__ = ["check_measures", "measured", "table"]
 
@@ -46,7 +46,7 @@ def check_measures(options: argparse.Namespace) -> None:
 
 def measured(options: argparse.Namespace, animation: Animation, progress: StageProgress | None) -> Measures:
     """Every measure by its name."""
-    from .metrics import measure_clip
+    from ..metrics import measure_clip
 
     def frames() -> Iterator[Any]:
         return animation.frames() if options.clip is None else _clip(options.clip, "--clip")
@@ -60,13 +60,13 @@ def measured(options: argparse.Namespace, animation: Animation, progress: StageP
             progress=None if progress is None else lambda done, total: progress("measure", done, total),
         ).as_dict()
     if options.fid is not None:
-        from .learned_metrics.fid import frechet_inception_distance
+        from ..metrics.learned.fid import frechet_inception_distance
 
         with named_as("--fid"):
             references = _clip(options.reference, "--reference")
             found["fid"] = frechet_inception_distance(frames(), references, Path(options.fid))
     if options.video_score is not None:
-        from .learned_metrics.video_score import video_score
+        from ..metrics.learned import video_score
 
         with named_as("--video-score"):
             grades = video_score(list(frames()), options.description, Path(options.video_score))
@@ -76,7 +76,7 @@ def measured(options: argparse.Namespace, animation: Animation, progress: StageP
 
 def _clip(path: str, option: str) -> Iterator[Any]:
     """The frames of a clip that an option names; there is at least one."""
-    from .clip_reading import read_clip
+    from ..pictures import read_clip
 
     with named_as(option, "clip"):
         yield from read_clip(path)

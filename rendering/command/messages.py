@@ -8,10 +8,10 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from typing import IO, TYPE_CHECKING, Any
 
-from ..physics.errors import printable
+from ...physics.errors import printable
 
 if TYPE_CHECKING:
-    from .animation import StageProgress
+    from ..animation import StageProgress
 
 __all__ = ["printable_streams", "progress_bars", "say", "show", "warn"]
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
-from ..physics.errors import InvalidInputError, SceneError
+from ...physics.errors import InvalidInputError, SceneError
 
 __all__ = ["named_as", "named_by_options", "option_of"]
 

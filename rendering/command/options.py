@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from ..physics.limits import DEFAULT_MINUTES
+from ...physics.limits import DEFAULT_MINUTES
 
 __all__ = ["add_animate", "add_demo", "add_figure", "add_measure"]
 

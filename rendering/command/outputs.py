@@ -7,15 +7,15 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .command_files import CLIPS, coming_folders, named, writing_order
-from .command_messages import warn
-from .command_names import named_as
+from .files import CLIPS, coming_folders, named, writing_order
+from .messages import warn
+from .names import named_as
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..physics.plan import SimulationPlan
-    from .animation import Animation, StageProgress
+    from ...physics.assembly import SimulationPlan
+    from ..animation import Animation, StageProgress
 
 __all__ = ["background_for", "check_outputs", "check_sizes", "report", "write_outputs"]
 
@@ -36,13 +36,13 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     Raises:
         InvalidInputError: the message names the option or the file.
     """
-    from ..physics.errors import InvalidInputError
-    from ..physics.scene import check_scene_rate
-    from ..physics.tracks import check_track_options
-    from .background import Background, background_of
-    from .command_files import check_apart
-    from .drawing_checks import check_drawing
-    from .places import suffix_of
+    from ...physics.errors import InvalidInputError
+    from ...physics.motion import check_track_options
+    from ...physics.scene import check_scene_rate
+    from ..composite import Background, background_of
+    from ..drawing_checks import check_drawing
+    from ..files import suffix_of
+    from .files import check_apart
 
     check_apart(options, bundled=bundled)
     # Frames in .webm have an alpha channel whatever the illustration is, unless something else is said.
@@ -74,9 +74,9 @@ def check_sizes(options: argparse.Namespace, image: NDArray[Any]) -> None:
     Raises:
         InvalidInputError: the message names the format and its limit.
     """
-    from ..physics.errors import require
-    from .background import background_of
-    from .drawing_checks import height_at
+    from ...physics.errors import require
+    from ..composite import background_of
+    from ..drawing_checks import height_at
 
     height, width = image.shape[:2]
     if options.width is not None:
@@ -88,7 +88,7 @@ def check_sizes(options: argparse.Namespace, image: NDArray[Any]) -> None:
 
 
 def _check_clips(options: argparse.Namespace, *, alpha: bool, size: tuple[int, int] | None = None) -> None:
-    from .video import check_output
+    from ..pictures import check_output
 
     coming = coming_folders(options)
     for option, path in named(options, CLIPS):
@@ -97,7 +97,7 @@ def _check_clips(options: argparse.Namespace, *, alpha: bool, size: tuple[int, i
 
 
 def _check_texts(options: argparse.Namespace) -> None:
-    from .text_files import check_text_output
+    from ..files import check_text_output
 
     coming = coming_folders(options)
     for name, suffix in _TEXTS.items():
@@ -126,7 +126,7 @@ def write_outputs(options: argparse.Namespace, animation: Animation, progress: S
 
 def report(animation: Animation) -> None:
     """Sizes and times on standard error."""
-    from ..physics.simulation import plan
+    from ...physics.assembly import plan
 
     planned = plan(animation.scene, frames=len(animation))
     for number, body in enumerate(animation.scene.bodies):
@@ -175,11 +175,10 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
     Raises:
         InvalidInputError: in-betweens are asked for where it is transparent.
     """
-    from .background import usual_background
-    from .drawing_checks import check_drawing
-    from .places import suffix_of
-    from .transparency import is_transparent
-    from .video import holds_alpha
+    from ..composite import usual_background
+    from ..drawing_checks import check_drawing
+    from ..files import suffix_of
+    from ..pictures import holds_alpha, is_transparent
 
     if options.background is not None:
         return str(options.background)

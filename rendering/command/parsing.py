@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import NoReturn
 
-from ..physics.errors import printable
+from ...physics.errors import printable
 
 __all__ = ["SEVERAL", "CommandParser", "PictureParser"]
 
@@ -86,7 +86,7 @@ class PictureParser(CommandParser):
         """The option that has the picture among its values, and where the picture stands."""
         found = [(option, last) for option, first, last in _runs(given) if last > first]
         if any(option == "--preset" for option, _ in found):
-            from ..physics.material import PRESETS
+            from ...physics.material import PRESETS
 
             found = [each for each in found if each[0] != "--preset" or given[each[1]] not in PRESETS]
         if len(found) > 1:

@@ -12,9 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.mesh import TriangleMesh
-from ..physics.pixel_box import PixelBox, bounding_box
-from ..physics.raster import barycentric, rasterise, triangle_ids
+from ...physics.mesh import PixelBox, TriangleMesh, barycentric, bounding_box, rasterise, triangle_ids
 
 __all__ = ["ApronedMesh", "canvas_of"]
 

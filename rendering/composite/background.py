@@ -19,13 +19,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import require
-from .pixels import as_float
-from .transparency import WHITE, Colour, is_transparent, over
+from ...physics.errors import require
+from ..pictures import WHITE, Colour, as_float, is_transparent, over
 
 if TYPE_CHECKING:
-    from ..physics.motion import Motion
-    from .composite import LayeredRenderer
+    from ...physics.motion import Motion
+    from .layered_renderer import LayeredRenderer
     from .pixel_art import PixelArtRenderer
 
 __all__ = [
@@ -117,7 +116,7 @@ def renderer_of(
         from .pixel_art import PixelArtRenderer
 
         return PixelArtRenderer(image, masks, motion, plate=plate)
-    from .composite import LayeredRenderer
+    from .layered_renderer import LayeredRenderer
 
     return LayeredRenderer(image, masks, motion, plate=plate)
 

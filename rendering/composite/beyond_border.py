@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.pixel_box import PixelBox
+from ...physics.mesh import PixelBox
 
 __all__ = ["on_canvas"]
 

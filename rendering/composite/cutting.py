@@ -15,16 +15,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError
-from ..physics.mesh import TriangleMesh
-from ..physics.pixel_box import PixelBox, bounding_box
-from ..physics.raster import interpolate, triangle_ids
+from ...physics.errors import InvalidInputError
+from ...physics.mesh import PixelBox, TriangleMesh, bounding_box, interpolate, triangle_ids
+from ..matting import fitting_plate, in_levels, mixed_rim, regular_mask, soft_alpha, with_outline
+from ..plate import fill_hole, spread_colours
 from .apron import ApronedMesh, canvas_of
 from .beyond_border import on_canvas
-from .clean_plate import fill_hole
-from .colour_spreading import spread_colours
-from .matte import fitting_plate, in_levels, mixed_rim, soft_alpha, with_outline
-from .regular_mask import regular_mask
 
 __all__ = ["Layer", "take_apart"]
 

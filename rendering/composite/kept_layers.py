@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.mesh import TriangleMesh
-from .layers import Layer
+from ...physics.mesh import TriangleMesh
+from .cutting import Layer
 
 __all__ = ["KEPT_BYTES", "KeptLayers", "apart"]
 

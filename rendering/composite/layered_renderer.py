@@ -10,18 +10,14 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..physics.errors import InvalidInputError, require
-from ..physics.flow import layer_order
-from ..physics.masks import coverage_of, fitted
-from ..physics.motion import Motion
-from ..physics.pixel_box import PixelBox
-from ..physics.progress import Progress
+from ...physics.errors import InvalidInputError, require
+from ...physics.mesh import PixelBox, coverage_of, fitted
+from ...physics.motion import Motion, layer_order
+from ...physics.progress import Progress
+from ..pictures import as_dtype, as_float, as_picture, is_transparent, straight
+from .cutting import take_apart
 from .kept_layers import apart
-from .layers import take_apart
-from .pixels import as_dtype, as_float, as_picture
-from .premultiplied import straight
 from .sprite_layers import take_sprite_apart
-from .transparency import is_transparent
 
 __all__ = ["LayeredRenderer", "render_frames"]
 
@@ -52,7 +48,7 @@ class LayeredRenderer:
         """Take the illustration apart.
 
         Args:
-            image: RGB or straight RGBA in any form that :func:`~physanimator.rendering.pixels.as_picture` takes, shape
+            image: RGB or straight RGBA in any form that :func:`as_picture` takes, shape
                 [h, w, 3] or [h, w, 4].
             masks: one for each body of the motion, in its order: bool, integers 0 to 255 or floats 0 to 1,
                 shape [h, w].

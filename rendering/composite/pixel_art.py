@@ -13,17 +13,12 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..physics.errors import InvalidInputError, require
-from ..physics.flow import layer_order
-from ..physics.masks import coverage_of, fitted
-from ..physics.mesh import TriangleMesh
-from ..physics.motion import Motion
-from ..physics.pixel_box import PixelBox, bounding_box
-from ..physics.raster import interpolate, triangle_ids
+from ...physics.errors import InvalidInputError, require
+from ...physics.mesh import PixelBox, TriangleMesh, bounding_box, coverage_of, fitted, interpolate, triangle_ids
+from ...physics.motion import Motion, layer_order
+from ..pictures import check_picture, is_transparent
 from .apron import ApronedMesh, canvas_of
 from .beyond_border import on_canvas
-from .pixels import check_picture
-from .transparency import is_transparent
 
 __all__ = ["PixelArtRenderer", "block_size", "looks_like_pixel_art", "pixel_art_hint", "pixel_plate"]
 

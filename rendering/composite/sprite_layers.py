@@ -13,19 +13,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError
-from ..physics.mesh import TriangleMesh
+from ...physics.errors import InvalidInputError
+from ...physics.mesh import TriangleMesh
+from ..matting import FAINT, SQUARE, WIDE, fitting_plate, grown, mixed_rim, regular_mask, soft_alpha, with_outline
+from ..pictures import carried_on, over, premultiplied, window_around
+from ..plate import continue_lines, fill_hole
 from .beyond_border import on_canvas
-from .bleeding import carried_on
-from .clean_plate import fill_hole
-from .layers import Layer, _beneath, _covered
-from .line_continuation import continue_lines
-from .mask_edges import FAINT, SQUARE, WIDE, grown
-from .matte import fitting_plate, mixed_rim, soft_alpha, with_outline
-from .pixel_windows import window_around
-from .premultiplied import premultiplied
-from .regular_mask import regular_mask
-from .transparency import over
+from .cutting import Layer, _beneath, _covered
 
 __all__ = ["sprite_hole", "sprite_plate", "take_sprite_apart"]
 

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import require
+from ...physics.errors import require
 
 __all__ = ["keep_still_parts", "moving_region"]
 

@@ -12,13 +12,12 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..physics.errors import require
-from ..physics.flow import FlowSequence
-from ..physics.motion import Motion
-from .composite import LayeredRenderer
-from .pixels import as_float
-from .video_format import VideoFormat
-from .warp import warp_sketch
+from ...physics.errors import require
+from ...physics.motion import FlowSequence, Motion
+from ..composite import LayeredRenderer
+from ..pictures import as_float
+from ..sketch import warp_sketch
+from .model_format import VideoFormat
 
 __all__ = ["first_and_last", "line_frames", "warped_frames"]
 

@@ -8,12 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import require
-from ..physics.motion import Motion
-from ..physics.resampling import frame_at, sample_times
-from ..physics.tracks import FITS, Fit
-from .number_checks import check_whole
-from .track_overlay import fitted
+from ...physics.errors import require
+from ...physics.motion import FITS, Fit, Motion, frame_at, sample_times
+from ...physics.number_checks import check_whole
+from ..overlays import fitted
 
 __all__ = ["FRAME_STEP", "SIZE_STEP", "VideoFormat"]
 

@@ -9,17 +9,16 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.collision import Collider, Contact
-from ..physics.material import Material
-from ..physics.meshing import mesh_from_mask
-from ..physics.motion import Motion
-from ..physics.progress import Progress
-from ..physics.rig import Polygon, RigPoint
-from ..physics.scene import Body, Scene
-from ..physics.simulation import simulate
-from ..physics.strokes import EnergyStroke
+from ...physics.forces import EnergyStroke
+from ...physics.material import Material
+from ...physics.mesh import mesh_from_mask
+from ...physics.motion import Motion
+from ...physics.progress import Progress
+from ...physics.rig import Polygon, RigPoint
+from ...physics.scene import Body, Collider, Contact, Scene
+from ...physics.simulation import simulate
+from ..composite import LayeredRenderer
 from .ball import ACCENTS, draw_ball, draw_sand, draw_stage
-from .composite import LayeredRenderer
 from .contact_sheet import contact_sheet
 
 __all__ = ["collision_figure", "collision_motions", "touching"]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import require
+from ...physics.errors import require
 
 __all__ = ["contact_sheet"]
 

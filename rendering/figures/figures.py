@@ -9,18 +9,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.material import Material
-from ..physics.meshing import mesh_from_mask
-from ..physics.motion import Motion
-from ..physics.progress import Progress
-from ..physics.rig import Polygon, RigPoint
-from ..physics.scene import Body, Scene
-from ..physics.simulation import simulate
-from ..physics.strokes import EnergyStroke
+from ...physics.forces import EnergyStroke
+from ...physics.material import Material
+from ...physics.mesh import mesh_from_mask
+from ...physics.motion import Motion
+from ...physics.progress import Progress
+from ...physics.rig import Polygon, RigPoint
+from ...physics.scene import Body, Scene
+from ...physics.simulation import simulate
+from ..composite import LayeredRenderer
+from ..overlays import draw_strokes
 from .ball import draw_ball, draw_sand, draw_stage
-from .composite import LayeredRenderer
 from .contact_sheet import contact_sheet
-from .overlay import draw_strokes
 
 __all__ = ["MODULI", "STRENGTHS", "ball_motions", "stiffness_figure", "stroke_motions", "strokes_figure"]
 

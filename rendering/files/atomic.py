@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from ..physics.errors import InvalidInputError
-from .ending import uninterrupted
+from ...physics.errors import InvalidInputError
 from .places import StrPath, check_replaceable
+from .signals import uninterrupted
 from .unfinished import made_beside
 
 __all__ = ["naming_place", "putting_in_place", "replacing"]
@@ -34,7 +34,7 @@ def replacing(path: StrPath) -> Iterator[Path]:
         The file to write to.
 
     Raises:
-        InvalidInputError: there is no such place (see :func:`~physanimator.rendering.places.check_replaceable`), or the
+        InvalidInputError: there is no such place (see :func:`~physanimator.rendering.files.check_replaceable`), or the
             result cannot be moved there, for example because another program holds it.
         OSError: the disk is full or the like; it names ``path``.
     """

@@ -9,7 +9,7 @@ import unicodedata
 from collections.abc import Collection
 from pathlib import Path
 
-from ..physics.errors import InvalidInputError
+from ...physics.errors import InvalidInputError
 from .unfinished import made_beside
 
 __all__ = [

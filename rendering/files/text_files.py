@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from pathlib import Path
 
-from ..physics.errors import InvalidInputError
+from ...physics.errors import InvalidInputError
 from .atomic import replacing
 from .places import StrPath, check_file_place, suffix_of
 
@@ -18,11 +18,11 @@ def check_text_output(path: StrPath, suffix: str, *, coming: Collection[Path] = 
     Args:
         path: where the file is to be.
         suffix: how its name must end, such as ``.json``.
-        coming: see :func:`~physanimator.rendering.places.check_file_place`.
+        coming: see :func:`~physanimator.rendering.files.check_file_place`.
 
     Raises:
         InvalidInputError: the name ends otherwise, or nothing can be written there; see
-            :func:`~physanimator.rendering.places.check_file_place`.
+            :func:`~physanimator.rendering.files.check_file_place`.
     """
     if suffix_of(path) != suffix:
         raise InvalidInputError(f"the name must end in {suffix}. Got: {path}")

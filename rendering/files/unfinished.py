@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from .ending import uninterrupted
+from .signals import uninterrupted
 
 __all__ = ["made_beside", "remove_unfinished"]
 

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.motion import Motion
+from ...physics.motion import Motion
 
 __all__ = ["Clip", "Interpolator", "ModelFile", "as_float", "like"]
 

@@ -9,8 +9,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from .inbetweening import Clip, FloatImage, ModelFile, as_float, like
-from .warp import forward_warp
+from ..sketch import forward_warp
+from .backend import Clip, FloatImage, ModelFile, as_float, like
 
 __all__ = ["FlowInterpolator"]
 

@@ -14,16 +14,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError, require
-from ..physics.masks import coverage_of
-from ..physics.motion import Motion
-from ..physics.progress import Progress
-from .flow_inbetweens import FlowInterpolator
-from .inbetweening import Clip, Interpolator, ModelFile, as_float, like
-from .motion_inbetweens import MotionInterpolator
-from .pixels import as_picture
-from .premultiplied import premultiplied, straight
-from .transparency import is_transparent
+from ...physics.errors import InvalidInputError, require
+from ...physics.mesh import coverage_of
+from ...physics.motion import Motion
+from ...physics.progress import Progress
+from ..pictures import as_picture, is_transparent, premultiplied, straight
+from .backend import Clip, Interpolator, ModelFile, as_float, like
+from .flow import FlowInterpolator
+from .motion import MotionInterpolator
 
 __all__ = [
     "BACKENDS",
@@ -91,7 +89,7 @@ def interpolate(
     """All frames from the first keyframe to the last; keyframes come out unchanged.
 
     Args:
-        keyframes: RGB or straight RGBA in any form that :func:`~physanimator.rendering.pixels.as_picture` takes, of one
+        keyframes: RGB or straight RGBA in any form that :func:`as_picture` takes, of one
             size and type, shape [h, w, 3] or [h, w, 4] each; backends by video models take RGB alone.
         indices: frame number of each keyframe, increasing.
         backend: name of an entry of ``BACKENDS``, or a backend that was made elsewhere, such as

@@ -13,12 +13,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError
-from ..physics.flow import layer_order
-from ..physics.motion import Motion
-from ..physics.pixel_box import PixelBox, bounding_box
-from ..physics.raster import interpolate, triangle_ids
-from .inbetweening import Clip, FloatImage, ModelFile, as_float, like
+from ...physics.errors import InvalidInputError
+from ...physics.mesh import PixelBox, bounding_box, interpolate, triangle_ids
+from ...physics.motion import Motion, layer_order
+from .backend import Clip, FloatImage, ModelFile, as_float, like
 
 __all__ = ["MotionInterpolator"]
 

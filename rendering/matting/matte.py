@@ -11,9 +11,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pictures import window_around
 from .mask_edges import FAINT, SQUARE, grown, hard_edge, inner_colour, mean_near
 from .measured_alpha import measured_alpha
-from .pixel_windows import window_around
 from .solved_alpha import solved_alpha
 
 __all__ = ["fitting_plate", "in_levels", "mixed_rim", "soft_alpha", "with_outline"]

@@ -7,12 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError
-from ..physics.mesh import TriangleMesh
-from ..physics.meshing import mesh_from_mask
-from .pixels import as_float
-from .regular_mask import regular_mask
-from .transparency import is_transparent, over
+from ...physics.errors import InvalidInputError
+from ...physics.mesh import TriangleMesh, mesh_from_mask
+from ..pictures import as_float, is_transparent, over
+from .regularisation import regular_mask
 
 __all__ = ["part_mesh", "shown_part"]
 
@@ -43,7 +41,7 @@ def part_mesh(image: NDArray[Any], mask: NDArray[Any], *, spacing: float | None 
     Args:
         image: see :func:`shown_part`.
         mask: soft mask in 0 to 1, shape [h, w].
-        spacing: see :func:`~physanimator.physics.meshing.mesh_from_mask`.
+        spacing: see :func:`~physanimator.physics.mesh.mesh_from_mask`.
 
     Raises:
         InvalidInputError: the mask gives no mesh.

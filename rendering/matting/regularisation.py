@@ -13,10 +13,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pictures import window_around
 from .edge_search import found_shape
 from .lost_strands import lost_strands
 from .mask_edges import CROSS, FAINT, SQUARE, edge_strength, grown, mean_near
-from .pixel_windows import window_around
 
 __all__ = ["regular_mask"]
 

@@ -6,10 +6,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pictures import window_around
 from .closed_form import solve_alpha
 from .line_share import share_of_line
 from .mask_edges import FAINT, LEAST_CONTRAST, SOLID, SQUARE, WIDE, grown, hard_edge, inner_colour, trusted
-from .pixel_windows import window_around
 
 __all__ = ["solved_alpha"]
 

@@ -10,10 +10,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.flow import FlowSequence, layer_order
-from ..physics.motion import Motion
-from ..physics.pixel_box import PixelBox
-from ..physics.raster import interpolate, triangle_ids
+from ...physics.mesh import PixelBox, interpolate, triangle_ids
+from ...physics.motion import FlowSequence, Motion, layer_order
 
 __all__ = ["FlowWarpError", "RestMaps"]
 

@@ -13,12 +13,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError, require
-from ..physics.motion import Motion
-from ..physics.progress import Progress
+from ...physics.errors import InvalidInputError, require
+from ...physics.motion import Motion
+from ...physics.progress import Progress
+from ..pictures import as_float, as_picture
+from ..sketch import extract_sketch
 from .flow_warp_error import FlowWarpError, RestMaps
-from .pixels import as_float, as_picture
-from .sketch import extract_sketch
 from .sketch_distance import chamfer_distance
 
 __all__ = ["ClipMetrics", "DynamicDegree", "StaticDrift", "hole_ratio", "measure_clip"]

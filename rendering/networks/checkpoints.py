@@ -17,7 +17,7 @@ import torch
 from safetensors.torch import load_file
 from torch import Tensor, nn
 
-from ..physics.errors import InvalidInputError
+from ...physics.errors import InvalidInputError
 
 __all__ = ["CheckpointError", "assign", "below", "build_without_storage", "check_names", "read_checkpoint"]
 

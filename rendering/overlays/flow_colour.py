@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import require
+from ...physics.errors import require
 
 __all__ = ["flow_to_color"]
 

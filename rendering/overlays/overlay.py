@@ -14,17 +14,25 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..physics.errors import require
-from ..physics.leading import linear_part
-from ..physics.mesh import TriangleMesh
-from ..physics.motion import Motion
-from ..physics.particles import particles
-from ..physics.rig import Circle, Combined, KeyedPath, Polygon, RigMotion, RigPoint, RigRegion, Wave
-from ..physics.rigging import displacement
-from ..physics.scene import Scene
-from ..physics.strokes import EnergyStroke
+from ...physics.errors import require
+from ...physics.forces import EnergyStroke, particles
+from ...physics.mesh import TriangleMesh
+from ...physics.motion import Motion
+from ...physics.rig import (
+    Circle,
+    Combined,
+    KeyedPath,
+    Polygon,
+    RigMotion,
+    RigPoint,
+    RigRegion,
+    Wave,
+    displacement,
+    linear_part,
+)
+from ...physics.scene import Scene
+from ..pictures import as_picture, as_uint8
 from .flow_colour import flow_to_color
-from .pixels import as_picture, as_uint8
 
 __all__ = ["RIG_COLOURS", "STROKE_COLOURS", "draw_rig", "draw_strokes", "draw_wireframe", "flow_to_color", "preview"]
 

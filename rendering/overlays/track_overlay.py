@@ -9,9 +9,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import require
-from ..physics.tracks import Fit, Tracks
-from .pixels import as_picture, as_uint8
+from ...physics.errors import require
+from ...physics.motion import Fit, Tracks
+from ..pictures import as_picture, as_uint8
 
 __all__ = ["draw_tracks", "fitted"]
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError
-from ..physics.limits import MAX_PICTURE_PIXELS
+from ...physics.errors import InvalidInputError
+from ...physics.limits import MAX_PICTURE_PIXELS
 
 __all__ = ["MAX_CLIP_FRAMES", "read_clip"]
 

@@ -11,12 +11,19 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError
-from .atomic import naming_place, putting_in_place
-from .ending import uninterrupted
+from ...physics.errors import InvalidInputError
+from ..files import (
+    StrPath,
+    check_folder_place,
+    check_replaceable,
+    is_read_only,
+    made_beside,
+    naming_place,
+    place_of,
+    putting_in_place,
+    uninterrupted,
+)
 from .frame_record import RECORD, Record, WrittenFrame, read_record, recorded, write_record
-from .places import StrPath, check_folder_place, check_replaceable, is_read_only, place_of
-from .unfinished import made_beside
 
 __all__ = ["check_frame_folder", "frames_in", "is_frame_name", "write_frame_folder"]
 
@@ -29,7 +36,7 @@ def check_frame_folder(path: StrPath, *, coming: Collection[Path] = ()) -> Path:
 
     Args:
         path: the folder, which need not exist yet.
-        coming: see :func:`~physanimator.rendering.places.check_file_place`.
+        coming: see :func:`~physanimator.rendering.files.check_file_place`.
 
     Returns:
         Where it really comes to lie.

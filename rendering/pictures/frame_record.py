@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from .text_files import write_text
+from ..files import write_text
 
 __all__ = ["RECORD", "Record", "WrittenFrame", "read_record", "recorded", "write_record"]
 

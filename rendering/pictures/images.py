@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError
-from ..physics.limits import MAX_PICTURE_SIDE
-from .atomic import replacing
+from ...physics.errors import InvalidInputError
+from ...physics.limits import MAX_PICTURE_SIDE
+from ..files import replacing
 from .picture_files import has_transparency, in_8_bits, in_srgb, reading, with_opacity
 from .pixels import as_uint8
 
@@ -61,7 +61,7 @@ def load_mask(path: StrPath, *, width: int, height: int) -> NDArray[np.float32]:
 
     White counts where there is white on black; where the colours do not decide, the opacity does, so that a cut-out
     part serves as its own mask. One colour on black or white counts where that colour is. See
-    :func:`~physanimator.rendering.mask_files.read_mask` for the whole rule, and for what it remarks on a mask.
+    :func:`~physanimator.rendering.pictures.mask_files.read_mask` for the whole rule, and for what it remarks on a mask.
 
     Args:
         path: a picture file of any mode.
@@ -115,10 +115,10 @@ def check_image_output(path: StrPath, *, alpha: bool = False) -> Path:
 
     Raises:
         InvalidInputError: the suffix is not that of a picture that can be written, or nothing can be written there; see
-            :func:`~physanimator.rendering.places.check_file_place`.
+            :func:`~physanimator.rendering.files.check_file_place`.
     """
+    from ..files import check_file_place
     from .picture_formats import check_picture_format
-    from .places import check_file_place
 
     check_picture_format(path, mode="RGBA" if alpha else "RGB")
     check_file_place(path)

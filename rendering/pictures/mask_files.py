@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageOps
 
-from ..physics.errors import InvalidInputError
-from ..physics.masks import fitted, may_be_inverted
+from ...physics.errors import InvalidInputError
+from ...physics.mesh import fitted, may_be_inverted
 from .mask_colours import Colour, colours_of, flat_levels, named, share_of_colour
 from .picture_files import GREY_MODES, grey_numbers, has_transparency, in_srgb, reading, with_opacity
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.arrays import OVERSHOOT
-from ..physics.errors import InvalidInputError, PhysAnimatorError
-from ..physics.limits import MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE
+from ...physics.arrays import OVERSHOOT
+from ...physics.errors import InvalidInputError, PhysAnimatorError
+from ...physics.limits import MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE
 
 if TYPE_CHECKING:
     from PIL import Image

@@ -6,8 +6,8 @@ import io
 import warnings
 from functools import lru_cache
 
-from ..physics.errors import InvalidInputError
-from .places import StrPath, suffix_of
+from ...physics.errors import InvalidInputError
+from ..files import StrPath, suffix_of
 
 __all__ = ["check_picture_format"]
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..physics.arrays import OVERSHOOT, as_array, beyond_one
-from ..physics.errors import InvalidInputError, require
+from ...physics.arrays import OVERSHOOT, as_array, beyond_one
+from ...physics.errors import InvalidInputError, require
 
 __all__ = ["as_dtype", "as_float", "as_picture", "as_uint8", "check_picture"]
 

@@ -15,12 +15,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError, require
-from .atomic import replacing
+from ...physics.errors import InvalidInputError, require
+from ..files import StrPath, check_file_place, is_folder_name, place_of, replacing, suffix_of
 from .bleeding import bled
 from .frame_folder import check_frame_folder, write_frame_folder
 from .pixels import as_uint8
-from .places import StrPath, check_file_place, is_folder_name, place_of, suffix_of
 
 if TYPE_CHECKING:
     import av
@@ -119,7 +118,7 @@ def check_output(
         path: a file ending in one of ``FORMATS``, or a folder ending in ``/``.
         alpha: whether the frames will have an alpha channel.
         size: width and height of the frames [px], where they are known.
-        coming: see :func:`~physanimator.rendering.places.check_file_place`.
+        coming: see :func:`~physanimator.rendering.files.check_file_place`.
 
     Returns:
         Where the file or folder really comes to lie.

@@ -8,14 +8,12 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..physics.errors import InvalidInputError
-from ..physics.masks import coverage_of, fitted
+from ...physics.errors import InvalidInputError
+from ...physics.mesh import coverage_of, fitted
+from ..matting import regular_mask, with_outline
+from ..pictures import as_dtype, as_float, as_picture, window_around
 from .line_continuation import continue_lines
-from .matte import with_outline
 from .patch_synthesis import continue_texture
-from .pixel_windows import window_around
-from .pixels import as_dtype, as_float, as_picture
-from .regular_mask import regular_mask
 from .smooth_fill import smooth_fill
 
 __all__ = ["clean_plate", "fill_hole"]
@@ -36,7 +34,7 @@ def clean_plate(image: NDArray[Any], mask: ArrayLike) -> NDArray[Any]:
     """Remove what a mask shows and continue its surroundings in its place.
 
     Args:
-        image: RGB in any form that :func:`~physanimator.rendering.pixels.as_picture` takes, shape [h, w, 3].
+        image: RGB in any form that :func:`as_picture` takes, shape [h, w, 3].
         mask: what to remove: bool, integers 0 to 255 or floats 0 to 1, shape [h, w]; everything above 0.02 goes.
             Should include the outlines that belong to it.
 

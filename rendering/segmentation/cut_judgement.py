@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .points import parse_points
+from ...physics.document import parse_points
 from .prompts import Box, Prompt
 
 __all__ = ["judge_cut", "judge_cuts", "judge_points"]

@@ -13,12 +13,12 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..physics.errors import InvalidInputError, require
+from ...physics.errors import InvalidInputError, require
+from ..pictures import as_picture, as_uint8
+from ..sketch import extract_sketch
 from .noise import noise_of, without_noise
 from .outline_cuts import cut_by_majority, grab_cut, window_of, without_foreign_lines
-from .pixels import as_picture, as_uint8
 from .prompts import Box, checked_box, checked_points
-from .sketch import extract_sketch
 from .trimap import trimap_from_points
 
 __all__ = ["segment"]

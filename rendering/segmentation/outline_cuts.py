@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from .sketch import extract_sketch
+from ..sketch import extract_sketch
 
 __all__ = ["cut_by_majority", "grab_cut", "window_of", "without_foreign_lines"]
 

@@ -8,9 +8,9 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from .grabcut import segment
 from .mask_cleanup import clean_mask
 from .prompts import Prompt
-from .segmentation import segment
 
 __all__ = ["Segmenter", "segment_parts"]
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..physics.errors import InvalidInputError, require
-from ..physics.query_points import QueryPoint
-from .points import require_pixels
+from ...physics.document import require_pixels
+from ...physics.errors import InvalidInputError, require
+from ...physics.scene import QueryPoint
 
 __all__ = ["Box", "Prompt", "checked_box", "checked_points", "prompts_of"]
 

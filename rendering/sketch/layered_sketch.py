@@ -14,14 +14,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import require
-from ..physics.flow import FlowSequence, layer_order
-from ..physics.motion import Motion
-from ..physics.pixel_box import PixelBox, bounding_box
-from ..physics.raster import interpolate, triangle_ids
-from .apron import ApronedMesh, canvas_of
-from .beyond_border import on_canvas
-from .pixels import as_float
+from ...physics.errors import require
+from ...physics.mesh import PixelBox, bounding_box, interpolate, triangle_ids
+from ...physics.motion import FlowSequence, Motion, layer_order
+from ..composite import ApronedMesh, canvas_of, on_canvas
+from ..pictures import as_float
 from .warp import WarpedSketch
 
 __all__ = ["LayeredSketch"]

@@ -15,8 +15,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import require
-from .pixels import as_picture
+from ...physics.errors import require
+from ..pictures import as_picture
 
 __all__ = ["cleaned", "extract_sketch", "picture_of"]
 

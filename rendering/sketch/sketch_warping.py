@@ -7,8 +7,8 @@ from typing import Any, Literal, get_args
 
 from numpy.typing import NDArray
 
-from ..physics.errors import require
-from ..physics.flow import FlowSequence
+from ...physics.errors import require
+from ...physics.motion import FlowSequence
 from .layered_sketch import LayeredSketch
 from .warp import WarpedSketch, warp_sketch
 
@@ -34,7 +34,7 @@ def warped_sketches(
         flow: of the motion.
         frames: numbers of the frames; all when None.
         mode: "layered" moves the lines of each body with its mesh and lays them over the still ones in depth order;
-            "paper" and "softmax" splat all pixels, see :func:`~physanimator.rendering.warp.warp_sketch`.
+            "paper" and "softmax" splat all pixels, see :func:`~physanimator.rendering.sketch.warp_sketch`.
         behind: sketch of what is behind the bodies, which shows where they leave; only "layered" can use it.
         blur_sigma: Gaussian blur of the result [px]; 0 for none.
 

@@ -16,9 +16,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import require
-from ..physics.flow import FlowField
-from .pixels import as_float
+from ...physics.errors import require
+from ...physics.motion import FlowField
+from ..pictures import as_float
 from .splatting import splat, split_fragments
 
 __all__ = ["SPLAT_MODES", "SplatMode", "WarpedSketch", "forward_warp", "warp_sketch"]

@@ -1,1 +1,14 @@
 """Sketch-guided Stable Video Diffusion: the paper's renderer, for the public LVCD weights."""
+
+from __future__ import annotations
+
+from .configuration import NetworkConfiguration
+from .frame_layout import CLIP_FRAMES, FrameLayout
+from .options import SketchVideoOptions
+
+__all__ = [
+    "CLIP_FRAMES",
+    "FrameLayout",
+    "NetworkConfiguration",
+    "SketchVideoOptions",
+]

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from .image_encoder import encoder_picture
-from .memory import autoencoder_bytes
+from ..networks.image_encoder import encoder_picture
+from ..networks.memory import autoencoder_bytes
+from ..networks.placement import Placement
 from .models import SketchVideoModels
 from .options import SketchVideoOptions
-from .placement import Placement
 
 __all__ = ["Conditioning", "condition_on"]
 

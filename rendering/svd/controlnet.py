@@ -9,7 +9,7 @@ from typing import Any
 import torch
 from torch import Tensor, nn
 
-from ..checkpoints import assign, below, build_without_storage
+from ..networks.checkpoints import assign, below, build_without_storage
 from .configuration import NetworkConfiguration
 from .encoder import SpatioTemporalEncoder
 from .frame_layout import FrameLayout

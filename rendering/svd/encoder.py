@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from torch import Tensor, nn
 
+from ..networks.embeddings import embedding_layers, sinusoid
 from .configuration import NetworkConfiguration
-from .embeddings import embedding_layers, sinusoid
 from .frame_layout import FrameLayout
 from .residual_block import Conditions, VideoResidualBlock
 from .transformer import SpatioTemporalTransformer

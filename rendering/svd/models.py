@@ -11,10 +11,10 @@ import torch
 from diffusers import AutoencoderKLTemporalDecoder
 from torch import Tensor, nn
 
-from ..checkpoints import CheckpointError, assign, below, build_without_storage, check_names, read_checkpoint
+from ..networks.checkpoints import CheckpointError, assign, below, build_without_storage, check_names, read_checkpoint
+from ..networks.image_encoder import ImageEncoder
 from .autoencoder import build_autoencoder
 from .controlnet import SketchControlNet
-from .image_encoder import ImageEncoder
 from .svd_weights import WANTED_SVD, ModelSizes, SVDWeights, read_svd
 from .unet import SpatioTemporalUNet
 

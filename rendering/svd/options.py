@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..number_checks import check_number, check_whole
+from ...physics.number_checks import check_number, check_whole
+from ..networks import LARGEST_AREA, SMALLEST_AREA, TRAINED_HEIGHT, TRAINED_WIDTH
 from .frame_layout import CLIP_FRAMES, LEAST_OVERLAP, OVERLAP
-from .working_size import LARGEST_AREA, SMALLEST_AREA, TRAINED_HEIGHT, TRAINED_WIDTH
 
 __all__ = ["DECODED_TOGETHER", "SketchVideoOptions"]
 

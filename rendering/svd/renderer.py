@@ -12,18 +12,18 @@ from torch import Tensor
 
 from ...physics.errors import require
 from ...physics.progress import Progress
-from ..pixels import as_float, as_picture
+from ..networks import Frame
+from ..networks.memory import autoencoder_bytes, sampling_bytes
+from ..networks.placement import Placement
+from ..pictures import as_float, as_picture
 from .conditioning import Conditioning, condition_on
 from .decoding import decode, decoding_chunks
 from .frame_layout import CLIP_FRAMES, FrameLayout
-from .memory import autoencoder_bytes, sampling_bytes
 from .models import SketchVideoModels
 from .noise_schedule import noise_levels
 from .options import SketchVideoOptions
-from .placement import Placement
 from .sampler import LATENT_SCALE, SampledStep, sample_clip
 from .segments import plan_segments
-from .working_size import Frame
 
 __all__ = ["SketchVideoRenderer"]
 

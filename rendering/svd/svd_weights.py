@@ -10,11 +10,11 @@ from typing import Any
 
 from torch import Tensor
 
-from ..checkpoints import CheckpointError, below, read_checkpoint
+from ..networks.checkpoints import CheckpointError, below, read_checkpoint
+from ..networks.image_encoder import ImageEncoderConfiguration
+from ..networks.image_encoder_names import from_open_clip
 from .autoencoder import from_public_autoencoder
 from .configuration import NetworkConfiguration
-from .image_encoder import ImageEncoderConfiguration
-from .image_encoder_names import from_open_clip
 from .unet import SpatioTemporalUNet
 from .unet_names import from_diffusers_unet
 

@@ -6,8 +6,8 @@ import torch
 from diffusers.models.attention import FeedForward
 from torch import Tensor, nn
 
+from ..networks.embeddings import embedding_layers, sinusoid
 from .attention import ContextAttention, MaskedTemporalAttention, ReferenceAttention
-from .embeddings import embedding_layers, sinusoid
 from .residual_block import Blend, Conditions, normalised
 
 __all__ = ["SpatioTemporalTransformer"]

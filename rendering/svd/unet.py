@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
-from ..checkpoints import assign, below, build_without_storage
+from ..networks.checkpoints import assign, below, build_without_storage
 from .configuration import NetworkConfiguration
 from .encoder import SpatioTemporalEncoder, Stage, residual_block, transformer
 from .frame_layout import FrameLayout

@@ -1,1 +1,20 @@
 """Cartoon interpolation between two keyframes with sketch control (ToonCrafter, Xing et al. 2024)."""
+
+from __future__ import annotations
+
+from .configuration import (
+    AutoencoderConfiguration,
+    ResamplerConfiguration,
+    SketchEncoderConfiguration,
+    UNetConfiguration,
+)
+from .options import SOLVERS, InterpolationOptions
+
+__all__ = [
+    "SOLVERS",
+    "AutoencoderConfiguration",
+    "InterpolationOptions",
+    "ResamplerConfiguration",
+    "SketchEncoderConfiguration",
+    "UNetConfiguration",
+]

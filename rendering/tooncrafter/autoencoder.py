@@ -8,7 +8,7 @@ from typing import Any
 import torch
 from torch import Tensor, nn
 
-from ..checkpoints import assign, below, build_without_storage
+from ..networks.checkpoints import assign, below, build_without_storage
 from .clip_decoder import ClipDecoder
 from .configuration import AutoencoderConfiguration
 from .picture_encoder import PictureEncoder

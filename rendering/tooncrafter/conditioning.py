@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from ..checkpoints import CheckpointError
-from ..svd.image_encoder import encoder_picture
+from ..networks.checkpoints import CheckpointError
+from ..networks.image_encoder import encoder_picture
 from .autoencoder import DualReferenceAutoencoder
 from .models import WANTED_IMAGE_ENCODER, WANTED_TEXT_ENCODER, InterpolationModels
 from .resampler import ImageResampler

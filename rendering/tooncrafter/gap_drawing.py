@@ -12,8 +12,8 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
-from ..inbetweening import FloatImage, as_float
-from ..svd.working_size import Frame
+from ..inbetweens import FloatImage, as_float
+from ..networks import Frame
 from .gap_plan import drawn_in_clip, inner_keyframes, sketched_in_clip
 from .pair_drawing import Pair, PairDrawing
 from .sampler import Watch

@@ -9,9 +9,9 @@ import torch
 from numpy.typing import NDArray
 
 from ...physics.progress import Progress
-from ..checkpoints import CheckpointError
-from ..inbetweening import Clip, FloatImage, ModelFile, as_float, like
-from ..svd.placement import Placement
+from ..inbetweens import Clip, FloatImage, ModelFile, as_float, like
+from ..networks.checkpoints import CheckpointError
+from ..networks.placement import Placement
 from .gap_drawing import Gap, GapDrawing
 from .gap_plan import clips_in
 from .models import WANTED_SKETCH, InterpolationModels

@@ -13,7 +13,7 @@ from safetensors.torch import load_file, save_file
 from torch import Tensor
 
 from ...physics.errors import InvalidInputError
-from ..atomic import replacing
+from ..files import replacing
 
 __all__ = ["keep_prompt", "kept_prompt", "kept_prompt_file"]
 

@@ -10,9 +10,9 @@ from typing import TypeVar
 import torch
 from torch import Tensor, nn
 
-from ..checkpoints import CheckpointError, assign, below, build_without_storage, check_names, read_checkpoint
-from ..svd.image_encoder import ImageEncoder, ImageEncoderConfiguration
-from ..svd.image_encoder_names import from_open_clip
+from ..networks.checkpoints import CheckpointError, assign, below, build_without_storage, check_names, read_checkpoint
+from ..networks.image_encoder import ImageEncoder, ImageEncoderConfiguration
+from ..networks.image_encoder_names import from_open_clip
 from .autoencoder import DualReferenceAutoencoder
 from .configuration import (
     AutoencoderConfiguration,

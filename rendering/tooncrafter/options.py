@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...physics.errors import require
-from ..number_checks import check_number, check_whole
-from ..svd.working_size import LARGEST_AREA, SMALLEST_AREA
+from ...physics.number_checks import check_number, check_whole
+from ..networks import LARGEST_AREA, SMALLEST_AREA
 
 __all__ = ["CLIP_GAP", "SOLVERS", "TRAINED_HEIGHT", "TRAINED_WIDTH", "InterpolationOptions"]
 

@@ -9,8 +9,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..svd.memory import sampling_bytes
-from ..svd.placement import Placement
+from ..networks.memory import sampling_bytes
+from ..networks.placement import Placement
 from .autoencoder import PIXELS_PER_LATENT
 from .clip import guided_velocity, sample_clips
 from .conditioning import LATENT_SCALE, Context, KeyframePair, Tokens, contexts, empty_prompt_of, encode_pair, look_at

@@ -8,9 +8,9 @@ from typing import Any
 import torch
 from torch import Tensor, nn
 
-from ..checkpoints import assign, build_without_storage
+from ..networks.checkpoints import assign, build_without_storage
+from ..networks.embeddings import embedding_layers, sinusoid
 from ..svd.controlnet import hint_layers, zero_convolution
-from ..svd.embeddings import embedding_layers, sinusoid
 from .configuration import SketchEncoderConfiguration
 from .stages import Conditions, input_stages, middle_stage, skip_channels
 

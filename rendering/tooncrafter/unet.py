@@ -8,8 +8,8 @@ from typing import Any
 import torch
 from torch import Tensor, nn
 
-from ..checkpoints import assign, below, build_without_storage
-from ..svd.embeddings import embedding_layers, sinusoid
+from ..networks.checkpoints import assign, below, build_without_storage
+from ..networks.embeddings import embedding_layers, sinusoid
 from ..svd.residual_block import normalised
 from .configuration import UNetConfiguration
 from .stages import Conditions, Stage, input_stages, middle_stage, output_stages

@@ -21,7 +21,7 @@ import cv2
 import numpy as np
 from layered_sample import load_sample
 from layered_truth import TrueFrames
-from physanimator.pipeline import animate
+from physanimator.rendering.pipeline import animate
 
 RADII = (1, 2, 3, 5, 8, 12)
 METHODS = {"telea": cv2.INPAINT_TELEA, "navier_stokes": cv2.INPAINT_NS}

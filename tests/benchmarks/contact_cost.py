@@ -17,15 +17,14 @@ from typing import Any
 
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
-from physanimator.physics.collision import Contact
+from physanimator.physics.document import scene_from_dict
+from physanimator.physics.forces import EnergyStroke
 from physanimator.physics.material import Material
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.rig import Circle, KeyedPath, Pinned, RigPoint
-from physanimator.physics.scene import Body, Scene
-from physanimator.physics.scene_json import scene_from_dict
+from physanimator.physics.scene import Body, Contact, Scene
 from physanimator.physics.simulation import simulate
-from physanimator.physics.strokes import EnergyStroke
-from physanimator.rendering.images import load_mask
+from physanimator.rendering.pictures import load_mask
 
 __all__ = ["contact_costs"]
 

@@ -22,20 +22,16 @@ import cv2
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
 import torch
-from physanimator.physics.automatic import automatic_scene
-from physanimator.physics.flow import FlowSequence
 from physanimator.physics.material import preset
-from physanimator.physics.scene import Body
+from physanimator.physics.motion import FlowSequence
+from physanimator.physics.scene import Body, automatic_scene
 from physanimator.physics.simulation import simulate
-from physanimator.rendering.drawings.configuration import InformativeDrawingsConfiguration, SketchUNetConfiguration
-from physanimator.rendering.drawings.extractor import draw_sketch
-from physanimator.rendering.drawings.informative_drawings import InformativeDrawings
-from physanimator.rendering.drawings.models import LineDrawer
-from physanimator.rendering.drawings.sketch_unet import SketchUNet
-from physanimator.rendering.layered_sketch import LayeredSketch
-from physanimator.rendering.sketch import extract_sketch
-from physanimator.rendering.warp import warp_sketch
-
+from physanimator.rendering.sketch import LayeredSketch, extract_sketch, warp_sketch
+from physanimator.rendering.sketch.drawings import InformativeDrawingsConfiguration, SketchUNetConfiguration
+from physanimator.rendering.sketch.drawings.extractor import draw_sketch
+from physanimator.rendering.sketch.drawings.informative_drawings import InformativeDrawings
+from physanimator.rendering.sketch.drawings.models import LineDrawer
+from physanimator.rendering.sketch.drawings.sketch_unet import SketchUNet
 from pipeline import TRIANGLES, illustration, mesh_of_about, timed
 
 NETWORKS: dict[str, Callable[[], LineDrawer]] = {

@@ -25,12 +25,10 @@ from pathlib import Path
 from typing import Any
 
 import source_tree
+from physanimator.nodes.preview import preview_scene, read_request
+from physanimator.physics.assembly import Preparations, plan
+from physanimator.physics.document import read_json, scene_from_dict
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.json_text import read_json
-from physanimator.physics.plan import plan
-from physanimator.physics.preparation import Preparations
-from physanimator.physics.preview_requests import preview_scene, read_request
-from physanimator.physics.scene_json import scene_from_dict
 from physanimator.physics.simulation import simulate
 
 _mutations = source_tree.helper("mutations")

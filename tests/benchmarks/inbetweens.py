@@ -17,9 +17,9 @@ from typing import Any
 
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
-from physanimator.pipeline import animate
-from physanimator.rendering.images import load_image, load_mask
-from physanimator.rendering.interpolation import BACKENDS, interpolate, keyframe_indices
+from physanimator.rendering.inbetweens import BACKENDS, interpolate, keyframe_indices
+from physanimator.rendering.pictures import load_image, load_mask
+from physanimator.rendering.pipeline import animate
 
 FRAMES = 31
 

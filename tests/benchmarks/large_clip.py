@@ -16,8 +16,7 @@ import time
 
 import cv2
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
-from physanimator.pipeline import animate
-
+from physanimator.rendering.pipeline import animate
 from pipeline import illustration
 
 WIDTH, HEIGHT = 3840, 2160

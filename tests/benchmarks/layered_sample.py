@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.images import load_image, load_mask
+from physanimator.rendering.pictures import load_image, load_mask
 from PIL import Image
 
 __all__ = ["LayeredSample", "load_sample", "sample_folders"]

@@ -19,9 +19,8 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 from layered_sample import LayeredSample
+from physanimator.physics.mesh import PixelBox, bounding_box, interpolate
 from physanimator.physics.motion import Motion
-from physanimator.physics.pixel_box import PixelBox, bounding_box
-from physanimator.physics.raster import interpolate
 
 __all__ = ["TrueFrame", "TrueFrames", "inverse_displacement", "nearest_pixel"]
 

@@ -32,10 +32,9 @@ import cv2
 import mask_variants
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
-from physanimator.rendering.clean_plate import fill_hole
-from physanimator.rendering.images import load_image
-from physanimator.rendering.matte import fitting_plate, mixed_rim, soft_alpha, with_outline
-from physanimator.rendering.regular_mask import regular_mask
+from physanimator.rendering.matting import fitting_plate, mixed_rim, regular_mask, soft_alpha, with_outline
+from physanimator.rendering.pictures import load_image
+from physanimator.rendering.plate import fill_hole
 from PIL import Image
 
 MASKS = {"exact": 0, "shrunk": -1, "grown": 1}

@@ -23,16 +23,15 @@ from typing import Any
 import cv2
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
-from physanimator.physics.automatic import automatic_scene
-from physanimator.physics.flow import FlowSequence
+from physanimator.physics.assembly import plan
 from physanimator.physics.material import preset
-from physanimator.physics.meshing import mesh_from_mask
-from physanimator.physics.scene import Body
-from physanimator.physics.simulation import plan, simulate
-from physanimator.rendering.clean_plate import clean_plate
+from physanimator.physics.mesh import mesh_from_mask
+from physanimator.physics.motion import FlowSequence
+from physanimator.physics.scene import Body, automatic_scene
+from physanimator.physics.simulation import simulate
 from physanimator.rendering.composite import LayeredRenderer
-from physanimator.rendering.sketch import extract_sketch
-from physanimator.rendering.warp import warp_sketch
+from physanimator.rendering.plate import clean_plate
+from physanimator.rendering.sketch import extract_sketch, warp_sketch
 
 ROOT = Path(__file__).resolve().parents[2]
 WIDTH, HEIGHT = 1280, 720

@@ -21,12 +21,11 @@ import preview_browser
 import source_tree  # noqa: F401
 from aiohttp import web
 from aiohttp.test_utils import TestClient, TestServer
-from physanimator.nodes.preview_routes import PreviewRoutes
+from physanimator.nodes.preview import FRAME, HEADER, PreviewBodies, PreviewStore, split_records
+from physanimator.nodes.preview.routes import PreviewRoutes
+from physanimator.nodes.preview.session import warm_up
 from physanimator.physics.material import preset
-from physanimator.physics.meshing import mesh_from_mask
-from physanimator.physics.preview_records import FRAME, HEADER, split_records
-from physanimator.physics.preview_session import warm_up
-from physanimator.physics.preview_store import PreviewBodies, PreviewStore
+from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.scene import Body
 
 WIDTH, HEIGHT, FRAMES = 1280, 720, 73

@@ -27,20 +27,17 @@ import cv2
 import numpy as np
 from layered_sample import load_sample, sample_folders
 from layered_truth import TrueFrames
-from physanimator.physics.automatic import automatic_scene
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.flow import FlowSequence
 from physanimator.physics.material import preset
-from physanimator.physics.scene import Body
+from physanimator.physics.motion import FlowSequence
+from physanimator.physics.scene import Body, automatic_scene
 from physanimator.physics.simulation import simulate
-from physanimator.pipeline import animate
 from physanimator.rendering.composite import LayeredRenderer
-from physanimator.rendering.sketch import extract_sketch
-from physanimator.rendering.warp import warp_sketch
+from physanimator.rendering.pipeline import animate
+from physanimator.rendering.sketch import extract_sketch, warp_sketch
+from pipeline import illustration, mesh_of_about, timed
 from rendering_peers import Peers
 from rendering_scores import BETTER, Scores
-
-from pipeline import illustration, mesh_of_about, timed
 
 SAMPLES = Path(__file__).resolve().parents[3] / "shared" / "samples"
 

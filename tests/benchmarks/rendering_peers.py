@@ -11,10 +11,9 @@ from collections.abc import Callable
 import cv2
 import numpy as np
 from layered_truth import inverse_displacement, nearest_pixel
-from physanimator.physics.flow import FlowSequence
-from physanimator.physics.motion import Motion
-from physanimator.physics.pixel_box import bounding_box
-from physanimator.rendering.splatting import splat, split_fragments
+from physanimator.physics.mesh import bounding_box
+from physanimator.physics.motion import FlowSequence, Motion
+from physanimator.rendering.sketch import splat, split_fragments
 
 __all__ = ["Peers"]
 

@@ -27,7 +27,7 @@ import cv2
 import numpy as np
 import source_tree  # loads this source tree as the package physanimator
 from physanimator.physics.errors import PhysAnimatorError
-from physanimator.rendering.images import load_image, load_mask
+from physanimator.rendering.pictures import load_image, load_mask
 from physanimator.rendering.segmentation import segment
 
 art = source_tree.helper("painted_art")

@@ -29,19 +29,16 @@ import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
 from contact_cost import contact_costs
 from peers.problem import Advance, Problem
-from physanimator.physics.alignment import LANES
-from physanimator.physics.automatic import automatic_scene
+from physanimator.physics.assembly import assemble, plan
 from physanimator.physics.material import Material, preset
-from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
 from physanimator.physics.rig import Circle, Pinned, RigPoint
-from physanimator.physics.scene import Body, Scene
-from physanimator.physics.schedule import schedule
-from physanimator.physics.simulation import _solid, plan, simulate
-from physanimator.physics.solver import Drive, Solid, State
+from physanimator.physics.runtime import LANES
+from physanimator.physics.scene import Body, Scene, automatic_scene
+from physanimator.physics.simulation import simulate
+from physanimator.physics.simulation.simulation import _solid
+from physanimator.physics.solver import TICK, Drive, Solid, State, schedule
 from physanimator.physics.solver import advance as advance_solid
-from physanimator.physics.stepping import TICK
-from physanimator.physics.system import assemble
 
 # Threads of one contestant that wait for more work would hold a processor in the next one's turn.
 os.environ.setdefault("KMP_BLOCKTIME", "0")

@@ -25,16 +25,13 @@ from typing import Any
 import cv2
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
-from physanimator.physics.flow import FlowSequence
-from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.pixel_box import PixelBox
-from physanimator.physics.raster import interpolate
-from physanimator.pipeline import animate
-from physanimator.rendering.apron import ApronedMesh, canvas_of
-from physanimator.rendering.images import load_image, load_mask
-from physanimator.rendering.sketch import extract_sketch
-from physanimator.rendering.sketch_distance import chamfer_distance
-from physanimator.rendering.sketch_warping import warped_sketches
+from physanimator.physics.mesh import PixelBox, TriangleMesh, interpolate
+from physanimator.physics.motion import FlowSequence
+from physanimator.rendering.composite import ApronedMesh, canvas_of
+from physanimator.rendering.metrics import chamfer_distance
+from physanimator.rendering.pictures import load_image, load_mask
+from physanimator.rendering.pipeline import animate
+from physanimator.rendering.sketch import extract_sketch, warped_sketches
 from PIL import Image
 
 FOUND = 1.5

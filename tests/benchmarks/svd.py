@@ -22,14 +22,12 @@ from typing import Any
 import numpy as np
 import source_tree  # loads this source tree as the package physanimator
 import torch
+from physanimator.rendering.networks.memory import bytes_of, peak_memory
+from physanimator.rendering.networks.placement import Placement
+from physanimator.rendering.svd import FrameLayout, NetworkConfiguration, SketchVideoOptions
 from physanimator.rendering.svd.autoencoder import build_autoencoder
-from physanimator.rendering.svd.configuration import NetworkConfiguration
 from physanimator.rendering.svd.controlnet import SketchControlNet
-from physanimator.rendering.svd.frame_layout import FrameLayout
-from physanimator.rendering.svd.memory import bytes_of, peak_memory
 from physanimator.rendering.svd.models import SketchVideoModels, load_models
-from physanimator.rendering.svd.options import SketchVideoOptions
-from physanimator.rendering.svd.placement import Placement
 from physanimator.rendering.svd.renderer import SketchVideoRenderer
 from physanimator.rendering.svd.svd_weights import ModelSizes
 from physanimator.rendering.svd.unet import SpatioTemporalUNet

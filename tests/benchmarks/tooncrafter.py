@@ -20,15 +20,15 @@ from typing import Any
 import numpy as np
 import source_tree  # loads this source tree as the package physanimator
 import torch
-from physanimator.rendering.checkpoints import assign, build_without_storage
-from physanimator.rendering.inbetweening import Clip
-from physanimator.rendering.svd.image_encoder import ImageEncoder
-from physanimator.rendering.svd.memory import bytes_of, peak_memory
-from physanimator.rendering.svd.placement import Placement
+from physanimator.rendering.inbetweens import Clip
+from physanimator.rendering.networks.checkpoints import assign, build_without_storage
+from physanimator.rendering.networks.image_encoder import ImageEncoder
+from physanimator.rendering.networks.memory import bytes_of, peak_memory
+from physanimator.rendering.networks.placement import Placement
+from physanimator.rendering.tooncrafter import InterpolationOptions
 from physanimator.rendering.tooncrafter.autoencoder import DualReferenceAutoencoder
 from physanimator.rendering.tooncrafter.interpolator import ToonCrafterInterpolator
 from physanimator.rendering.tooncrafter.models import InterpolationModels, ModelSizes
-from physanimator.rendering.tooncrafter.options import InterpolationOptions
 from physanimator.rendering.tooncrafter.resampler import ImageResampler
 from physanimator.rendering.tooncrafter.sketch_encoder import SketchEncoder
 from physanimator.rendering.tooncrafter.unet import InterpolationUNet

@@ -21,7 +21,7 @@ import torch
 spec = importlib.util.spec_from_file_location("pack", ROOT + "/__init__.py", submodule_search_locations=[ROOT])
 pack = sys.modules["pack"] = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(pack)
-networks = importlib.import_module("pack.nodes.networks")
+networks = importlib.import_module("pack.nodes.models.networks")
 device = management.get_torch_device()
 alive = []
 

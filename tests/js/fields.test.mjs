@@ -8,7 +8,7 @@ import { upstreamPicture } from "../../nodes/web/js/host/upstream.js";
 import { ACTIONS, POINT_GROUPS, SCENE_GROUPS } from "../../nodes/web/js/panels/toolbar.js";
 import { Scheduler } from "../../nodes/web/js/stage/scheduler.js";
 
-const schema = JSON.parse(readFileSync(new URL("../../physics/scene.schema.json", import.meta.url), "utf8"));
+const schema = JSON.parse(readFileSync(new URL("../../physics/document/scene.schema.json", import.meta.url), "utf8"));
 
 function described(place) {
   const [holder, name] = place.split(".");

@@ -8,23 +8,29 @@ from typing import Any
 import numpy as np
 import pytest
 from mutations import patches
+from physanimator.physics.assembly import plan, with_paint, work_of_minutes
 from physanimator.physics.checks import is_whole, within
-from physanimator.physics.collision import Collider, Contact
+from physanimator.physics.document import loads, scene_from_dict
 from physanimator.physics.errors import InvalidInputError, SimulationError
+from physanimator.physics.forces import EnergyStroke, Wind
 from physanimator.physics.material import Material, preset
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.motion import Motion
-from physanimator.physics.paint import Paint
-from physanimator.physics.painted_bodies import with_paint
-from physanimator.physics.plan import plan, work_of_minutes
-from physanimator.physics.query_points import QueryPoint
-from physanimator.physics.rig import Circle, Combined, KeyedPath, MaskRegion, Polygon, RigPoint, Wave
-from physanimator.physics.rig_turns import Pulse, Rotation, Squash, Swing
-from physanimator.physics.scene import Body, Scene
-from physanimator.physics.scene_json import loads, scene_from_dict
+from physanimator.physics.rig import (
+    Circle,
+    Combined,
+    KeyedPath,
+    MaskRegion,
+    Polygon,
+    Pulse,
+    RigPoint,
+    Rotation,
+    Squash,
+    Swing,
+    Wave,
+)
+from physanimator.physics.scene import Body, Collider, Contact, Paint, QueryPoint, Scene
 from physanimator.physics.simulation import simulate
-from physanimator.physics.strokes import EnergyStroke
-from physanimator.physics.wind import Wind
 
 ODD: list[Any] = [
     "circle",
@@ -187,7 +193,7 @@ def test_minutes_that_are_allowed_decide() -> None:
 
 
 def test_paint_is_rasterised_once_for_all_bodies(monkeypatch: pytest.MonkeyPatch) -> None:
-    from physanimator.physics import painted_bodies
+    from physanimator.physics.assembly import painted_bodies
 
     made, mask = [], painted_bodies._mask
     monkeypatch.setattr(painted_bodies, "_mask", lambda region, mesh: made.append(region) or mask(region, mesh))

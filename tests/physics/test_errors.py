@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from physanimator.physics.document import check_document, read_json
 from physanimator.physics.errors import InvalidInputError, PhysAnimatorError, SceneError, require, shown
-from physanimator.physics.json_text import read_json
-from physanimator.physics.scene_checking import check_document
 
 
 @pytest.mark.parametrize(

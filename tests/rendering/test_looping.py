@@ -7,12 +7,11 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from physanimator.__main__ import main
-from physanimator.physics.automatic import automatic_scene
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.scene import Body
-from physanimator.pipeline import animate
+from physanimator.physics.scene import Body, automatic_scene
+from physanimator.rendering.command import main
+from physanimator.rendering.pipeline import animate
 
 WIDTH, HEIGHT = 160, 120
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError, PhysAnimatorError
 from physanimator.physics.material import PRESETS
-from physanimator.pipeline import animate
 from physanimator.rendering.animation import Animation, timed
+from physanimator.rendering.pipeline import animate
 from PIL import Image
 
 WIDTH, HEIGHT = 160, 120
@@ -83,7 +83,7 @@ def test_scene_document_leads_the_part_and_sets_the_frame_rate() -> None:
 
 
 def test_scene_document_with_its_own_mesh_needs_no_other() -> None:
-    from physanimator.physics.scene_json import scene_to_dict
+    from physanimator.physics.document import scene_to_dict
 
     led = animate(picture(), [strip()], scene=document(), frames=2)
     again = animate(picture(), [strip()], scene=scene_to_dict(led.scene), frames=2)
@@ -251,7 +251,7 @@ def test_bad_input_is_refused_in_one_sentence(changes: dict[str, Any], words: st
 
 def test_bad_input_is_refused_before_the_simulation(monkeypatch: pytest.MonkeyPatch) -> None:
     """The plate is needed last and checked first."""
-    monkeypatch.setattr("physanimator.pipeline.simulate", lambda *_, **__: pytest.fail("simulated"))
+    monkeypatch.setattr("physanimator.rendering.pipeline.simulate", lambda *_, **__: pytest.fail("simulated"))
     for plate in (np.zeros((4, 4, 3), np.uint8), np.zeros((HEIGHT, WIDTH, 3), np.complex64), "plate.png"):
         with pytest.raises(InvalidInputError):
             animate(picture(), [strip()], frames=2, plate=plate)  # type: ignore[arg-type]

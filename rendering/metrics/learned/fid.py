@@ -10,9 +10,9 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from ...physics.errors import require
-from ..checkpoints import read_checkpoint
-from ..pixels import as_float, check_picture
+from ....physics.errors import require
+from ...networks.checkpoints import read_checkpoint
+from ...pictures import as_float, check_picture
 from .files import FID_FILE, require_file
 from .inception import InceptionFeatures
 

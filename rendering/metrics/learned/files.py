@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...physics.errors import InvalidInputError
+from ....physics.errors import InvalidInputError
 
 __all__ = ["FID_FILE", "VIDEO_SCORE_FOLDER", "MetricFile", "require_file"]
 

@@ -13,7 +13,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
-from ..checkpoints import assign, build_without_storage
+from ...networks.checkpoints import assign, build_without_storage
 from .files import FID_FILE
 
 __all__ = ["FEATURES", "InceptionFeatures"]

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics.errors import InvalidInputError, require
-from ..pixels import as_uint8
+from ....physics.errors import InvalidInputError, require
+from ...pictures import as_uint8
 from .files import VIDEO_SCORE_FOLDER, require_file
 
 __all__ = ["DIMENSIONS", "PROMPT_FILE", "video_score"]

@@ -8,7 +8,7 @@ from typing import Any
 
 from torch import Tensor
 
-from ..checkpoints import CheckpointError
+from ...networks.checkpoints import CheckpointError
 
 __all__ = ["sam_config", "sam_names"]
 

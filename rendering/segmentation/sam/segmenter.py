@@ -12,8 +12,8 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
-from ...physics.errors import InvalidInputError, require
-from ..prompts import Prompt, checked_box, checked_points
+from ....physics.errors import InvalidInputError, require
+from .. import Prompt, checked_box, checked_points
 from .families import Family
 from .pictures import Square
 from .weights import load_network

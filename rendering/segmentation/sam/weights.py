@@ -14,7 +14,7 @@ from typing import Any
 import torch
 from torch import nn
 
-from ..checkpoints import CheckpointError, assign, build_without_storage, read_checkpoint
+from ...networks.checkpoints import CheckpointError, assign, build_without_storage, read_checkpoint
 from .families import FAMILIES, Family, where_to_get
 from .original_names import sam_config, sam_names
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
-from ...physics.errors import InvalidInputError, require
+from ....physics.errors import InvalidInputError, require
 
 __all__ = ["InformativeDrawingsConfiguration", "SketchUNetConfiguration"]
 

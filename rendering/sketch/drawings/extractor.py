@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from torch import Tensor
 from torch.nn import functional
 
-from ...physics.errors import require
-from ..sketch import cleaned, picture_of
+from ....physics.errors import require
+from .. import cleaned, picture_of
 from .informative_drawings import InformativeDrawings
 from .models import LineDrawer
 from .strips import draw_in_strips

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, TypeVar
 import torch
 from torch import nn
 
-from ..checkpoints import assign, build_without_storage
+from ...networks.checkpoints import assign, build_without_storage
 
 __all__ = ["LineNetwork"]
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import torch
 from torch import Tensor
 
-from ..checkpoints import below, read_checkpoint
+from ...networks.checkpoints import below, read_checkpoint
 from .configuration import InformativeDrawingsConfiguration, SketchUNetConfiguration
 from .files import WANTED
 from .informative_drawings import InformativeDrawings

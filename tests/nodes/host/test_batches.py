@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from physanimator.nodes import batches
-from physanimator.nodes.batches import announce_batch
+from physanimator.nodes.host import announce_batch, batches
 from physanimator.physics.errors import InvalidInputError
 
 

@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from physanimator.nodes import choices
-from physanimator.nodes.choices import check_choices, check_values, checked
+from physanimator.nodes.host import checked, choices
+from physanimator.nodes.host.choices import check_choices, check_values
 from physanimator.physics.errors import InvalidInputError
 
-SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
+SCHEMAS: dict[str, Any] = json.loads((Path(__file__).parents[1] / "node_schemas.json").read_text(encoding="utf-8"))
 UNKNOWN = "no such thing"
 Path_ = tuple[tuple[str, str], ...]
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from physanimator.nodes.defaults import default_of
-from physanimator.nodes.literals import chosen, keys_of, refusal, times_of, whole_numbers_of
+from physanimator.nodes.host import chosen, default_of, keys_of, refusal, times_of, whole_numbers_of
 from physanimator.physics.errors import InvalidInputError, require
 
 

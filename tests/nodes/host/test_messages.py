@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
-from physanimator.nodes import messages, running
+from physanimator.nodes.host import messages, running
 
 
 class Node(NamedTuple):

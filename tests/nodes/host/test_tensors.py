@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import torch
-from physanimator.nodes.tensors import (
+from physanimator.nodes.host import (
     batch_of_masks,
     batch_of_pictures,
     mask_of,

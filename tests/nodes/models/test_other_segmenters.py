@@ -8,7 +8,7 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pytest
-from physanimator.nodes.other_segmenters import segmenter_advice
+from physanimator.nodes.models import segmenter_advice
 
 
 @pytest.fixture

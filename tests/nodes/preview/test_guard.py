@@ -10,7 +10,7 @@ import zlib
 from types import SimpleNamespace
 
 import pytest
-from physanimator.nodes.preview_hosts import HOSTS_VARIABLE, authority_of, is_own_name
+from physanimator.nodes.preview.hosts import HOSTS_VARIABLE, authority_of, is_own_name
 from served_previews import Served, in_a_server
 
 Headers = list[tuple[str, str]]

@@ -7,14 +7,14 @@ import struct
 
 import numpy as np
 import pytest
+from physanimator.nodes.preview import PreviewBodies, split_records
+from physanimator.nodes.preview.limits import MAX_SHOWN_PARTICLES
+from physanimator.nodes.preview.records import ERROR, FrameEncoder, encode_mesh, record
+from physanimator.physics.forces import EnergyStroke
 from physanimator.physics.material import preset
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.preview_limits import MAX_SHOWN_PARTICLES
-from physanimator.physics.preview_records import ERROR, FrameEncoder, encode_mesh, record, split_records
-from physanimator.physics.preview_store import PreviewBodies
 from physanimator.physics.rig import KeyedPath, RigPoint
 from physanimator.physics.scene import Body, Scene
-from physanimator.physics.strokes import EnergyStroke
 
 
 def square(x: float, *, layer: int = 0, name: str = "") -> Body:

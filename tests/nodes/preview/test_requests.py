@@ -10,12 +10,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from physanimator.physics import preview_limits as limits
-from physanimator.physics import scene_checking, scene_json, scene_over
+from physanimator.nodes.preview import limits, preview_scene, read_request
+from physanimator.nodes.preview.requests import is_key
+from physanimator.physics.document import checking as scene_checking
+from physanimator.physics.document import overlay as scene_over
+from physanimator.physics.document import scene_json
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import preset
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.preview_requests import is_key, preview_scene, read_request
 from physanimator.physics.scene import Body
 
 KEY = "0123456789abcdef" * 4

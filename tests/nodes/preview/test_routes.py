@@ -16,10 +16,12 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from physanimator.nodes import preview_guard, preview_routes
+from physanimator.nodes.preview import FRAME, HEADER, split_records
+from physanimator.nodes.preview import guard as preview_guard
+from physanimator.nodes.preview import routes as preview_routes
+from physanimator.nodes.preview.limits import MAX_EDITORS, MAX_REQUEST_BYTES
+from physanimator.nodes.preview.records import END, ERROR
 from physanimator.physics.interruption import checkpoint
-from physanimator.physics.preview_limits import MAX_EDITORS, MAX_REQUEST_BYTES
-from physanimator.physics.preview_records import END, ERROR, FRAME, HEADER, split_records
 from PIL import Image
 from served_previews import PATIENCE, SCENE, Served, bodies, in_a_server
 

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 from aiohttp import web
-from physanimator.nodes import preview_server
+from physanimator.nodes.preview import server as preview_server
 
 
 @pytest.fixture(autouse=True)
@@ -43,7 +43,7 @@ def test_the_solver_is_readied_once_and_its_contact_only_where_bodies_may_touch(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     warmed: list[bool] = []
-    monkeypatch.setattr("physanimator.physics.preview_session.warm_up", lambda *, contact: warmed.append(contact))
+    monkeypatch.setattr("physanimator.nodes.preview.session.warm_up", lambda *, contact: warmed.append(contact))
     monkeypatch.setattr(preview_server, "_warmed", {kind: threading.Event() for kind in (False, True)})
     for contact in (False, False, True, True, False):
         preview_server.warm_up(contact=contact)

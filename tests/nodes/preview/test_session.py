@@ -13,22 +13,21 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physanimator.physics import modes, preparation, preview_session, sample_simulations, schedule, simulation, system, taichi_runtime
-from physanimator.physics.collision import Contact
+from physanimator.nodes.preview import FRAME, HEADER, PreviewBodies, PreviewStore, split_records
+from physanimator.nodes.preview import session as preview_session
+from physanimator.nodes.preview.queue import RecordQueue
+from physanimator.nodes.preview.records import END, ERROR, record
+from physanimator.nodes.preview.session import PreviewRun, PreviewRuns, stream, warm_up
+from physanimator.physics.assembly import Preparations, preparation, system
 from physanimator.physics.errors import Cancelled
-from physanimator.physics.holds import Holds
-from physanimator.physics.material import Material
+from physanimator.physics.forces import EnergyStroke
+from physanimator.physics.material import Material, modes
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.paint import Paint
-from physanimator.physics.preparation import Preparations
-from physanimator.physics.preview_queue import RecordQueue
-from physanimator.physics.preview_records import END, ERROR, FRAME, HEADER, record, split_records
-from physanimator.physics.preview_session import PreviewRun, PreviewRuns, stream, warm_up
-from physanimator.physics.preview_store import PreviewBodies, PreviewStore
 from physanimator.physics.rig import Circle, MaskRegion, Polygon, RigPoint, Wave
-from physanimator.physics.scene import Body, Scene
-from physanimator.physics.simulation import simulate
-from physanimator.physics.strokes import EnergyStroke
+from physanimator.physics.runtime import taichi_runtime
+from physanimator.physics.scene import Body, Contact, Holds, Paint, Scene
+from physanimator.physics.simulation import sample_simulations, simulate, simulation
+from physanimator.physics.solver import scheduling as schedule
 
 PATIENCE = 60.0
 ORDER = itertools.count()
@@ -100,7 +99,7 @@ def test_a_loop_moves_at_once_and_ends_as_it_is_simulated() -> None:
 
 
 def test_too_much_work_is_refused_in_the_stream(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("physanimator.physics.preview_session.MAX_PREVIEW_WORK", 100.0)
+    monkeypatch.setattr("physanimator.nodes.preview.session.MAX_PREVIEW_WORK", 100.0)
     kind, payload = streamed(scene(), 200)[-1]
     assert kind == ERROR
     assert "To lower it" in json.loads(payload)["error"]

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.physics.elasticity import RestShape, lame_parameters
-from physanimator.physics.material import Material
+from physanimator.physics.assembly import assemble
+from physanimator.physics.assembly.sway import SWAY_SUBSTEPS, first_frequency, resolve_stiffness
+from physanimator.physics.material import Material, RestShape, lame_parameters
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.scene import Body
-from physanimator.physics.sway import SWAY_SUBSTEPS, first_frequency, resolve_stiffness
-from physanimator.physics.system import assemble
 
 Grid = tuple[np.ndarray, np.ndarray]
 
@@ -149,7 +148,7 @@ def test_an_eigenvalue_that_cannot_be_found_leaves_the_material(monkeypatch: pyt
 
 
 def test_a_sway_out_of_reach_is_bounded_and_reported() -> None:
-    from physanimator.physics.plan import plan
+    from physanimator.physics.assembly import plan
     from physanimator.physics.rig import Polygon, RigPoint
     from physanimator.physics.scene import Scene
 

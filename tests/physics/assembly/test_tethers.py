@@ -6,19 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from physanimator.physics.elasticity import RestShape, energy, rest_shape
-from physanimator.physics.material import Material
-from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.assembly import assemble, tethers
+from physanimator.physics.forces import Wind
+from physanimator.physics.material import Material, RestShape, energy, rest_shape
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.rig import KeyedPath, Pinned, Polygon, RigPoint
 from physanimator.physics.scene import Body, Scene
-from physanimator.physics.simulation import _solid, simulate
-from physanimator.physics.solver import Drive, State, advance
-from physanimator.physics.stepping import TICK
-from physanimator.physics.system import assemble
-from physanimator.physics.tethers import tethers
-from physanimator.physics.wind import Wind
+from physanimator.physics.simulation import simulate
+from physanimator.physics.simulation.simulation import _solid
+from physanimator.physics.solver import TICK, Drive, State, advance
 
 SIZE = 512
 TOP = Polygon(((0, 0), (SIZE, 0), (SIZE, 60), (0, 60)))
@@ -144,7 +141,7 @@ def test_any_number_of_threads_gives_the_same_to_the_last_bit() -> None:
     away = KeyedPath((0.0, 0.1, 1.0), ((0.0, 0.0), (60.0, -90.0), (0.0, 0.0)))
     body = Body(mesh_from_mask(mask, spacing=4.0), Material(youngs_modulus=5.0, stretch_limit=1.01))
     made = Scene((body,), (), (replace(HELD, motion=away),), wind=STORM)
-    from physanimator.physics.drive import drive
+    from physanimator.physics.assembly import drive
 
     system = assemble(made)
     solid, states = _solid(made, system), []

@@ -8,24 +8,22 @@ from functools import lru_cache, partial
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from physanimator.physics import contact_stepping
-from physanimator.physics.alignment import LANES
-from physanimator.physics.collision import Collider, Contact
-from physanimator.physics.contact_stepping import TouchingBodies
-from physanimator.physics.contact_surface import CONTACTS, contact_surface, signed_distances
-from physanimator.physics.contact_team import LARGE
-from physanimator.physics.elasticity import energy
+from physanimator.physics.assembly import assemble
+from physanimator.physics.contact import TouchingBodies, contact_surface, signed_distances
+from physanimator.physics.contact import touching_bodies as contact_stepping
+from physanimator.physics.contact.surface import CONTACTS
+from physanimator.physics.contact.team import LARGE
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.material import Material
-from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.forces import EnergyStroke
+from physanimator.physics.material import Material, energy
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
 from physanimator.physics.motion import Motion
-from physanimator.physics.pace import Pace
 from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint
-from physanimator.physics.scene import Body, Scene
-from physanimator.physics.simulation import _solid, simulate
-from physanimator.physics.strokes import EnergyStroke
-from physanimator.physics.system import assemble
+from physanimator.physics.runtime import LANES
+from physanimator.physics.scene import Body, Collider, Contact, Scene
+from physanimator.physics.simulation import simulate
+from physanimator.physics.simulation.simulation import _solid
+from physanimator.physics.solver import Pace
 
 Array = NDArray[np.float64]
 SIZE = 512

@@ -6,16 +6,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from physanimator.physics.automatic import automatic_scene
-from physanimator.physics.collision import Contact
+from physanimator.physics.forces import Wind
 from physanimator.physics.material import preset
-from physanimator.physics.meshing import mesh_from_mask
-from physanimator.physics.scene import Body
+from physanimator.physics.mesh import mesh_from_mask
+from physanimator.physics.scene import Body, Contact, automatic_scene
 from physanimator.physics.simulation import simulate
-from physanimator.physics.wind import Wind
 from PIL import Image
 
-EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example"
+EXAMPLE = Path(__file__).resolve().parents[3] / "workflows" / "example"
 FRAMES = 66
 FASTEST = 60.0  # [px] in a frame; parts that gain energy from each other pass 400
 

@@ -5,15 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from physanimator.physics.collision import Contact
-from physanimator.physics.contact_surface import signed_distances
+from physanimator.physics.contact import signed_distances
 from physanimator.physics.material import Material
-from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
 from physanimator.physics.motion import Motion
-from physanimator.physics.rig import KeyedPath, Polygon, RigMotion, RigPoint
-from physanimator.physics.rig_turns import Rotation
-from physanimator.physics.scene import Body, Scene
+from physanimator.physics.rig import KeyedPath, Polygon, RigMotion, RigPoint, Rotation
+from physanimator.physics.scene import Body, Contact, Scene
 from physanimator.physics.simulation import simulate
 
 Array = NDArray[np.float64]

@@ -6,12 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physanimator.physics.collision import Collider, Contact
+from physanimator.physics.document import dumps, loads, scene_from_dict, scene_to_dict
 from physanimator.physics.errors import SceneError
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.rig import MaskRegion, Polygon
-from physanimator.physics.scene import Body, Scene
-from physanimator.physics.scene_json import dumps, loads, scene_from_dict, scene_to_dict
+from physanimator.physics.scene import Body, Collider, Contact, Scene
 
 MESH = TriangleMesh(np.array([[10.0, 10], [90, 10], [50, 80]]), np.array([[0, 1, 2]]), 100, 100)
 CORNERS = ((0.0, 90.0), (100.0, 90.0), (100.0, 100.0))

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from mutations import mutated_document, mutated_request, patches
+from physanimator.nodes.preview import preview_scene, read_request
+from physanimator.physics.assembly import plan
+from physanimator.physics.document import read_json, scene_from_dict
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.json_text import read_json
-from physanimator.physics.plan import plan
-from physanimator.physics.preview_requests import preview_scene, read_request
 from physanimator.physics.scene import Body
-from physanimator.physics.scene_json import scene_from_dict
 
 
 def told(seed: int, bodies: list[Body]) -> str | None:

@@ -6,8 +6,9 @@ import json
 
 import numpy as np
 import pytest
+from physanimator.physics.document import parse_points, parse_polyline
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.points import QueryPoint, parse_points, parse_polyline
+from physanimator.physics.scene import QueryPoint
 
 EXPECTED = [QueryPoint(10.0, 20.0, True), QueryPoint(30.5, 40.0, False)]
 

@@ -15,18 +15,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from physanimator.physics import limits
+from physanimator.physics.document import dumps, loads, scene_from_dict, scene_schema, scene_to_dict
 from physanimator.physics.errors import InvalidInputError, SceneError
+from physanimator.physics.forces import STROKE_KINDS, EnergyStroke, Wind
 from physanimator.physics.material import PRESETS, Material
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.paint import Paint
-from physanimator.physics.query_points import QueryPoint
 from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, RigRegion, Wave
-from physanimator.physics.scene import Body, Scene
-from physanimator.physics.scene_json import dumps, loads, scene_from_dict, scene_schema, scene_to_dict
-from physanimator.physics.strokes import STROKE_KINDS, EnergyStroke
-from physanimator.physics.wind import Wind
+from physanimator.physics.scene import Body, Paint, QueryPoint, Scene
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def square_mesh(width: int = 100, height: int = 50, x: float = 0.0) -> TriangleMesh:
@@ -163,7 +160,7 @@ def test_round_trip_with_the_meshes_beside_it(scene: Scene) -> None:
 @settings(deadline=None, max_examples=20)
 @given(scene=scenes())
 def test_what_is_written_validates_by_the_published_schema(scene: Scene) -> None:
-    published = json.loads((ROOT / "physics" / "scene.schema.json").read_text(encoding="utf-8"))
+    published = json.loads((ROOT / "physics" / "document" / "scene.schema.json").read_text(encoding="utf-8"))
     jsonschema.validate(scene_to_dict(scene), published, jsonschema.Draft202012Validator)
 
 
@@ -173,8 +170,8 @@ def test_what_is_written_validates_by_the_published_schema(scene: Scene) -> None
 def test_schema_is_a_schema_and_its_file_in_step() -> None:
     jsonschema.Draft202012Validator.check_schema(scene_schema())
     text = json.dumps(scene_schema(), indent=2) + "\n"
-    written = (ROOT / "physics" / "scene.schema.json").read_text(encoding="utf-8")
-    assert written == text, "write it anew: python -m physanimator schema > physics/scene.schema.json"
+    written = (ROOT / "physics" / "document" / "scene.schema.json").read_text(encoding="utf-8")
+    assert written == text, "write it anew: python -m physanimator schema > physics/document/scene.schema.json"
 
 
 def test_schema_has_the_fields_and_defaults_of_the_dataclasses() -> None:

@@ -8,14 +8,26 @@ from typing import Any
 
 import numpy as np
 import pytest
+from physanimator.physics.document import dumps, loads, scene_from_dict, scene_to_dict
+from physanimator.physics.document.encoding import SCENE_VERSION
 from physanimator.physics.errors import SceneError
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.rig import Circle, Combined, KeyedPath, Pinned, RigMotion, RigPoint, Wave
-from physanimator.physics.rig_turns import Pulse, Rotation, Squash, Swing
+from physanimator.physics.rig import (
+    Circle,
+    Combined,
+    KeyedPath,
+    Pinned,
+    Pulse,
+    RigMotion,
+    RigPoint,
+    Rotation,
+    Squash,
+    Swing,
+    Wave,
+)
 from physanimator.physics.scene import Body, Scene
-from physanimator.physics.scene_json import SCENE_VERSION, dumps, loads, scene_from_dict, scene_to_dict
 
-OLD = (Path(__file__).parents[1] / "fixtures" / "scene_version_1.json").read_text(encoding="utf-8")
+OLD = (Path(__file__).parents[2] / "fixtures" / "scene_version_1.json").read_text(encoding="utf-8")
 
 
 def meshes(count: int) -> list[TriangleMesh]:

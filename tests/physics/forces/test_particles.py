@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.forces import STROKE_KINDS, EnergyStroke, acceleration, all_particles, most_alive, particles
 from physanimator.physics.limits import MAX_PARTICLES_OF_STROKE
-from physanimator.physics.particles import acceleration, all_particles, most_alive, particles
-from physanimator.physics.strokes import STROKE_KINDS, EnergyStroke
 
 CORNER = ((0.0, 0.0), (100.0, 0.0), (100.0, 100.0))
 

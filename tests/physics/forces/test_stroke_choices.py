@@ -6,15 +6,21 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from physanimator.physics.drive import drive
+from physanimator.physics.assembly import drive
+from physanimator.physics.document import scene_from_dict, scene_to_dict
 from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.forces import (
+    FALLOFFS,
+    STROKE_KINDS,
+    EnergyStroke,
+    acceleration,
+    all_particles,
+    most_alive,
+    particles,
+)
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.particles import acceleration, all_particles, most_alive, particles
 from physanimator.physics.scene import Body, Scene
-from physanimator.physics.scene_json import scene_from_dict, scene_to_dict
-from physanimator.physics.solver import Solid, State, advance
-from physanimator.physics.stepping import TICK
-from physanimator.physics.strokes import FALLOFFS, STROKE_KINDS, EnergyStroke
+from physanimator.physics.solver import TICK, Solid, State, advance
 
 LINE = ((0.0, 0.0), (100.0, 0.0))
 

@@ -6,17 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from physanimator.physics.drive import drive
+from physanimator.physics.assembly import drive
+from physanimator.physics.document import scene_from_dict, scene_to_dict
 from physanimator.physics.errors import InvalidInputError, SceneError
+from physanimator.physics.forces import Wind, eddies, uniform
+from physanimator.physics.forces.wind import wind_acceleration
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.rig import Polygon, RigPoint
 from physanimator.physics.scene import Body, Scene
-from physanimator.physics.scene_json import scene_from_dict, scene_to_dict
 from physanimator.physics.simulation import simulate
-from physanimator.physics.solver import Solid, State, advance
-from physanimator.physics.stepping import TICK
-from physanimator.physics.wind import Wind, eddies, uniform, wind_acceleration
+from physanimator.physics.solver import TICK, Solid, State, advance
 
 SIZE = 1000
 POINTS = np.random.default_rng(4).uniform(0, SIZE, (40, 2))

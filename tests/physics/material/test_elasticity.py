@@ -8,11 +8,10 @@ from functools import partial
 
 import numpy as np
 import pytest
-from physanimator.physics.elasticity import (
+from physanimator.physics.material import (
     RestShape,
     deformation_gradients,
     energy,
-    energy_densities,
     forces,
     lame_parameters,
     lumped_masses,
@@ -22,6 +21,7 @@ from physanimator.physics.elasticity import (
     stiffness_matrix,
     stress,
 )
+from physanimator.physics.material.elasticity import energy_densities
 from physanimator.physics.mesh import TriangleMesh
 from scipy.sparse.linalg import spsolve
 

@@ -6,15 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from physanimator.physics.assembly import assemble
+from physanimator.physics.document import dumps, loads
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.material import Material
+from physanimator.physics.material import Material, mask_means, painted
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.painting import mask_means, painted
 from physanimator.physics.rig import Polygon, RigPoint
 from physanimator.physics.scene import Body, Scene
-from physanimator.physics.scene_json import dumps, loads
 from physanimator.physics.simulation import simulate
-from physanimator.physics.system import assemble
 
 SIZE = 200
 

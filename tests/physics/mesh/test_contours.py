@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from physanimator.physics.contours import area_of, contours_at_half, perimeter_of, resampled, smoothed
+from physanimator.physics.mesh import area_of, contours_at_half, resampled
+from physanimator.physics.mesh.contours import perimeter_of, smoothed
 
 
 def soft_disc(radius: float, centre: tuple[float, float], size: int = 100) -> np.ndarray:

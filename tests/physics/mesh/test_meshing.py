@@ -7,14 +7,12 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from physanimator.physics import meshing
-from physanimator.physics.contours import area_of, perimeter_of
 from physanimator.physics.errors import InvalidInputError, MeshingError
-from physanimator.physics.masks import continued, with_sound_details
-from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.meshing import mesh_from_mask
-from physanimator.physics.spacing import SpacingField, spacing_field
-from physanimator.physics.triangulation import CrossingEdgesError, morton_order, triangulate
+from physanimator.physics.mesh import TriangleMesh, area_of, mesh_from_mask, meshing
+from physanimator.physics.mesh.contours import perimeter_of
+from physanimator.physics.mesh.masks import continued, with_sound_details
+from physanimator.physics.mesh.spacing import SpacingField, spacing_field
+from physanimator.physics.mesh.triangulation import CrossingEdgesError, morton_order, triangulate
 from scipy.spatial import cKDTree
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.physics.pixel_box import PixelBox, bounding_box
-from physanimator.physics.raster import barycentric, interpolate, rasterise, triangle_ids
+from physanimator.physics.mesh import PixelBox, barycentric, bounding_box, interpolate, rasterise, triangle_ids
 from scipy.spatial import Delaunay
 
 BOX = PixelBox(0, 0, 64, 48)

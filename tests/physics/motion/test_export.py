@@ -10,11 +10,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.export import motion_to_dict, motion_to_json, motion_to_svg
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.motion import Motion
+from physanimator.physics.motion import Motion, motion_to_json, motion_to_svg
+from physanimator.physics.motion.export import motion_to_dict
+from physanimator.physics.motion.trails import trails
 from physanimator.physics.scene import Body
-from physanimator.physics.trails import trails
 
 WIDTH, HEIGHT, FRAMES = 120, 80, 4
 SVG = "{http://www.w3.org/2000/svg}"

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.flow import FlowSequence, layer_order
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.motion import Motion
+from physanimator.physics.motion import FlowSequence, Motion, layer_order
 from physanimator.physics.scene import Body
 
 WIDTH, HEIGHT = 96, 72

@@ -7,12 +7,10 @@ import json
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.farthest_points import farthest_points
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.motion import Motion
-from physanimator.physics.resampling import frame_at, sample_times
+from physanimator.physics.motion import Motion, Tracks, frame_at, sample_times, tracks
+from physanimator.physics.motion.farthest_points import farthest_points
 from physanimator.physics.scene import Body
-from physanimator.physics.tracks import Tracks, tracks
 
 WIDTH, HEIGHT, FRAMES = 200, 120, 9
 

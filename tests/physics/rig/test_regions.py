@@ -9,21 +9,25 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from physanimator.physics import rigging
-from physanimator.physics.advice import unused_rig_points
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.holds import holds_of
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
-from physanimator.physics.rigging import (
+from physanimator.physics.rig import (
+    Circle,
+    KeyedPath,
+    MaskRegion,
+    Pinned,
+    Polygon,
+    RigPoint,
+    Wave,
     coarseness_of,
     displacement,
     distances_of,
     leaders_of,
-    velocity,
     vertices_of,
 )
-from physanimator.physics.scene import Body, Scene
+from physanimator.physics.rig import regions as rigging
+from physanimator.physics.rig.regions import velocity
+from physanimator.physics.scene import Body, Scene, holds_of, unused_rig_points
 
 FAR = ((900.0, 900.0), (950.0, 900.0), (900.0, 950.0))
 

@@ -8,15 +8,32 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from physanimator.physics.easing import BLEND, eased, eased_rate
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.falloff import grips_of
-from physanimator.physics.leading import lead, linear_part
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.rig import Circle, Combined, KeyedPath, MaskRegion, Pinned, Polygon, RigMotion, RigPoint, Wave
-from physanimator.physics.rig_turns import EASINGS, Pulse, Rotation, Squash, Swing
-from physanimator.physics.rigging import displacement, leaders_of, velocity
+from physanimator.physics.rig import (
+    EASINGS,
+    Circle,
+    Combined,
+    KeyedPath,
+    MaskRegion,
+    Pinned,
+    Polygon,
+    Pulse,
+    RigMotion,
+    RigPoint,
+    Rotation,
+    Squash,
+    Swing,
+    Wave,
+    displacement,
+    lead,
+    leaders_of,
+    linear_part,
+)
+from physanimator.physics.rig.easing import BLEND, eased, eased_rate
+from physanimator.physics.rig.falloff import grips_of
+from physanimator.physics.rig.regions import velocity
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.simulation import simulate
 

@@ -9,10 +9,10 @@ import time
 from pathlib import Path
 
 import pytest
-from physanimator.physics import kernel_cache as module
-from physanimator.physics.kernel_cache import KernelCache, kernel_cache
+from physanimator.physics.runtime import KernelCache, kernel_cache
+from physanimator.physics.runtime import cache_folder as module
 
-PREAMBLE = f"import sys; sys.path.insert(0, {str(Path(__file__).resolve().parents[1])!r}); import conftest\n"
+PREAMBLE = f"import sys; sys.path.insert(0, {str(Path(__file__).resolve().parents[2])!r}); import conftest\n"
 posix = pytest.mark.skipif(sys.platform == "win32", reason="the rules of owners and modes are POSIX's")
 
 
@@ -110,7 +110,8 @@ def test_a_simulation_ends_well(kind: str, tmp_path: Path) -> None:
         environment |= {"XDG_CACHE_HOME": ""}
         del environment["HOME"]
     elif kind == "nothing can be written":
-        before = "from physanimator.physics import kernel_cache; kernel_cache._takes_files = lambda folder: False\n"
+        before = "from physanimator.physics.runtime import cache_folder\n"
+        before += "cache_folder._takes_files = lambda folder: False\n"
     elif kind == "gone at the end":
         after = f"import shutil; shutil.rmtree({str(home)!r}); open({str(home)!r}, 'w').close()\n"
     elif kind == "damaged":
@@ -125,7 +126,7 @@ def test_a_simulation_ends_well(kind: str, tmp_path: Path) -> None:
         PREAMBLE
         + before
         + (
-            "from physanimator.physics.taichi_runtime import compiled, run\n"
+            "from physanimator.physics.runtime.taichi_runtime import compiled, run\n"
             "def told(ti): return ti.cfg.arch == ti.x64 or ti.cfg.arch == ti.arm64, ti.cfg.default_fp == ti.f32\n"
             "print(run(compiled, told), flush=True)\n"
         )

@@ -8,8 +8,8 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from physanimator.physics import taichi_runtime
-from physanimator.physics.taichi_reading import quick_reading
+from physanimator.physics.runtime import taichi_runtime
+from physanimator.physics.runtime.reading import quick_reading
 
 
 def plain(x: int) -> int:

@@ -11,7 +11,7 @@ import pytest
 
 START = f"""\
 import sys, threading
-sys.path.insert(0, {str(Path(__file__).resolve().parents[1])!r})
+sys.path.insert(0, {str(Path(__file__).resolve().parents[2])!r})
 import conftest
 import numpy as np
 
@@ -184,7 +184,7 @@ def told(code: str, folder: Path) -> str:
     return "".join(line for line in done.stdout.splitlines(True) if not line.startswith("[Taichi]"))
 
 
-WORKER = "from physanimator.physics import taichi_runtime\nworker = taichi_runtime._taichi_thread._worker\n"
+WORKER = "from physanimator.physics.runtime import taichi_runtime\nworker = taichi_runtime._taichi_thread._worker\n"
 
 
 def test_a_process_of_our_own_is_used_again_lets_go_and_ends_with_this_one(tmp_path: Path) -> None:
@@ -271,8 +271,8 @@ first = simulated()
 for key in [key for key in sys.modules if key.startswith("physanimator")]:
     del sys.modules[key]
 foreign()
-solver = importlib.import_module(name + ".physics.taichi_runtime")
-numbers = importlib.import_module(name + ".physics.preview_session")
+solver = importlib.import_module(name + ".physics.runtime.taichi_runtime")
+numbers = importlib.import_module(name + ".nodes.preview.session")
 numbers.warm_up()
 assert solver._taichi_thread._worker._process is not None
 unharmed()

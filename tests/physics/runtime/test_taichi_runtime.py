@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physanimator.physics.taichi_runtime import compiled, run
+from physanimator.physics.runtime.taichi_runtime import compiled, run
 
-PREAMBLE = f"import sys; sys.path.insert(0, {str(Path(__file__).resolve().parents[1])!r}); import conftest\n"
+PREAMBLE = f"import sys; sys.path.insert(0, {str(Path(__file__).resolve().parents[2])!r}); import conftest\n"
 
 
 def build_increment(ti: Any) -> Any:
@@ -135,7 +135,7 @@ def test_the_process_hears_nothing_of_taichi_and_ends_well() -> None:
     """No banner, no announcement, no changed environment, no warning, and a clean end with the thread still there."""
     result = script(
         "import os\n"
-        "from physanimator.physics.taichi_runtime import compiled, run\n"
+        "from physanimator.physics.runtime.taichi_runtime import compiled, run\n"
         "assert 'taichi' not in sys.modules\n"
         "before = dict(os.environ)\n"
         "print(run(compiled, lambda ti: ti.__name__), os.environ == before)\n"
@@ -149,8 +149,8 @@ def test_the_process_hears_nothing_of_taichi_and_ends_well() -> None:
 def test_kernels_are_kept_although_a_signal_ends_the_process(tmp_path: Path) -> None:
     code = (
         f"import os, signal; os.environ['TI_OFFLINE_CACHE_FILE_PATH'] = {str(tmp_path)!r}\n"
-        "from physanimator.physics import taichi_runtime\n"
-        "from physanimator.physics.preview_session import warm_up\n"
+        "from physanimator.physics.runtime import taichi_runtime\n"
+        "from physanimator.nodes.preview.session import warm_up\n"
         "taichi_runtime._WORTH_KEEPING = 0.0\n"
         "warm_up()\n"
         "os.kill(os.getpid(), signal.SIGKILL)\n"
@@ -165,7 +165,7 @@ def test_kernels_that_cannot_be_kept_are_not_given_up(usable: bool, tmp_path: Pa
     """They would have to be compiled again."""
     code = (
         f"import os; os.environ.update(TI_OFFLINE_CACHE_FILE_PATH={str(tmp_path)!r}, TI_OFFLINE_CACHE='{usable:d}')\n"
-        "from physanimator.physics import taichi_runtime\n"
+        "from physanimator.physics.runtime import taichi_runtime\n"
         "taichi_runtime._WORTH_KEEPING = 0.0\n"
         "taichi_runtime.run(taichi_runtime.compiled, lambda ti: ti.__name__)\n"
         "print(taichi_runtime.keep_compiled())\n"
@@ -200,7 +200,7 @@ def test_a_forked_process_is_told_what_to_do() -> None:
     result = script(
         "import os, warnings\n"
         "warnings.simplefilter('ignore')\n"
-        "from physanimator.physics.taichi_runtime import run\n"
+        "from physanimator.physics.runtime.taichi_runtime import run\n"
         "run(print, 'parent', flush=True)\n"
         "child = os.fork()\n"
         "if child:\n"

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.physics.advice import advice, inverted_masks, mask_advice
-from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.meshing import mesh_from_mask
-from physanimator.physics.motion import Motion
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
+from physanimator.physics.motion import Motion, stillness
 from physanimator.physics.rig import Circle, RigPoint
-from physanimator.physics.scene import Body, Scene
-from physanimator.physics.stillness import stillness
+from physanimator.physics.scene import Body, Scene, advice, mask_advice
+from physanimator.physics.scene.advising import inverted_masks
 
 
 def two_triangles() -> TriangleMesh:

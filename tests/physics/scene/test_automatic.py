@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.physics.automatic import attachment_of, automatic_scene
 from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.forces import acceleration
 from physanimator.physics.material import preset
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.particles import acceleration
-from physanimator.physics.rigging import vertices_of
-from physanimator.physics.scene import Body
+from physanimator.physics.rig import vertices_of
+from physanimator.physics.scene import Body, automatic_scene
+from physanimator.physics.scene.automatic import attachment_of
 
 
 def grid(x0: float, y0: float, x1: float, y1: float, *, columns: int = 6, rows: int = 12) -> TriangleMesh:

@@ -8,17 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 from mutations import patches
-from physanimator.physics.collision import Collider, Contact
-from physanimator.physics.contact_surface import contact_surface, signed_distances
+from physanimator.nodes.preview import PreviewRequest, preview_scene
+from physanimator.physics.assembly import assemble, plan
+from physanimator.physics.contact import contact_surface, signed_distances
 from physanimator.physics.errors import Cancelled, InvalidInputError, SimulationError
 from physanimator.physics.interruption import interruptible
-from physanimator.physics.outlines import count_outlines, spacing_of, window_of, within_reach
-from physanimator.physics.plan import plan
-from physanimator.physics.preview_requests import PreviewRequest, preview_scene
 from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Polygon, RigPoint
-from physanimator.physics.scene import Scene
+from physanimator.physics.scene import Collider, Contact, Scene, count_outlines, spacing_of, window_of, within_reach
 from physanimator.physics.simulation import simulate
-from physanimator.physics.system import assemble
 
 FAR = Polygon(((0, 0), (1e6, 1), (1e6, 60)))
 GROUND = Polygon(((-150, 66), (250, 66), (250, 170), (-150, 170)))

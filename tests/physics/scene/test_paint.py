@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from physanimator.physics.assembly import with_paint
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import Material
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.paint import Paint
-from physanimator.physics.painted_bodies import with_paint
 from physanimator.physics.rig import Circle, MaskRegion, Polygon, RigPoint
-from physanimator.physics.scene import Body, Scene
+from physanimator.physics.scene import Body, Paint, Scene
 from physanimator.physics.simulation import simulate
 
 LEFT = Polygon(((0.0, 0.0), (49.2, 0.0), (49.2, 100.0), (0.0, 100.0)))  # its edge lies in the last pixel before 50

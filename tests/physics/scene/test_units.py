@@ -7,12 +7,10 @@ from itertools import product
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from physanimator.physics.automatic import automatic_scene
 from physanimator.physics.errors import MeshingError
 from physanimator.physics.material import preset
-from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.meshing import mesh_from_mask
-from physanimator.physics.scene import Body
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
+from physanimator.physics.scene import Body, automatic_scene
 from physanimator.physics.simulation import simulate
 
 FRAMES = 16

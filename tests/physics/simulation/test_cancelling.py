@@ -8,17 +8,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physanimator.physics import taichi_runtime
-from physanimator.physics.collision import Contact
+from physanimator.physics.assembly import plan
 from physanimator.physics.errors import Cancelled
+from physanimator.physics.forces import EnergyStroke
 from physanimator.physics.material import Material
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.rig import Polygon, RigPoint
-from physanimator.physics.scene import Body, Scene
-from physanimator.physics.simulation import _LAUNCH_WORK, plan, simulate
-from physanimator.physics.solver import Drive
-from physanimator.physics.stepping import TICK
-from physanimator.physics.strokes import EnergyStroke
+from physanimator.physics.runtime import taichi_runtime
+from physanimator.physics.scene import Body, Contact, Scene
+from physanimator.physics.simulation import simulate
+from physanimator.physics.simulation.simulation import _LAUNCH_WORK
+from physanimator.physics.solver import TICK, Drive
 
 LONG = 3000
 

@@ -6,17 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from physanimator.physics.elasticity import RestShape, forces, lame_parameters, lumped_masses
+from physanimator.physics.assembly import is_stable, prestressed, rest_shape_derivative
+from physanimator.physics.document import scene_from_dict, scene_to_dict
 from physanimator.physics.errors import SimulationError
-from physanimator.physics.material import Material
+from physanimator.physics.forces import EnergyStroke
+from physanimator.physics.material import Material, RestShape, forces, lame_parameters, lumped_masses
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.motion import Motion
-from physanimator.physics.prestress import is_stable, prestressed, rest_shape_derivative
 from physanimator.physics.rig import Circle, Polygon, RigPoint
 from physanimator.physics.scene import Body, Scene
-from physanimator.physics.scene_json import scene_from_dict, scene_to_dict
 from physanimator.physics.simulation import simulate
-from physanimator.physics.strokes import EnergyStroke
 
 SIZE = 1000
 RATE = 60.0

@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from physanimator.physics import kernel_preparation, taichi_runtime
 from physanimator.physics.errors import Cancelled, PhysAnimatorError
-from physanimator.physics.kernel_cache import KernelCache
-from physanimator.physics.kernel_preparation import compile_aside
+from physanimator.physics.runtime import KernelCache, taichi_runtime
+from physanimator.physics.simulation import compile_aside, kernel_preparation
 
 
 class OtherProcess:

@@ -10,20 +10,17 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from physanimator.physics.document import scene_from_dict, scene_to_dict
 from physanimator.physics.errors import Cancelled, InvalidInputError, SimulationError
-from physanimator.physics.loop import loop_frames, periodic
+from physanimator.physics.forces import EnergyStroke, particles
 from physanimator.physics.material import Material
-from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.meshing import mesh_from_mask
-from physanimator.physics.particles import particles
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
 from physanimator.physics.rig import Circle, KeyedPath, Polygon, RigPoint, Wave
 from physanimator.physics.scene import Body, Scene
-from physanimator.physics.scene_json import scene_from_dict, scene_to_dict
-from physanimator.physics.simulation import simulate
-from physanimator.physics.strokes import EnergyStroke
+from physanimator.physics.simulation import loop_frames, periodic, simulate
 
 SIZE = 1000
-EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example"
+EXAMPLE = Path(__file__).resolve().parents[3] / "workflows" / "example"
 
 
 def strip(across: int = 2) -> TriangleMesh:

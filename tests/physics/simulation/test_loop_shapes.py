@@ -11,18 +11,15 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from physanimator.physics import simulation
-from physanimator.physics.automatic import automatic_scene
-from physanimator.physics.loop import loop_frames
+from physanimator.physics.document import scene_from_dict
 from physanimator.physics.material import preset
-from physanimator.physics.meshing import mesh_from_mask
-from physanimator.physics.rig import Polygon, RigPoint, Wave
-from physanimator.physics.rig_turns import Swing
-from physanimator.physics.scene import Body, Scene
-from physanimator.physics.scene_json import scene_from_dict
+from physanimator.physics.mesh import mesh_from_mask
+from physanimator.physics.rig import Polygon, RigPoint, Swing, Wave
+from physanimator.physics.scene import Body, Scene, automatic_scene
+from physanimator.physics.simulation import loop_frames, simulation
 
 Array = NDArray[Any]
-EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example"
+EXAMPLE = Path(__file__).resolve().parents[3] / "workflows" / "example"
 WIDTH, HEIGHT = 640, 480
 
 

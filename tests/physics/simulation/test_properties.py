@@ -5,18 +5,28 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from physanimator.physics.collision import Collider, Contact
+from physanimator.physics.document import dumps, loads
 from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.forces import FALLOFFS, EnergyStroke, Wind
 from physanimator.physics.material import PRESETS, Material
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.motion import Motion
-from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
-from physanimator.physics.rig_turns import EASINGS, Pulse, Rotation, Squash, Swing
-from physanimator.physics.scene import Body, Scene
-from physanimator.physics.scene_json import dumps, loads
+from physanimator.physics.rig import (
+    EASINGS,
+    Circle,
+    KeyedPath,
+    MaskRegion,
+    Pinned,
+    Polygon,
+    Pulse,
+    RigPoint,
+    Rotation,
+    Squash,
+    Swing,
+    Wave,
+)
+from physanimator.physics.scene import Body, Collider, Contact, Scene
 from physanimator.physics.simulation import simulate
-from physanimator.physics.strokes import FALLOFFS, EnergyStroke
-from physanimator.physics.wind import Wind
 
 WIDTH, HEIGHT = 96, 72
 FRAMES = 6

@@ -8,15 +8,15 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from physanimator.physics.assembly import MAX_WORK, plan
 from physanimator.physics.errors import Cancelled, InvalidInputError, SimulationError
+from physanimator.physics.forces import EnergyStroke
 from physanimator.physics.material import Material, preset
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.motion import Motion
-from physanimator.physics.plan import MAX_WORK, plan
 from physanimator.physics.rig import Circle, KeyedPath, Polygon, RigPoint, Wave
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.simulation import simulate
-from physanimator.physics.strokes import EnergyStroke
 
 SIZE = 1024
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from physanimator.physics.pace import Pace
+from physanimator.physics.solver import Pace
 
 
 def shared_launches(speeds: dict[bool, float], launches: int, pace: Pace) -> int:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.physics.schedule import TRIANGLES_PER_THREAD, Schedule, schedule
+from physanimator.physics.solver import TRIANGLES_PER_THREAD, schedule
+from physanimator.physics.solver.scheduling import Schedule
 
 ENOUGH = 2 * TRIANGLES_PER_THREAD
 

@@ -4,27 +4,35 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.physics import solver
-from physanimator.physics.alignment import LANES, aligned
-from physanimator.physics.elasticity import (
+from physanimator.physics.forces import EnergyStroke, acceleration, all_particles
+from physanimator.physics.material import (
     RestShape,
     deformation_gradients,
     energy,
     forces,
+    highest_eigenvalue,
     lame_parameters,
     lumped_masses,
     semi_implicit_euler,
     stiffness_matrix,
 )
-from physanimator.physics.kernel_functions import SPEED_FLOOR
-from physanimator.physics.kernels import BLOCKS_AT_ONCE, VERTICES_AT_ONCE
-from physanimator.physics.modes import highest_eigenvalue
-from physanimator.physics.pace import Pace
-from physanimator.physics.particles import acceleration, all_particles
-from physanimator.physics.schedule import Schedule
-from physanimator.physics.solver import Drive, Solid, State, advance, internal_forces
-from physanimator.physics.stepping import TICK, squared_frequencies, substeps
-from physanimator.physics.strokes import EnergyStroke
+from physanimator.physics.runtime import LANES, aligned
+from physanimator.physics.solver import (
+    BLOCKS_AT_ONCE,
+    SPEED_FLOOR,
+    TICK,
+    VERTICES_AT_ONCE,
+    Drive,
+    Pace,
+    Solid,
+    State,
+    advance,
+    solver,
+    squared_frequencies,
+    substeps,
+)
+from physanimator.physics.solver.scheduling import Schedule
+from physanimator.physics.solver.solver import internal_forces
 
 YOUNG, POISSON, DAMPING = 500.0, 0.3, 1.5
 SIDE = 1000.0

@@ -4,14 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.physics.elasticity import RestShape, lame_parameters, lumped_masses, stiffness_matrix
-from physanimator.physics.material import Material
+from physanimator.physics.assembly import System, assemble
+from physanimator.physics.material import (
+    Material,
+    RestShape,
+    highest_eigenvalue,
+    lame_parameters,
+    lowest_eigenvalue,
+    lumped_masses,
+    stiffness_matrix,
+)
 from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.modes import highest_eigenvalue, lowest_eigenvalue
 from physanimator.physics.rig import Polygon, RigPoint
 from physanimator.physics.scene import Body, Scene
-from physanimator.physics.stepping import MASS_BUDGET, SAFETY, TICK, frequency_limits, squared_frequencies, substeps
-from physanimator.physics.system import System, assemble
+from physanimator.physics.solver import SAFETY, TICK, frequency_limits, squared_frequencies, substeps
+from physanimator.physics.solver.stepping import MASS_BUDGET
 
 
 def shaken_strip(seed: int, *, amount: float) -> TriangleMesh:

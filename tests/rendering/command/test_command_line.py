@@ -13,13 +13,13 @@ import av
 import numpy as np
 import physanimator
 import pytest
-from physanimator.__main__ import EXAMPLE, main
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import PRESETS
-from physanimator.rendering.images import load_image, save_image
+from physanimator.rendering.command import EXAMPLE, main
+from physanimator.rendering.pictures import load_image, save_image
 from PIL import Image
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[3]
 WIDTH, HEIGHT = 160, 120
 
 
@@ -273,7 +273,7 @@ def test_bad_output_is_found_before_any_work(folder: Path, capsys: Output, monke
     def never(*_: object, **__: object) -> None:
         pytest.fail("the picture was loaded")
 
-    monkeypatch.setattr("physanimator.rendering.images.load_image", never)
+    monkeypatch.setattr("physanimator.rendering.pictures.load_image", never)
     assert status("animate", "girl.png", "--mask", "hair.png", "--output", "o.avi") == 2
     assert status("demo", "--output", "o.avi") == 2
     assert status("animate", "girl.png", "--mask", "hair.png", "--scene", "broken.json", "--output", "o.mp4") == 2
@@ -290,7 +290,7 @@ def test_interruption_is_status_130_and_keeps_the_earlier_file(
 
         return advance
 
-    monkeypatch.setattr("physanimator.__main__._progress_bars", interrupting)
+    monkeypatch.setattr("physanimator.rendering.command.commands._progress_bars", interrupting)
     (folder / "out.mp4").write_bytes(b"earlier")
     before = sorted(folder.iterdir())
     assert status("animate", "girl.png", "--mask", "hair.png", "--frames", "4", "--output", "out.mp4") == 130
@@ -311,7 +311,7 @@ def test_full_disk_is_status_1_and_one_sentence(folder: Path, capsys: Output, mo
 
 def test_schema_is_the_published_one(capsys: Output) -> None:
     assert status("schema") == 0
-    published = json.loads((ROOT / "physics" / "scene.schema.json").read_text(encoding="utf-8"))
+    published = json.loads((ROOT / "physics" / "document" / "scene.schema.json").read_text(encoding="utf-8"))
     assert json.loads(capsys.readouterr().out) == published
 
 
@@ -327,7 +327,7 @@ def test_help_names_every_preset_and_loads_nothing(capsys: Output) -> None:
     script = (
         "import runpy, sys\n"
         f"runpy.run_path({str(ROOT / 'tests' / 'conftest.py')!r})\n"
-        "from physanimator.__main__ import main\n"
+        "from physanimator.rendering.command.commands import main\n"
         "try: main(['animate', '--help'])\n"
         "except SystemExit: pass\n"
         "print(sorted({'numpy', 'cv2', 'taichi', 'torch'} & set(sys.modules)))\n"
@@ -362,7 +362,7 @@ def test_an_implausible_cut_is_said_before_the_simulation(
     def stopped(*_: object, **__: object) -> None:
         raise InvalidInputError("simulation reached")
 
-    monkeypatch.setattr("physanimator.pipeline.simulate", stopped)
+    monkeypatch.setattr("physanimator.rendering.pipeline.simulate", stopped)
     wall = np.full((HEIGHT, WIDTH, 3), 200, np.uint8)
     wall[20:95, 60:80] = (70, 40, 30)
     save_image("wall.png", wall)

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from physanimator.__main__ import main
-from physanimator.physics.collision import Contact
 from physanimator.physics.errors import InvalidInputError
-from physanimator.pipeline import animate
-from physanimator.rendering.images import save_image
+from physanimator.physics.scene import Contact
+from physanimator.rendering.command import main
+from physanimator.rendering.pictures import save_image
+from physanimator.rendering.pipeline import animate
 
 
 def picture() -> np.ndarray:

@@ -13,12 +13,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from physanimator.__main__ import main
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.images import save_image
-from physanimator.rendering.video import write_animation
+from physanimator.rendering.command import main
+from physanimator.rendering.pictures import save_image, write_animation
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[3]
 ANIMATE = ["animate", "girl.png", "--mask", "hair.png", "--frames", "3"]
 
 Output = pytest.CaptureFixture[str]
@@ -42,7 +41,7 @@ def contents(folder: Path) -> dict[str, bytes]:
 def run(*arguments: str, **options: object) -> subprocess.Popen[bytes]:
     script = (
         f"import runpy, sys; runpy.run_path({str(ROOT / 'tests' / 'conftest.py')!r})\n"
-        "from physanimator.__main__ import main\nsys.exit(main(sys.argv[1:]))"
+        "from physanimator.rendering.command.commands import main\nsys.exit(main(sys.argv[1:]))"
     )
     return subprocess.Popen([sys.executable, "-c", script, *arguments], **options)  # type: ignore[call-overload]
 
@@ -61,7 +60,7 @@ def test_a_signal_while_writing_leaves_everything_as_it_was(
 
         return advance
 
-    monkeypatch.setattr("physanimator.__main__._progress_bars", signalling)
+    monkeypatch.setattr("physanimator.rendering.command.commands._progress_bars", signalling)
     write_animation([np.zeros((8, 8, 3), np.uint8)] * 5, "old/", 24)
     Path("old.webp").write_bytes(b"earlier")
     before = contents(folder)
@@ -192,7 +191,7 @@ def test_what_cannot_be_written_is_refused_before_any_picture_is_read(
 
     (folder / "shots").mkdir()
     save_image("shots/frame_0000.png", np.zeros((8, 8, 3), np.uint8))
-    monkeypatch.setattr("physanimator.rendering.images.load_image", never)
+    monkeypatch.setattr("physanimator.rendering.pictures.load_image", never)
     before = contents(folder)
     assert main(["animate", "girl.png", "--mask", "hair.png", *arguments.split()]) == 2
     assert words in capsys.readouterr().err
@@ -211,7 +210,7 @@ def test_what_cannot_be_written_is_refused_before_any_picture_is_read(
 def test_too_large_frames_are_refused_before_the_simulation(
     folder: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch, arguments: str, words: str
 ) -> None:
-    monkeypatch.setattr("physanimator.pipeline.animate", lambda *_, **__: pytest.fail("simulated"))
+    monkeypatch.setattr("physanimator.rendering.pipeline.animate", lambda *_, **__: pytest.fail("simulated"))
     save_image("page.png", np.full((300, 64, 3), 200, np.uint8))
     save_image("strand.png", np.full((300, 64), 255, np.uint8))
     assert main(["animate", "page.png", "--mask", "strand.png", *arguments.split()]) == 2

@@ -11,9 +11,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from physanimator.__main__ import EXAMPLE, _parser, main
-from physanimator.rendering.command_files import INPUTS, OUTPUTS
-from physanimator.rendering.images import save_image
+from physanimator.rendering.command import EXAMPLE, main
+from physanimator.rendering.command.commands import _parser
+from physanimator.rendering.command.files import INPUTS, OUTPUTS
+from physanimator.rendering.pictures import save_image
 
 WIDTH, HEIGHT = 96, 72
 
@@ -56,8 +57,8 @@ def unworked(monkeypatch: pytest.MonkeyPatch) -> None:
     def never(*_: object, **__: object) -> None:
         pytest.fail("work had begun")
 
-    monkeypatch.setattr("physanimator.rendering.images.load_image", never)
-    monkeypatch.setattr("physanimator.pipeline.animate", never)
+    monkeypatch.setattr("physanimator.rendering.pictures.load_image", never)
+    monkeypatch.setattr("physanimator.rendering.pipeline.animate", never)
 
 
 INPUT_FILES = {

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from physanimator.__main__ import main
-from physanimator.rendering.images import load_image, save_image
+from physanimator.rendering.command import main
+from physanimator.rendering.pictures import load_image, save_image
 
 WIDTH, HEIGHT = 128, 96
 MOTION = ["girl.png", "--mask", "hair.png", "--wind", "3", "--frames", "6", "--skip", "2", "--quiet"]

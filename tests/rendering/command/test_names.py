@@ -7,10 +7,10 @@ from pathlib import Path
 
 import av
 import numpy as np
-import physanimator.pipeline
+import physanimator.rendering.pipeline
 import pytest
-from physanimator.__main__ import main
-from physanimator.rendering.images import save_image
+from physanimator.rendering.command import main
+from physanimator.rendering.pictures import save_image
 
 Output = pytest.CaptureFixture[str]
 
@@ -49,7 +49,7 @@ def unsimulated(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*arguments: object, **options: object) -> None:
         raise AssertionError("simulated")
 
-    monkeypatch.setattr(physanimator.pipeline, "simulate", refuse)
+    monkeypatch.setattr(physanimator.rendering.pipeline, "simulate", refuse)
 
 
 def status(*arguments: str) -> int:

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from physanimator.__main__ import _parser, main
-from physanimator.rendering.images import save_image
+from physanimator.rendering.command import main
+from physanimator.rendering.command.commands import _parser
+from physanimator.rendering.pictures import save_image
 
 Output = pytest.CaptureFixture[str]
 

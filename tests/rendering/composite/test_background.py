@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.background import Background, background_of, usual_background
-from physanimator.rendering.transparency import over
+from physanimator.rendering.composite import Background, background_of, usual_background
+from physanimator.rendering.pictures import over
 
 
 @pytest.mark.parametrize(

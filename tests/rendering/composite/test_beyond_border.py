@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.physics.pixel_box import PixelBox
-from physanimator.rendering.beyond_border import on_canvas
+from physanimator.physics.mesh import PixelBox
+from physanimator.rendering.composite import on_canvas
 
 SIZE, MARGIN = 96, 14
 Y, X = np.mgrid[-MARGIN : SIZE + MARGIN, -MARGIN : SIZE + MARGIN].astype(np.float32)

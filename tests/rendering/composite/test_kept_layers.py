@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
-from physanimator.rendering import composite, kept_layers
-from physanimator.rendering.composite import LayeredRenderer
-from physanimator.rendering.kept_layers import KeptLayers, apart
-from physanimator.rendering.layers import take_apart
+from physanimator.rendering.composite import LayeredRenderer, kept_layers
+from physanimator.rendering.composite import layered_renderer as composite
+from physanimator.rendering.composite.cutting import take_apart
+from physanimator.rendering.composite.kept_layers import KeptLayers, apart
 
 Made = tuple[np.ndarray, np.ndarray, TriangleMesh]
 

@@ -8,7 +8,8 @@ from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
-from physanimator.rendering.composite import LayeredRenderer, render_frames
+from physanimator.rendering.composite import LayeredRenderer
+from physanimator.rendering.composite.layered_renderer import render_frames
 
 WIDTH, HEIGHT = 160, 120
 Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5

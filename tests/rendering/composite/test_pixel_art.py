@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
-from physanimator.rendering.pixel_art import PixelArtRenderer, block_size, looks_like_pixel_art, pixel_art_hint
-from physanimator.rendering.video import write_animation
+from physanimator.rendering.composite import PixelArtRenderer, pixel_art_hint
+from physanimator.rendering.composite.pixel_art import block_size, looks_like_pixel_art
+from physanimator.rendering.pictures import write_animation
 from PIL import Image
 
 SKY, GRASS, HAIR, LIGHT = (91, 150, 220), (70, 160, 70), (90, 50, 20), (120, 70, 30)

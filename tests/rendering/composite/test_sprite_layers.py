@@ -6,14 +6,18 @@ import cv2
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.mesh import TriangleMesh
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
-from physanimator.rendering.background import background_of, renderer_of, shown_frame, shown_frame_and_alpha
-from physanimator.rendering.composite import LayeredRenderer
-from physanimator.rendering.sprite_layers import sprite_plate
-from physanimator.rendering.transparency import over
+from physanimator.rendering.composite import (
+    LayeredRenderer,
+    background_of,
+    renderer_of,
+    shown_frame,
+    shown_frame_and_alpha,
+    sprite_plate,
+)
+from physanimator.rendering.pictures import over
 
 HEIGHT, WIDTH = 150, 200
 Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.still_parts import keep_still_parts, moving_region
+from physanimator.rendering.composite import keep_still_parts, moving_region
 
 
 def square(left: int) -> np.ndarray:

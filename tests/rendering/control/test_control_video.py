@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import preset
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
-from physanimator.rendering.control_video import first_and_last, line_frames, warped_frames
-from physanimator.rendering.layers import Layer
-from physanimator.rendering.video_format import VideoFormat
+from physanimator.rendering.composite import Layer
+from physanimator.rendering.control import VideoFormat, first_and_last, line_frames, warped_frames
 
 WIDTH, HEIGHT = 160, 96
 Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5

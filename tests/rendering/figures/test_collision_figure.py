@@ -8,7 +8,7 @@ from itertools import permutations
 import cv2
 import numpy as np
 from physanimator.physics.motion import Motion
-from physanimator.rendering.collision_figure import collision_motions, touching
+from physanimator.rendering.figures.collisions import collision_motions, touching
 
 
 @lru_cache

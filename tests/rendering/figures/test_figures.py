@@ -6,17 +6,16 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from physanimator.__main__ import EXAMPLE
+from physanimator.physics.document import read_json, scene_from_dict
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.json_text import read_json
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Scene
-from physanimator.physics.scene_json import scene_from_dict
-from physanimator.rendering import figures
-from physanimator.rendering.ball import draw_ball, draw_sand, draw_stage
-from physanimator.rendering.contact_sheet import contact_sheet
-from physanimator.rendering.images import load_mask
+from physanimator.rendering.command import EXAMPLE
+from physanimator.rendering.figures import figures
+from physanimator.rendering.figures.ball import draw_ball, draw_sand, draw_stage
+from physanimator.rendering.figures.contact_sheet import contact_sheet
+from physanimator.rendering.pictures import load_mask
 
 PICTURES = [[np.full((40, 60, 3), shade, np.uint8) for shade in (10, 90)] for _ in range(3)]
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from physanimator.physics.motion import Motion
-from physanimator.rendering.preset_figure import preset_motions, presets_figure, tip_path
+from physanimator.rendering.figures import presets_figure
+from physanimator.rendering.figures.preset_figure import preset_motions, tip_path
 
 
 @pytest.fixture(scope="module")

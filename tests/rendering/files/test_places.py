@@ -11,12 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError, printable
-from physanimator.rendering.atomic import replacing
-from physanimator.rendering.images import check_image_output, load_image, save_image
-from physanimator.rendering.places import check_windows_name
-from physanimator.rendering.text_files import check_text_output, write_text
-from physanimator.rendering.unfinished import made_beside, remove_unfinished
-from physanimator.rendering.video import check_output, write_animation
+from physanimator.rendering.files import check_text_output, made_beside, remove_unfinished, replacing, write_text
+from physanimator.rendering.files.places import check_windows_name
+from physanimator.rendering.pictures import check_image_output, check_output, load_image, save_image, write_animation
 
 FRAME = np.full((8, 8, 3), 120, np.uint8)
 
@@ -163,7 +160,7 @@ def test_a_folder_that_is_read_only_is_found_by_trying(
     def refuse(*_: object, **__: object) -> int:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr("physanimator.rendering.unfinished.os.open", refuse)
+    monkeypatch.setattr("physanimator.rendering.files.unfinished.os.open", refuse)
     check_in_vain(kind[1], tmp_path / f"a{kind[0]}", "must be writable. Got: Permission denied")
 
 
@@ -177,7 +174,7 @@ def test_a_file_that_another_program_holds_is_found_beforehand(
     def refuse(*_: object, **__: object) -> int:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr("physanimator.rendering.places.os.open", refuse)
+    monkeypatch.setattr("physanimator.rendering.files.places.os.open", refuse)
     check_in_vain(kind[1], path, "is it open in another program")
 
 

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from physanimator.rendering.atomic import replacing
-from physanimator.rendering.ending import Ended, ending_signals, hear_signals, ignore_signals, uninterrupted
+from physanimator.rendering.files import ending_signals, hear_signals, ignore_signals, replacing, uninterrupted
+from physanimator.rendering.files.signals import Ended
 
 # Where a signal is heard is the very thing: the blocks are as long as that takes.
 # ruff: noqa: PT012, SIM105

@@ -14,9 +14,7 @@ from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
-from physanimator.rendering import interpolation
-from physanimator.rendering.inbetweening import Clip
-from physanimator.rendering.interpolation import BACKENDS, ModelFile, interpolate, keyframe_indices
+from physanimator.rendering.inbetweens import BACKENDS, Clip, ModelFile, interpolate, interpolation, keyframe_indices
 
 WIDTH, HEIGHT, FRAMES = 160, 120, 11
 CORNERS = np.array([[40, 40], [84, 40], [84, 84], [40, 84]], dtype=np.float64)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.rendering.closed_form import solve_alpha
+from physanimator.rendering.matting.closed_form import solve_alpha
 
 SIZE = 40
 ROWS, COLUMNS = np.mgrid[:SIZE, :SIZE]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from physanimator.rendering.line_share import share_of_line
+from physanimator.rendering.matting.line_share import share_of_line
 
 # Across a vertical line: background, a rim of one half, two full columns, a rim of one fifth, background.
 SHARES = np.array([0.0, 0.5, 1.0, 1.0, 0.2, 0.0])

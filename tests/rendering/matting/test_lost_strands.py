@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
-from physanimator.rendering.regular_mask import regular_mask
+from physanimator.rendering.matting import regular_mask
 
 WIDTH, HEIGHT, FINE = 240, 180, 4
 SKY, RED, INK, PAPER = (0.62, 0.77, 0.9), (0.8, 0.3, 0.25), (0.12, 0.06, 0.1), (0.95, 0.95, 0.9)

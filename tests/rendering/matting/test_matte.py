@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.rendering.matte import fitting_plate, in_levels, soft_alpha, with_outline
-from physanimator.rendering.pixel_windows import window_around
+from physanimator.rendering.matting import fitting_plate, in_levels, soft_alpha, with_outline
+from physanimator.rendering.pictures import window_around
 
 SIZE = 96
 Y, X = np.mgrid[:SIZE, :SIZE] + 0.5

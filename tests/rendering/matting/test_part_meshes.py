@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import cv2
 import numpy as np
-from physanimator.physics.meshing import mesh_from_mask
-from physanimator.physics.pixel_box import PixelBox
-from physanimator.physics.raster import triangle_ids
-from physanimator.pipeline import animate
-from physanimator.rendering.part_meshes import part_mesh
+from physanimator.physics.mesh import PixelBox, mesh_from_mask, triangle_ids
+from physanimator.rendering.matting import part_mesh
+from physanimator.rendering.pipeline import animate
 
 WIDTH, HEIGHT, FINE = 230, 170, 4
 SKY, RED, INK = np.float32((0.62, 0.77, 0.9)), np.float32((0.8, 0.3, 0.25)), np.float32((0.12, 0.06, 0.1))

@@ -7,11 +7,11 @@ from collections.abc import Callable
 import cv2
 import numpy as np
 import pytest
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
 from physanimator.rendering.composite import LayeredRenderer
-from physanimator.rendering.regular_mask import regular_mask
+from physanimator.rendering.matting import regular_mask
 
 WIDTH, HEIGHT, FINE = 220, 180, 4
 Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5

@@ -10,12 +10,12 @@ import pytest
 from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import preset
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
-from physanimator.rendering.metrics import ClipMetrics, DynamicDegree, measure_clip
+from physanimator.rendering.metrics import chamfer_distance, measure_clip
+from physanimator.rendering.metrics.metrics import ClipMetrics, DynamicDegree
 from physanimator.rendering.sketch import extract_sketch
-from physanimator.rendering.sketch_distance import chamfer_distance
 
 HEIGHT, WIDTH, FRAMES = 96, 160, 5
 STEP = 6

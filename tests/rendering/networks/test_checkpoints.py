@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 import torch
-from physanimator.rendering.checkpoints import (
+from physanimator.rendering.networks.checkpoints import (
     CheckpointError,
     assign,
     below,

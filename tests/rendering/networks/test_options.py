@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.svd.options import SketchVideoOptions
-from physanimator.rendering.tooncrafter.options import InterpolationOptions
-from physanimator.rendering.video_format import VideoFormat
+from physanimator.rendering.control import VideoFormat
+from physanimator.rendering.svd import SketchVideoOptions
+from physanimator.rendering.tooncrafter import InterpolationOptions
 
 WRONG = [-1, -(10**400), 10**5000, float("nan"), float("inf"), -0.5, "many", None, True, [1], {}, 3.7j]
 OPTIONS = [

@@ -6,21 +6,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.forces import EnergyStroke
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.motion import Motion
-from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Wave
-from physanimator.physics.rig_turns import Rotation
+from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Rotation, Wave
 from physanimator.physics.scene import Body, Scene
-from physanimator.physics.strokes import EnergyStroke
-from physanimator.rendering.flow_colour import flow_to_color
-from physanimator.rendering.overlay import (
-    RIG_COLOURS,
-    STROKE_COLOURS,
-    draw_rig,
-    draw_strokes,
-    draw_wireframe,
-    preview,
-)
+from physanimator.rendering.overlays import draw_strokes, draw_wireframe, flow_to_color, preview
+from physanimator.rendering.overlays.overlay import RIG_COLOURS, STROKE_COLOURS, draw_rig
 
 WIDTH, HEIGHT = 200, 120
 GREY = np.full((HEIGHT, WIDTH, 3), 128, np.uint8)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.tracks import Tracks
-from physanimator.rendering.track_overlay import draw_tracks, fitted
+from physanimator.physics.motion import Tracks
+from physanimator.rendering.overlays import draw_tracks, fitted
 
 WIDTH, HEIGHT, FRAMES = 320, 180, 20
 

@@ -7,10 +7,8 @@ from pathlib import Path
 import av
 import numpy as np
 import pytest
-from physanimator.rendering.bleeding import bled, carried_on
-from physanimator.rendering.premultiplied import premultiplied, resized, straight
-from physanimator.rendering.transparency import over
-from physanimator.rendering.video import write_animation
+from physanimator.rendering.pictures import carried_on, over, premultiplied, resized, straight, write_animation
+from physanimator.rendering.pictures.bleeding import bled
 from PIL import Image
 
 YELLOW = np.array([250, 230, 60])

@@ -8,10 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering import clip_reading
-from physanimator.rendering.clip_reading import read_clip
-from physanimator.rendering.images import load_image, load_mask, save_image
-from physanimator.rendering.video import write_animation
+from physanimator.rendering.pictures import clip_reading, load_image, load_mask, read_clip, save_image, write_animation
 from PIL import Image
 
 KINDS = (".gif", ".webp", ".apng", ".mp4", ".webm")

@@ -12,9 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering import frame_folder
-from physanimator.rendering.images import load_image, save_image
-from physanimator.rendering.video import check_output, write_animation
+from physanimator.rendering.pictures import check_output, frame_folder, load_image, save_image, write_animation
 
 RECORD = ".physanimator.json"
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.images import LONGEST_SIDE, load_image, load_mask, save_image
-from physanimator.rendering.pixels import as_uint8
+from physanimator.rendering.pictures import as_uint8, load_image, load_mask, save_image
+from physanimator.rendering.pictures.images import LONGEST_SIDE
 from PIL import Image, ImageCms
 
 

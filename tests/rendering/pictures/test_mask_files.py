@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.images import load_mask
-from physanimator.rendering.mask_files import read_mask
+from physanimator.rendering.pictures import load_mask
+from physanimator.rendering.pictures.mask_files import read_mask
 from PIL import Image, ImageFilter
 
 HEIGHT, WIDTH = 90, 120

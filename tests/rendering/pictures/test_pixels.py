@@ -10,15 +10,13 @@ import numpy as np
 import pytest
 import torch
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.masks import coverage_of
-from physanimator.pipeline import animate
-from physanimator.rendering.clean_plate import clean_plate
-from physanimator.rendering.images import data_address, save_image
-from physanimator.rendering.interpolation import interpolate
-from physanimator.rendering.pixels import as_float, as_picture
+from physanimator.physics.mesh import coverage_of
+from physanimator.rendering.inbetweens import interpolate
+from physanimator.rendering.pictures import as_float, as_picture, data_address, save_image, write_animation
+from physanimator.rendering.pipeline import animate
+from physanimator.rendering.plate import clean_plate
 from physanimator.rendering.segmentation import segment
 from physanimator.rendering.sketch import extract_sketch
-from physanimator.rendering.video import write_animation
 from PIL import Image
 
 HEIGHT, WIDTH = 40, 60

@@ -12,10 +12,9 @@ import av
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering import video
-from physanimator.rendering.clip_reading import read_clip
-from physanimator.rendering.gif import shown_indices
-from physanimator.rendering.video import FORMATS, check_output, exact_frame_rate, write_animation
+from physanimator.rendering.pictures import FORMATS, check_output, read_clip, video, write_animation
+from physanimator.rendering.pictures.gif import shown_indices
+from physanimator.rendering.pictures.video import exact_frame_rate
 from PIL import Image
 
 WIDTH, HEIGHT = 96, 64

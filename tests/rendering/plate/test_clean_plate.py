@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.clean_plate import clean_plate
+from physanimator.rendering.plate import clean_plate
 
 HEIGHT, WIDTH = 120, 160
 Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5

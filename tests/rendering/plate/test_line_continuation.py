@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from physanimator.rendering.line_continuation import continue_lines
+from physanimator.rendering.plate import continue_lines
 
 HEIGHT, WIDTH = 160, 200
 Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5

@@ -6,8 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
-from physanimator.rendering.colour_spreading import spread_colours, spread_sides
-from physanimator.rendering.smooth_fill import smooth_fill
+from physanimator.rendering.plate import spread_colours
+from physanimator.rendering.plate.colour_spreading import spread_sides
+from physanimator.rendering.plate.smooth_fill import smooth_fill
 
 HEIGHT, WIDTH = 120, 160
 Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5

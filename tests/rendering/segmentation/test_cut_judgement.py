@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.rendering.cut_judgement import judge_cut, judge_cuts, judge_points
-from physanimator.rendering.prompts import Prompt
+from physanimator.rendering.segmentation import Prompt, judge_cuts, judge_points
+from physanimator.rendering.segmentation.cut_judgement import judge_cut
 
 HEIGHT, WIDTH = 300, 400
 

@@ -11,12 +11,12 @@ import pytest
 from numpy.typing import NDArray
 from painted_art import DAMAGES, PARTS, TECHNIQUES, painted, points_in
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.images import load_image, load_mask
-from physanimator.rendering.noise import sharpness_of
-from physanimator.rendering.outline_cuts import without_foreign_lines
+from physanimator.rendering.pictures import load_image, load_mask
 from physanimator.rendering.segmentation import segment
+from physanimator.rendering.segmentation.noise import sharpness_of
+from physanimator.rendering.segmentation.outline_cuts import without_foreign_lines
 
-EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example"
+EXAMPLE = Path(__file__).resolve().parents[3] / "workflows" / "example"
 WIDTH, HEIGHT = 200, 150
 Mask = NDArray[np.bool_]
 

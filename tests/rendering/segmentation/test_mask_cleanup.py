@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.mask_cleanup import clean_mask
+from physanimator.rendering.segmentation.mask_cleanup import clean_mask
 
 ROWS, COLUMNS = np.mgrid[:80, :100]
 

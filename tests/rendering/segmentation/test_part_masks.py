@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from physanimator.physics.document import parse_points
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.part_masks import segment_parts
-from physanimator.rendering.points import parse_points
-from physanimator.rendering.prompts import prompts_of
+from physanimator.rendering.segmentation import prompts_of, segment_parts
 
 HEIGHT, WIDTH = 120, 200
 ROWS, COLUMNS = np.mgrid[:HEIGHT, :WIDTH] + 0.5

@@ -6,13 +6,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.flow import FlowSequence
 from physanimator.physics.material import preset
-from physanimator.physics.meshing import mesh_from_mask
-from physanimator.physics.motion import Motion
+from physanimator.physics.mesh import mesh_from_mask
+from physanimator.physics.motion import FlowSequence, Motion
 from physanimator.physics.scene import Body
-from physanimator.rendering.layered_sketch import LayeredSketch
-from physanimator.rendering.sketch_warping import WARP_MODES, warped_sketches
+from physanimator.rendering.sketch import WARP_MODES, LayeredSketch, warped_sketches
 
 HEIGHT, WIDTH = 90, 140
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.flow import FlowField
-from physanimator.rendering.warp import SPLAT_MODES, forward_warp, warp_sketch
+from physanimator.physics.motion import FlowField
+from physanimator.rendering.sketch import forward_warp, warp_sketch
+from physanimator.rendering.sketch.warp import SPLAT_MODES
 
 HEIGHT, WIDTH = 60, 90
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import random_svd
 import torch
-from physanimator.rendering.checkpoints import CheckpointError
+from physanimator.rendering.networks.checkpoints import CheckpointError
 from physanimator.rendering.svd.models import SketchVideoModels, load_models
 from safetensors.torch import load_file, save_file
 

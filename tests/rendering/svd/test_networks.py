@@ -8,10 +8,11 @@ import pytest
 import random_svd
 import torch
 from diffusers import UNetSpatioTemporalConditionModel
+from physanimator.rendering.networks.image_encoder import encoder_picture
+from physanimator.rendering.svd import FrameLayout
 from physanimator.rendering.svd.attention import MaskedTemporalAttention, ReferenceAttention
 from physanimator.rendering.svd.controlnet import SketchControlNet
-from physanimator.rendering.svd.frame_layout import FrameLayout, KeyFrames
-from physanimator.rendering.svd.image_encoder import encoder_picture
+from physanimator.rendering.svd.frame_layout import KeyFrames
 from physanimator.rendering.svd.temporal_convolution import MaskedTemporalConvolution
 from physanimator.rendering.svd.unet import SpatioTemporalUNet
 

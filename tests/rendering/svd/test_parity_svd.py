@@ -7,10 +7,9 @@ from typing import Any
 import pytest
 import reference_nets as reference
 import torch
-from physanimator.rendering.checkpoints import build_without_storage, check_names
-from physanimator.rendering.svd.configuration import NetworkConfiguration
+from physanimator.rendering.networks.checkpoints import build_without_storage, check_names
+from physanimator.rendering.svd import FrameLayout, NetworkConfiguration
 from physanimator.rendering.svd.controlnet import SketchControlNet
-from physanimator.rendering.svd.frame_layout import FrameLayout
 from physanimator.rendering.svd.unet import SpatioTemporalUNet
 
 UNET, CONTROL = "lvcd_unet", "lvcd_control"

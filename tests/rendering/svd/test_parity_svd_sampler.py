@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 import reference_nets as reference
 import torch
+from physanimator.rendering.svd import FrameLayout
 from physanimator.rendering.svd.controlnet import SketchControlNet
 from physanimator.rendering.svd.decoding import decoding_chunks
-from physanimator.rendering.svd.frame_layout import FrameLayout
 from physanimator.rendering.svd.noise_schedule import Preconditioning, denoised, euler_step, noise_levels
 from physanimator.rendering.svd.sampler import Predictor, SampledStep, sample_clip
 from physanimator.rendering.svd.segments import plan_segments

@@ -11,9 +11,9 @@ import random_svd
 import torch
 from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
+from physanimator.rendering.networks.placement import Placement
+from physanimator.rendering.svd import SketchVideoOptions
 from physanimator.rendering.svd.models import SketchVideoModels, load_models
-from physanimator.rendering.svd.options import SketchVideoOptions
-from physanimator.rendering.svd.placement import Placement
 from physanimator.rendering.svd.renderer import SketchVideoRenderer
 
 Image = NDArray[np.float32]

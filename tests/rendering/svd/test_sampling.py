@@ -6,8 +6,8 @@ import pytest
 import torch
 from diffusers import EulerDiscreteScheduler
 from physanimator.physics.errors import InvalidInputError
+from physanimator.rendering.svd import CLIP_FRAMES, FrameLayout
 from physanimator.rendering.svd.decoding import decode, decoding_chunks
-from physanimator.rendering.svd.frame_layout import CLIP_FRAMES, FrameLayout
 from physanimator.rendering.svd.noise_schedule import denoised, euler_step, noise_levels
 from physanimator.rendering.svd.sampler import LATENT_SCALE, SampledStep, sample_clip
 from physanimator.rendering.svd.segments import plan_segments

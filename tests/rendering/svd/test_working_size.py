@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.svd.working_size import Frame
+from physanimator.rendering.networks import Frame
 
 
 @pytest.mark.parametrize(

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 import torch
 from live_tensors import LiveTensors
+from physanimator.rendering.tooncrafter import AutoencoderConfiguration
 from physanimator.rendering.tooncrafter.autoencoder import DualReferenceAutoencoder
 from physanimator.rendering.tooncrafter.clip_features import ClipFeatures
 from physanimator.rendering.tooncrafter.clip_statistics import ClipStatistics
-from physanimator.rendering.tooncrafter.configuration import AutoencoderConfiguration
 from physanimator.rendering.tooncrafter.memory import decoding_bytes, encoding_bytes
 from physanimator.rendering.tooncrafter.models import InterpolationModels
 from torch import Tensor, nn

@@ -13,14 +13,14 @@ import random_tooncrafter as tiny
 import torch
 from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.checkpoints import CheckpointError
-from physanimator.rendering.interpolation import interpolate, keyframe_indices
-from physanimator.rendering.svd.placement import Placement
+from physanimator.rendering.inbetweens import interpolate, keyframe_indices
+from physanimator.rendering.networks.checkpoints import CheckpointError
+from physanimator.rendering.networks.placement import Placement
+from physanimator.rendering.tooncrafter import InterpolationOptions
 from physanimator.rendering.tooncrafter.conditioning import Tokens
 from physanimator.rendering.tooncrafter.gap_plan import clips_in, drawn_in_clip, inner_keyframes, sketched_in_clip
 from physanimator.rendering.tooncrafter.interpolator import ToonCrafterInterpolator
 from physanimator.rendering.tooncrafter.models import InterpolationModels, load_models
-from physanimator.rendering.tooncrafter.options import InterpolationOptions
 
 WIDTH, HEIGHT = 90, 70
 QUICK: dict[str, Any] = {"steps": 1, "area": 64 * 64}

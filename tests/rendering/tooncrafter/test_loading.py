@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import random_tooncrafter as tiny
 import torch
-from physanimator.rendering.checkpoints import CheckpointError
+from physanimator.rendering.networks.checkpoints import CheckpointError
 from physanimator.rendering.tooncrafter.kept_prompt import keep_prompt, kept_prompt_file
 from physanimator.rendering.tooncrafter.models import InterpolationModels, load_models
 from physanimator.rendering.tooncrafter.text_encoder import TextEncoder, empty_prompt

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 import reference_nets as reference
 import torch
-from physanimator.rendering.checkpoints import build_without_storage, check_names
-from physanimator.rendering.tooncrafter.configuration import SketchEncoderConfiguration
+from physanimator.rendering.networks.checkpoints import build_without_storage, check_names
+from physanimator.rendering.tooncrafter import SketchEncoderConfiguration
 from physanimator.rendering.tooncrafter.sketch_encoder import SketchEncoder
 
 NET = "sketch_encoder"

@@ -7,13 +7,9 @@ from typing import Any
 import pytest
 import reference_nets as reference
 import torch
-from physanimator.rendering.checkpoints import build_without_storage, check_names
+from physanimator.rendering.networks.checkpoints import build_without_storage, check_names
+from physanimator.rendering.tooncrafter import AutoencoderConfiguration, ResamplerConfiguration, UNetConfiguration
 from physanimator.rendering.tooncrafter.autoencoder import DualReferenceAutoencoder
-from physanimator.rendering.tooncrafter.configuration import (
-    AutoencoderConfiguration,
-    ResamplerConfiguration,
-    UNetConfiguration,
-)
 from physanimator.rendering.tooncrafter.resampler import ImageResampler
 from physanimator.rendering.tooncrafter.sketch_encoder import SketchEncoder
 from physanimator.rendering.tooncrafter.unet import InterpolationUNet

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 import reference_nets as reference
 import torch
+from physanimator.rendering.tooncrafter import InterpolationOptions
 from physanimator.rendering.tooncrafter.autoencoder import DualReferenceAutoencoder
 from physanimator.rendering.tooncrafter.clip import guided_velocity, sample_clips
 from physanimator.rendering.tooncrafter.conditioning import Tokens, contexts, encode_pair
 from physanimator.rendering.tooncrafter.decoding import decode_clip
 from physanimator.rendering.tooncrafter.models import InterpolationModels
-from physanimator.rendering.tooncrafter.options import InterpolationOptions
 from physanimator.rendering.tooncrafter.resampler import ImageResampler
 from physanimator.rendering.tooncrafter.sketch_encoder import SketchEncoder
 from physanimator.rendering.tooncrafter.unet import InterpolationUNet

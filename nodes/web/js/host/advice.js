@@ -1,4 +1,4 @@
-/** What a node wants to say to the person at the browser, as the host's toast; see nodes/messages.py. */
+/** What a node wants to say to the person at the browser, as the host's toast; see nodes/host/messages.py. */
 
 const EVENT = "physanimator.advice";
 const LIFE = 30_000; // [ms]

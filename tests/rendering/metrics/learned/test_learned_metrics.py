@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 import torch
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.checkpoints import CheckpointError, build_without_storage
-from physanimator.rendering.learned_metrics.fid import frechet_distance, frechet_inception_distance
-from physanimator.rendering.learned_metrics.inception import FEATURES, InceptionFeatures
-from physanimator.rendering.learned_metrics.video_score import DIMENSIONS, video_score
+from physanimator.rendering.metrics.learned import video_score
+from physanimator.rendering.metrics.learned.fid import frechet_distance, frechet_inception_distance
+from physanimator.rendering.metrics.learned.inception import FEATURES, InceptionFeatures
+from physanimator.rendering.metrics.learned.videoscore import DIMENSIONS
+from physanimator.rendering.networks.checkpoints import CheckpointError, build_without_storage
 
 
 def sample(count: int, shift: float = 0.0, scale: float = 1.0) -> np.ndarray:

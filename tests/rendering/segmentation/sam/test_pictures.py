@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import torch
-from physanimator.rendering.sam.families import FAMILIES
-from physanimator.rendering.sam.pictures import Square
+from physanimator.rendering.segmentation.sam.families import FAMILIES
+from physanimator.rendering.segmentation.sam.pictures import Square
 
 SIZES = [(1280, 720), (719, 1283), (64, 64), (3000, 37), (1, 500), (333, 1000)]
 Families = pytest.mark.parametrize("family", [FAMILIES["sam"], FAMILIES["sam2"]], ids=lambda family: family.title)

@@ -13,9 +13,9 @@ import torch
 pytest.importorskip("transformers")
 
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.checkpoints import CheckpointError
-from physanimator.rendering.prompts import Prompt
-from physanimator.rendering.sam.segmenter import SamSegmenter
+from physanimator.rendering.networks.checkpoints import CheckpointError
+from physanimator.rendering.segmentation import Prompt
+from physanimator.rendering.segmentation.sam.segmenter import SamSegmenter
 from random_sam import original_names, random_network, save_network
 from safetensors.torch import save_file
 

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 import torch
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.checkpoints import CheckpointError
-from physanimator.rendering.drawings.configuration import InformativeDrawingsConfiguration, SketchUNetConfiguration
-from physanimator.rendering.drawings.extractor import draw_sketch
-from physanimator.rendering.drawings.informative_drawings import InformativeDrawings
-from physanimator.rendering.drawings.models import LineDrawer, load_drawer
-from physanimator.rendering.drawings.sketch_unet import SketchUNet
-from physanimator.rendering.drawings.strips import draw_in_strips
+from physanimator.rendering.networks.checkpoints import CheckpointError
+from physanimator.rendering.sketch.drawings import InformativeDrawingsConfiguration, SketchUNetConfiguration
+from physanimator.rendering.sketch.drawings.extractor import draw_sketch
+from physanimator.rendering.sketch.drawings.informative_drawings import InformativeDrawings
+from physanimator.rendering.sketch.drawings.models import LineDrawer, load_drawer
+from physanimator.rendering.sketch.drawings.sketch_unet import SketchUNet
+from physanimator.rendering.sketch.drawings.strips import draw_in_strips
 from safetensors.torch import save_file
 from torch import Tensor, nn
 

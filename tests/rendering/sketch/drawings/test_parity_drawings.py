@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 import reference_nets as reference
 import torch
-from physanimator.rendering.checkpoints import build_without_storage, check_names
-from physanimator.rendering.drawings.configuration import InformativeDrawingsConfiguration
-from physanimator.rendering.drawings.informative_drawings import InformativeDrawings
-from physanimator.rendering.drawings.strips import draw_in_strips
+from physanimator.rendering.networks.checkpoints import build_without_storage, check_names
+from physanimator.rendering.sketch.drawings import InformativeDrawingsConfiguration
+from physanimator.rendering.sketch.drawings.informative_drawings import InformativeDrawings
+from physanimator.rendering.sketch.drawings.strips import draw_in_strips
 
 CASES = [
     (case, net) for case in reference.cases("informative_drawings") for net in reference.fixtures().cases[case]["nets"]

@@ -1,0 +1,68 @@
+"""Between the host and the nodes: wires, tensors, choices, progress, previews, messages, and where files are saved."""
+
+from __future__ import annotations
+
+from .batches import announce_batch
+from .choices import checked
+from .computing import PRECISIONS, dtype_of
+from .defaults import default_of
+from .literals import PATH_FORMS, boxes_of, chosen, keys_of, numbers_of, refusal, times_of, whole_numbers_of
+from .messages import all_told, hint_of_pixel_art, shown_with, tell_user
+from .progress import host_check, host_preview, host_progress
+from .running import is_wanted, not_made, sent_inputs, server, watch_prompts
+from .saving import FILE_TYPES, FRAMES, Place, check_prefix, free_place
+from .tensors import (
+    FrameBatch,
+    batch_of_masks,
+    batch_of_pictures,
+    mask_batch,
+    mask_of,
+    picture_batch,
+    picture_of,
+    picture_with_alpha,
+    pictures_for,
+    pictures_of,
+)
+
+__all__ = [
+    "FILE_TYPES",
+    "FRAMES",
+    "PATH_FORMS",
+    "PRECISIONS",
+    "FrameBatch",
+    "Place",
+    "all_told",
+    "announce_batch",
+    "batch_of_masks",
+    "batch_of_pictures",
+    "boxes_of",
+    "check_prefix",
+    "checked",
+    "chosen",
+    "default_of",
+    "dtype_of",
+    "free_place",
+    "hint_of_pixel_art",
+    "host_check",
+    "host_preview",
+    "host_progress",
+    "is_wanted",
+    "keys_of",
+    "mask_batch",
+    "mask_of",
+    "not_made",
+    "numbers_of",
+    "picture_batch",
+    "picture_of",
+    "picture_with_alpha",
+    "pictures_for",
+    "pictures_of",
+    "refusal",
+    "sent_inputs",
+    "server",
+    "shown_with",
+    "tell_user",
+    "times_of",
+    "watch_prompts",
+    "whole_numbers_of",
+]

@@ -1,0 +1,31 @@
+"""Scenes as versioned JSON documents: read, checked against their schema, brought up to date, written."""
+
+from __future__ import annotations
+
+from .checking import check_document
+from .encoding import encode, scene_to_dict
+from .given import given_scene, materials_of
+from .json_text import read_json
+from .overlay import checked_scene_over, scene_over
+from .point_text import parse_points, parse_polyline, require_pixels
+from .scene_json import dumps, loads, mask_pixels, scene_from_dict
+from .schema import scene_schema
+
+__all__ = [
+    "check_document",
+    "checked_scene_over",
+    "dumps",
+    "encode",
+    "given_scene",
+    "loads",
+    "mask_pixels",
+    "materials_of",
+    "parse_points",
+    "parse_polyline",
+    "read_json",
+    "require_pixels",
+    "scene_from_dict",
+    "scene_over",
+    "scene_schema",
+    "scene_to_dict",
+]

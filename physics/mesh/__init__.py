@@ -1,0 +1,33 @@
+"""From a mask to a triangle mesh, and from triangles back to pixels (paper, Method, "Mesh")."""
+
+from __future__ import annotations
+
+from .boundary import boundary_edges
+from .contours import area_of, contours_at_half, resampled
+from .masks import coverage_of, fitted, may_be_inverted
+from .meshing import mesh_from_mask
+from .pixel_box import PixelBox, bounding_box
+from .raster import barycentric, interpolate, rasterise, triangle_ids
+from .run_lengths import mask_of, runs_of
+from .triangle_mesh import UNITS_ACROSS, TriangleMesh
+
+__all__ = [
+    "UNITS_ACROSS",
+    "PixelBox",
+    "TriangleMesh",
+    "area_of",
+    "barycentric",
+    "boundary_edges",
+    "bounding_box",
+    "contours_at_half",
+    "coverage_of",
+    "fitted",
+    "interpolate",
+    "mask_of",
+    "may_be_inverted",
+    "mesh_from_mask",
+    "rasterise",
+    "resampled",
+    "runs_of",
+    "triangle_ids",
+]

@@ -1,0 +1,55 @@
+"""The scene: bodies, strokes, wind, rig points, paint and colliders; the automatic scene; and advice about it."""
+
+from __future__ import annotations
+
+from .advising import advice, mask_advice, unused_rig_points
+from .automatic import ATTACHMENTS, Attachment, automatic_scene
+from .collider_outlines import (
+    LEAST_SPACING,
+    MAX_OUTLINE_CROSSINGS,
+    OutlineCounts,
+    count_outlines,
+    crossed,
+    outlines,
+    segment_distances,
+    spacing_of,
+    window_of,
+    within_reach,
+)
+from .collision import Collider, Contact
+from .holds import Holds, holds_of, region_work
+from .paint import LEAST_FACTOR, MOST_FACTOR, QUANTITIES, Paint
+from .query_points import QueryPoint
+from .scene import Body, Scene, check_scene_rate
+
+__all__ = [
+    "ATTACHMENTS",
+    "LEAST_FACTOR",
+    "LEAST_SPACING",
+    "MAX_OUTLINE_CROSSINGS",
+    "MOST_FACTOR",
+    "QUANTITIES",
+    "Attachment",
+    "Body",
+    "Collider",
+    "Contact",
+    "Holds",
+    "OutlineCounts",
+    "Paint",
+    "QueryPoint",
+    "Scene",
+    "advice",
+    "automatic_scene",
+    "check_scene_rate",
+    "count_outlines",
+    "crossed",
+    "holds_of",
+    "mask_advice",
+    "outlines",
+    "region_work",
+    "segment_distances",
+    "spacing_of",
+    "unused_rig_points",
+    "window_of",
+    "within_reach",
+]

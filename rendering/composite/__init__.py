@@ -1,0 +1,31 @@
+"""Frames without a network: the illustration cut into layers, each bent by its body's motion over the clean plate."""
+
+from __future__ import annotations
+
+from .apron import ApronedMesh, canvas_of
+from .background import Background, background_of, renderer_of, shown_frame, shown_frame_and_alpha, usual_background
+from .beyond_border import on_canvas
+from .cutting import Layer
+from .layered_renderer import LayeredRenderer
+from .pixel_art import PixelArtRenderer, pixel_art_hint
+from .sprite_layers import sprite_plate
+from .still_parts import keep_still_parts, moving_region
+
+__all__ = [
+    "ApronedMesh",
+    "Background",
+    "Layer",
+    "LayeredRenderer",
+    "PixelArtRenderer",
+    "background_of",
+    "canvas_of",
+    "keep_still_parts",
+    "moving_region",
+    "on_canvas",
+    "pixel_art_hint",
+    "renderer_of",
+    "shown_frame",
+    "shown_frame_and_alpha",
+    "sprite_plate",
+    "usual_background",
+]

@@ -1,0 +1,42 @@
+"""Files on disk: places checked before the work, written whole or not at all, removed when a signal ends the work."""
+
+from __future__ import annotations
+
+from .atomic import naming_place, putting_in_place, replacing
+from .places import (
+    StrPath,
+    check_file_place,
+    check_folder_place,
+    check_replaceable,
+    is_folder_name,
+    is_read_only,
+    place_of,
+    same_name,
+    suffix_of,
+)
+from .signals import ending_signals, hear_signals, ignore_signals, uninterrupted
+from .text_files import check_text_output, write_text
+from .unfinished import made_beside, remove_unfinished
+
+__all__ = [
+    "StrPath",
+    "check_file_place",
+    "check_folder_place",
+    "check_replaceable",
+    "check_text_output",
+    "ending_signals",
+    "hear_signals",
+    "ignore_signals",
+    "is_folder_name",
+    "is_read_only",
+    "made_beside",
+    "naming_place",
+    "place_of",
+    "putting_in_place",
+    "remove_unfinished",
+    "replacing",
+    "same_name",
+    "suffix_of",
+    "uninterrupted",
+    "write_text",
+]

@@ -1,0 +1,44 @@
+"""Pictures, masks and clips: read without trust, converted, and written."""
+
+from __future__ import annotations
+
+from .bleeding import carried_on
+from .clip_reading import read_clip
+from .frame_folder import frames_in, is_frame_name
+from .frame_record import RECORD
+from .images import check_image_output, data_address, load_image, load_mask, save_image
+from .pixel_windows import window_around
+from .pixels import as_dtype, as_float, as_picture, as_uint8, check_picture
+from .premultiplication import premultiplied, resized, straight
+from .transparency import WHITE, Colour, is_transparent, over
+from .video import FORMATS, check_output, holds_alpha, write_animation
+
+__all__ = [
+    "FORMATS",
+    "RECORD",
+    "WHITE",
+    "Colour",
+    "as_dtype",
+    "as_float",
+    "as_picture",
+    "as_uint8",
+    "carried_on",
+    "check_image_output",
+    "check_output",
+    "check_picture",
+    "data_address",
+    "frames_in",
+    "holds_alpha",
+    "is_frame_name",
+    "is_transparent",
+    "load_image",
+    "load_mask",
+    "over",
+    "premultiplied",
+    "read_clip",
+    "resized",
+    "save_image",
+    "straight",
+    "window_around",
+    "write_animation",
+]

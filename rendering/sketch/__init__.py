@@ -1,0 +1,23 @@
+"""Line drawings: from the illustration, and bent along with the motion (paper, Method, "Sketch Warping")."""
+
+from __future__ import annotations
+
+from .layered_sketch import LayeredSketch
+from .sketch import cleaned, extract_sketch, picture_of
+from .sketch_warping import WARP_MODES, WarpMode, warped_sketches
+from .splatting import splat, split_fragments
+from .warp import forward_warp, warp_sketch
+
+__all__ = [
+    "WARP_MODES",
+    "LayeredSketch",
+    "WarpMode",
+    "cleaned",
+    "extract_sketch",
+    "forward_warp",
+    "picture_of",
+    "splat",
+    "split_fragments",
+    "warp_sketch",
+    "warped_sketches",
+]
