@@ -26,7 +26,7 @@ def eased(times: tuple[float, ...], values: Keys, easing: str, t: FloatArray) ->
     Args:
         times: of the keys, rising [s], shape [k].
         values: at the keys, shape [k] or [k, c].
-        easing: one of ``rig_turns.EASINGS``.
+        easing: one of ``turns.EASINGS``.
         t: time [s], any shape.
 
     Returns:

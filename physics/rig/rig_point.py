@@ -112,7 +112,7 @@ class KeyedPath:
     Attributes:
         times: one per key [s], increasing by at least 1 ms, from 0 or later.
         points: where the rig point is at each key [px].
-        easing: how it goes from key to key, one of ``rig_turns.EASINGS``.
+        easing: how it goes from key to key, one of ``turns.EASINGS``.
     """
 
     times: tuple[float, ...]

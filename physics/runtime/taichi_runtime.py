@@ -3,7 +3,7 @@
 Taichi binds its program to the thread that initialised it and has one program in a process, with which the fields of
 all its users go. Where nobody else has imported Taichi, one daemon thread does it all: it imports and initialises
 Taichi when the first job arrives and runs every kernel. Where others have, or as soon as they initialise it, kernels
-run in a process of their own (``taichi_worker``), and the program in this one is the others' alone.
+run in a process of their own (``worker``), and the program in this one is the others' alone.
 
 Taichi holds Python's global lock while a kernel runs: a long kernel stops every other thread, so callers keep their
 launches to some tens of milliseconds. It also holds it while it makes machine code of a kernel, which takes seconds

@@ -1,4 +1,4 @@
-"""What runs in the process that ``taichi_worker`` starts: it computes what comes in, until nothing more can come."""
+"""What runs in the process that ``worker`` starts: it computes what comes in, until nothing more can come."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ class Holds:
 
 
 def holds_of(scene: Scene) -> Holds:
-    """What the rig points of a scene hold, as ``rigging.leaders_of`` and ``falloff.grips_of`` tell it for one body.
+    """What the rig points of a scene hold, as ``regions.leaders_of`` and ``falloff.grips_of`` tell it for one body.
 
     Raises:
         SimulationError: the polygons have so many corners that comparing them with the meshes would take minutes.

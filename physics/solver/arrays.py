@@ -159,7 +159,7 @@ class Drive(NamedTuple):
         first_particles: particles of tick i are those from entry i to before entry i + 1, int32, shape [n + 1].
         particles: position and direction of travel of each particle in the middle of its tick [side],
             radius [side], strength [side/s^2], float32, shape [p, 6].
-        kinds: kind and falloff as in ``particles.Particles``, int32, shape [p].
+        kinds: kind and falloff as in ``flow_particles.Particles``, int32, shape [p].
         gravity: acceleration of every vertex [side/s^2].
         wind: beside it.
     """

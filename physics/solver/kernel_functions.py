@@ -4,7 +4,7 @@
 Triangles come in blocks, one in each lane of a vector, and leave their forces in slots of their own; each vertex then
 gathers its slots. That has no two lanes write to one place, and runs as fast as hand-written vector code.
 
-The functions take the arrays of ``solver_arrays`` whole, by their names.
+The functions take the arrays of ``arrays`` whole, by their names.
 """
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.

@@ -1,8 +1,8 @@
 """An illustration with transparency taken apart: a clean plate that is transparent itself, and a layer for each body.
 
-All is as for an opaque illustration (layers.py), P = T + (1 - a) B, with premultiplied colours and their alpha as a
-fourth one. Textures have a, how much a body covers of what is behind it, as a fifth channel. Where nothing is behind,
-that is the illustration's own alpha, which is known and need not be solved for.
+All is as in ``cutting`` for an opaque illustration, P = T + (1 - a) B, with premultiplied colours and their alpha as
+a fourth one. Textures have a, how much a body covers of what is behind it, as a fifth channel. Where nothing is
+behind, that is the illustration's own alpha, which is known and need not be solved for.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ _ALL = np.float32(1e-4)
 def take_sprite_apart(
     picture: FloatImage, masks: Sequence[FloatImage], meshes: Sequence[TriangleMesh], *, plate: FloatImage | None
 ) -> tuple[FloatImage, list[Layer]]:
-    """Peel the bodies off a picture with transparency, the front one first; see :func:`layers.take_apart`.
+    """Peel the bodies off a picture with transparency, the front one first; see :func:`cutting.take_apart`.
 
     Args:
         picture: straight RGBA in 0 to 1, shape [h, w, 4].
@@ -103,7 +103,7 @@ def sprite_hole(masks: Sequence[FloatImage], supports: Sequence[Mask]) -> Mask:
 
 
 def sprite_plate(picture: FloatImage, mask: FloatImage) -> FloatImage:
-    """A picture without what a mask shows: see :func:`clean_plate.clean_plate`.
+    """A picture without what a mask shows: see :func:`clean_plate`.
 
     Args:
         picture: straight RGBA in 0 to 1, shape [h, w, 4].
