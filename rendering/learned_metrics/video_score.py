@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError, require
 from ..images import to_uint8
+from ..regular_files import check_regular
 from .files import VIDEO_SCORE_FOLDER, require_file
 
 __all__ = ["DIMENSIONS", "PROMPT_FILE", "video_score"]
@@ -56,6 +57,7 @@ def video_score(frames: Sequence[NDArray[Any]], description: str, folder: Path) 
 
 
 def _question(folder: Path) -> str:
+    check_regular(folder / PROMPT_FILE, PROMPT_FILE)
     try:
         return (folder / PROMPT_FILE).read_text(encoding="utf-8").strip()
     except FileNotFoundError:
