@@ -17,6 +17,8 @@ __all__ = ["off_lines"]
 Mask = NDArray[np.bool_]
 Lab = NDArray[np.uint8]
 Points = NDArray[np.int_]
+_Side = tuple[Points, Mask]
+"""A point beside a line, and the region in which it lies."""
 
 _WIDEST = 7
 """What is narrower may be a line [px of the size at which clicks are weighed]."""
@@ -34,8 +36,9 @@ _SQUARE = np.ones((3, 3), np.uint8)
 def off_lines(lab: Lab, at: Points, positive: NDArray[np.bool_], tolerance: int) -> tuple[Points, NDArray[np.bool_]]:
     """The points, with each point on the object that lies on a line moved off it: to both sides if they are alike.
 
-    Where the sides differ, it moves to the side that is no backdrop, to the nearer one, or else to the larger one. A
-    line between two backdrops is a thing of its own, such as a rope before the sky: points on it stay.
+    Where the sides differ, it moves to the side on which other points on the object lie, or that has their colour, to
+    the one that is no backdrop, to the nearer one, or else to the larger one. A line between two backdrops is a thing
+    of its own, such as a rope before the sky: points on it stay.
 
     Args:
         lab: 8-bit Lab, shape [h, w, 3].
@@ -52,8 +55,10 @@ def off_lines(lab: Lab, at: Points, positive: NDArray[np.bool_], tolerance: int)
     if not on_line.any():
         return at, positive
     looks, others = Looks(lab), at[~positive]
+    certain = at[positive & ~on_line]
+    known = [looks.region(each, others, tolerance) for each in certain]
     moved = [
-        _beside(lab, looks, point, others, near, tolerance) if on else point[None]
+        _beside(lab, looks, point, others, near, known, tolerance) if on else point[None]
         for point, on in zip(at, on_line, strict=True)
     ]
     return np.concatenate(moved), np.repeat(positive, [len(each) for each in moved])
@@ -71,7 +76,9 @@ def _thin_and_dark(lab: Lab) -> Mask:
     return long[labels]
 
 
-def _beside(lab: Lab, looks: Looks, point: Points, others: Points, lines: Mask, tolerance: int) -> Points:
+def _beside(
+    lab: Lab, looks: Looks, point: Points, others: Points, lines: Mask, known: list[Mask], tolerance: int
+) -> Points:
     """The points beside a line for which a point on it stands, shape [1 or 2, 2]; itself where it is no line."""
     own = looks.region(point, others, tolerance)
     across = _across(point, lines)
@@ -79,16 +86,29 @@ def _beside(lab: Lab, looks: Looks, point: Points, others: Points, lines: Mask, 
         return point[None]
     sides = [(each, looks.region(each, others, tolerance)) for each in across]
     sides = [(each, region) for each, region in sides if region.any() and not _is_backdrop(region)]
+    sides = _preferred(lab, sides, known)
     if len(sides) < 2:
         return sides[0][0][None] if sides else point[None]
     (first, one), (second, two) = sides
-    colours = [np.median(lab[region].astype(np.float64), axis=0) for region in (one, two)]
-    if (np.abs(colours[0] - colours[1]) <= _ALIKE).all():
+    if _alike(lab, one, two):
         return np.stack([first, second])
     nearness = np.hypot(*(second - point)) - np.hypot(*(first - point))
     if abs(nearness) < 1:
         nearness = float(one.sum()) - float(two.sum())
     return (first if nearness >= 0 else second)[None]
+
+
+def _preferred(lab: Lab, sides: list[_Side], known: list[Mask]) -> list[_Side]:
+    """The sides that other points on the object share, else those of their colours, else all."""
+    shared = [side for side in sides if any((side[1] & each).any() for each in known)]
+    return shared or [side for side in sides if any(_alike(lab, side[1], each) for each in known)] or sides
+
+
+def _alike(lab: Lab, first: Mask, second: Mask) -> bool:
+    if not (first.any() and second.any()):
+        return False
+    colours = [np.median(lab[region].astype(np.float64), axis=0) for region in (first, second)]
+    return bool((np.abs(colours[0] - colours[1]) <= _ALIKE).all())
 
 
 def _across(point: Points, lines: Mask) -> tuple[Points, Points] | None:

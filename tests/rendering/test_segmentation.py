@@ -344,4 +344,4 @@ def test_a_click_on_a_line_over_paint(technique: str) -> None:
         cv2.line(lined, (int(x), int(y) - 25), (int(x), int(y) + 25), (25, 15, 15), 3, cv2.LINE_AA)
         mask = segment(lined, [(x, y)], [1])
         usable += mask.sum() > 0.1 * truth.sum() and (mask & truth).sum() > 0.7 * mask.sum()
-    assert usable >= 4
+    assert usable >= 3
