@@ -44,7 +44,7 @@ MAY_IMPORT = {
     "rendering/networks": "physics",
     "rendering/pictures": "physics physics/mesh rendering/files",
     "rendering/matting": "physics physics/mesh rendering/pictures",
-    "rendering/metrics/learned": "physics rendering/networks rendering/pictures",
+    "rendering/metrics/learned": "physics rendering/files rendering/networks rendering/pictures",
     "rendering/svd": "physics rendering/networks rendering/pictures",
     "rendering/plate": "physics physics/mesh rendering/matting rendering/pictures",
     "rendering/composite": "physics physics/mesh physics/motion rendering/matting rendering/pictures rendering/plate",
@@ -68,7 +68,7 @@ MAY_IMPORT = {
         "physics/simulation rendering/composite rendering/files rendering/inbetweens rendering/matting "
         "rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
     ),
-    "rendering/segmentation/sam": "physics rendering/networks rendering/segmentation",
+    "rendering/segmentation/sam": "physics rendering/files rendering/networks rendering/segmentation",
     "rendering/tooncrafter": "physics rendering/files rendering/inbetweens rendering/networks rendering/svd",
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "

@@ -149,7 +149,9 @@ def _contact(options: argparse.Namespace, scene: Any) -> Contact | None:
 def _text(path: str, name: str) -> str:
     from ...physics.errors import InvalidInputError
     from ...physics.limits import MAX_DOCUMENT_BYTES
+    from ..files import check_regular
 
+    check_regular(path, name)
     try:
         with Path(path).open("rb") as file:
             content = file.read(MAX_DOCUMENT_BYTES + 1)

@@ -14,6 +14,7 @@ from .places import (
     same_name,
     suffix_of,
 )
+from .regular import check_regular
 from .signals import ending_signals, hear_signals, ignore_signals, uninterrupted
 from .text_files import check_text_output, write_text
 from .unfinished import made_beside, remove_unfinished
@@ -22,6 +23,7 @@ __all__ = [
     "StrPath",
     "check_file_place",
     "check_folder_place",
+    "check_regular",
     "check_replaceable",
     "check_text_output",
     "ending_signals",

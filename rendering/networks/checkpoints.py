@@ -47,7 +47,7 @@ def read_checkpoint(path: Path, *, wanted: str) -> dict[str, Tensor]:
         CheckpointError: the file is missing, damaged, not a model file, or holds more than data.
     """
     if not path.is_file():
-        raise CheckpointError(f"{path} does not exist. Wanted: {wanted}")
+        raise CheckpointError(f"{path} {'is no file' if path.exists() else 'does not exist'}. Wanted: {wanted}")
     try:
         content = load_file(path) if path.suffix.lower() == ".safetensors" else _unpickled(path)
         tensors = _unwrapped(content)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError
 from ...physics.limits import MAX_PICTURE_PIXELS
+from ..files import check_regular
 
 __all__ = ["MAX_CLIP_FRAMES", "read_clip"]
 
@@ -38,6 +39,7 @@ def read_clip(path: str | os.PathLike[str]) -> Iterator[NDArray[np.uint8]]:
     place = Path(path)
     if os.path.isdir(place):
         return _alike(_pictures(place), place)
+    check_regular(place, "clip")
     if not os.path.isfile(place):
         raise InvalidInputError(f"clip must be a video or a folder of pictures. Got: {path}")
     return _alike(_animated(place) if place.suffix.lower() in _ANIMATED else _decoded(place), place)

@@ -26,6 +26,7 @@ _FEW = 0.05  # of what is white: so much may be coloured by accident
 _CLEAR = 0.001  # of the picture: less transparency than this is an accident
 _BRIGHT, _DARK = 0.94, 0.06
 _FAINT = 16 / 255
+_SPECK, _MANY_SPECKS = 16, 1000  # areas of white below this are no parts [px^2]; so many are hardly painted
 _EMPTY = "white (or opaque) where the part is. Got: an empty mask"
 
 
@@ -72,7 +73,15 @@ def read_mask(path: StrPath, *, width: int, height: int, name: str = "mask") -> 
     if may_be_inverted(coverage):
         share = 100 * float(coverage.mean())
         notes += (f"{called} covers {share:.0f} % of the picture: if white is what shall stay still, invert it",)
+    if (specks := _specks(coverage)) > _MANY_SPECKS:
+        notes += (f"{called} holds {specks} specks of white, as noise makes them: paint parts in even white",)
     return MaskFile(coverage, notes)
+
+
+def _specks(coverage: FloatPlane) -> int:
+    """How many separate areas of white there are that are too small to be parts."""
+    _, _, statistics, _ = cv2.connectedComponentsWithStats((coverage > 0.5).astype(np.uint8), connectivity=4)
+    return int(np.count_nonzero(statistics[1:, cv2.CC_STAT_AREA] < _SPECK))
 
 
 def _judged(picture: Image.Image, called: str) -> MaskFile:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ...physics.arrays import OVERSHOOT
 from ...physics.errors import InvalidInputError, PhysAnimatorError
 from ...physics.limits import MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE
+from ..files import check_regular
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -68,7 +69,7 @@ def open_picture(path: StrPath, *, name: str = "picture") -> Image.Image:
         name: what the user calls it, for messages.
 
     Raises:
-        InvalidInputError: there is no such file, it is no picture, it is damaged or too large.
+        InvalidInputError: there is no such file, it is no picture, it is damaged or too large, or a pipe or device.
     """
     from PIL import ImageOps
 
@@ -86,6 +87,7 @@ def reading(path: StrPath, name: str) -> Iterator[Image.Image]:
     from PIL import Image, UnidentifiedImageError
 
     Image.init()
+    check_regular(path, name)
     try:
         # Pillow warns of large pictures below our own limit, and of damage that it can read past.
         with warnings.catch_warnings():

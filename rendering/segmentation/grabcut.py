@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...physics.errors import InvalidInputError, require
 from ..pictures import as_picture, as_uint8
 from ..sketch import extract_sketch
+from .line_clicks import off_lines
 from .noise import noise_of, without_noise
 from .outline_cuts import cut_by_majority, grab_cut, window_of, without_foreign_lines
 from .prompts import Box, checked_box, checked_points
@@ -82,9 +83,10 @@ def segment(
     small_limit = cv2.resize(limit.astype(np.uint8), small_size, interpolation=cv2.INTER_NEAREST) > 0
     at = np.minimum((seeds * small_size / (width, height)).astype(int), np.array(small_size) - 1)
 
-    trimap = trimap_from_points(lab, at, positive, small_limit, tolerance, has_box=box is not None)
+    at, on_object = off_lines(lab, at, positive, tolerance)
+    trimap = trimap_from_points(lab, at, on_object, small_limit, tolerance, has_box=box is not None)
     # Noise stays: the colour models and the smoothness of the cut bear it better than the loss of thin strands.
-    found = cut_by_majority(lab, trimap, iterations, at[positive])
+    found = cut_by_majority(lab, trimap, iterations, at[on_object])
     mask = cv2.resize(found.astype(np.float32), (width, height), interpolation=cv2.INTER_LINEAR) > 0.5
     mask = _sharpened(picture, mask, reach=max(2, round(2 / scale)))
     mask = _with_outline(picture, mask) & limit

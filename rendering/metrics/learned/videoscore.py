@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....physics.errors import InvalidInputError, require
+from ...files import check_regular
 from ...pictures import as_uint8
 from .files import VIDEO_SCORE_FOLDER, require_file
 
@@ -56,6 +57,7 @@ def video_score(frames: Sequence[NDArray[Any]], description: str, folder: Path) 
 
 
 def _question(folder: Path) -> str:
+    check_regular(folder / PROMPT_FILE, PROMPT_FILE)
     try:
         return (folder / PROMPT_FILE).read_text(encoding="utf-8").strip()
     except FileNotFoundError:

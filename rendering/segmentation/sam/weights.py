@@ -14,6 +14,8 @@ from typing import Any
 import torch
 from torch import nn
 
+from ....physics.errors import InvalidInputError
+from ...files import check_regular
 from ...networks.checkpoints import CheckpointError, assign, build_without_storage, read_checkpoint
 from .families import FAMILIES, Family, where_to_get
 from .original_names import sam_config, sam_names
@@ -48,9 +50,11 @@ def model_type_of(folder: Path) -> str:
     Raises:
         CheckpointError: there is no config.json, or it names another kind of model.
     """
+    file = folder / "config.json"
     try:
-        config = json.loads((folder / "config.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError) as error:
+        check_regular(file, "config.json")
+        config = json.loads(file.read_text(encoding="utf-8"))
+    except (InvalidInputError, OSError, ValueError, RecursionError) as error:
         raise CheckpointError(f"{folder} has no readable config.json. Wanted: {_FOLDER_WANTED}") from error
     name = config.get("model_type") if isinstance(config, dict) else None
     if name not in FAMILIES:

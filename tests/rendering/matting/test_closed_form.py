@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 import pytest
+from physanimator.rendering.matting import closed_form
 from physanimator.rendering.matting.closed_form import solve_alpha
 
 SIZE = 40
@@ -38,3 +40,19 @@ def test_pictures_smaller_than_a_window_keep_the_guess(shape: tuple[int, int]) -
     )
     assert found[0, 0] == 0.25
     assert (found.ravel()[1:] == 1).all()
+
+
+@pytest.mark.parametrize("smooth", [False, True])
+def test_wide_unknown_areas_give_what_narrow_ones_do(smooth: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The solver for many unknowns, asked for few."""
+    generator = np.random.default_rng(0)
+    image = generator.random((SIZE, SIZE, 3)).astype(np.float32)
+    if smooth:
+        image = cv2.normalize(cv2.GaussianBlur(image, (0, 0), 4), None, 0, 1, cv2.NORM_MINMAX)
+    guess = (generator.random((SIZE, SIZE)) > 0.5).astype(np.float32)
+    unknown = np.ones((SIZE, SIZE), bool)
+    unknown[:4] = False
+    factorised = solve_alpha(image, guess, unknown, guess, trust=0.03)
+    monkeypatch.setattr(closed_form, "_FACTORISED", 0)
+    np.testing.assert_allclose(solve_alpha(image, guess, unknown, guess, trust=0.03), factorised, atol=0.001)
+    assert np.abs(factorised - guess)[unknown].max() > 0.1

@@ -174,3 +174,17 @@ def test_what_covers_most_of_the_picture_may_be_inverted(tmp_path: Path, colour:
     found = read_mask(tmp_path / "a.png", width=WIDTH, height=HEIGHT)
     assert ["invert it" in note for note in found.notes] == [True] * said
     assert not said or "covers 82 % of the picture" in found.notes[0]
+
+
+@pytest.mark.parametrize(("share", "said"), [(0.5, True), (0.0, False)])
+def test_a_mask_of_noise_is_said_to_be_one_and_one_of_many_leaves_is_not(
+    tmp_path: Path, share: float, said: bool
+) -> None:
+    size = 480, 640
+    y, x = np.mgrid[: size[0], : size[1]]
+    picture = (np.hypot(x % 24 - 12, y % 20 - 10) < 7) * 255 if not share else np.zeros(size)
+    picture[np.random.default_rng(0).random(size) < share] = 255
+    Image.fromarray(picture.astype(np.uint8)).save(tmp_path / "a.png")
+    notes = read_mask(tmp_path / "a.png", width=size[1], height=size[0]).notes
+    assert [note for note in notes if "specks of white" in note] == list(notes)
+    assert bool(notes) == said

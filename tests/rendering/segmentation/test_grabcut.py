@@ -283,3 +283,65 @@ def test_strokes_of_a_brush_are_no_regions() -> None:
     picture = np.clip(picture + np.pad(strokes, ((0, 0), (0, WIDTH - strokes.shape[1])))[..., None], 0, 255)
     mask = segment(picture.astype(np.uint8), [(90, 70), (70, 60), (100, 90)], [1, 1, 1])
     assert overlap(mask, shape) > 0.8
+
+
+def folded(width: int, noise: float) -> tuple[NDArray[np.uint8], Mask]:
+    """A disc with an outline, and with a fold that begins at its top and ends within it, at columns from 86 on."""
+    picture, shape = page(), disc(90, 70, 42)
+    picture[shape] = (60, 30, 30)
+    picture[disc(90, 70, 42 - width)] = (220, 80, 70)
+    picture[30:90, 86 : 86 + width] = (90, 25, 30)
+    shaken = picture + np.random.default_rng(1).normal(0, noise, picture.shape)
+    return np.clip(shaken, 0, 255).astype(np.uint8), shape
+
+
+@pytest.mark.parametrize("noise", [0.0, 5.0])
+@pytest.mark.parametrize("width", [1, 2, 3, 4, 5])
+def test_a_click_on_a_line_means_what_the_line_is_drawn_on(width: int, noise: float) -> None:
+    """On a fold and on the outline, on their middles and on both of their edges."""
+    picture, shape = folded(width, noise)
+    for along in {0.5, width / 2, width - 0.5}:
+        for click in ((86 + along, 60), (48 + along, 70)):
+            mask = segment(picture, [click], [1])
+            assert overlap(mask, shape) > 0.8, click
+            assert mask[int(click[1]), int(click[0])]
+
+
+def test_a_click_on_a_line_between_two_colours_means_one_side() -> None:
+    picture, left = page(), disc(90, 70, 42)
+    right = left & (np.arange(WIDTH) >= 92)
+    picture[left] = (220, 80, 70)
+    picture[right] = (60, 140, 70)
+    picture[left & (np.arange(WIDTH) >= 89) & (np.arange(WIDTH) < 92)] = 20
+    assert overlap(segment(picture, [(89.2, 70)], [1]), left & ~right) > 0.85
+    assert overlap(segment(picture, [(91.8, 70)], [1]), right) > 0.85
+
+
+def test_a_click_on_a_line_never_takes_what_a_point_beside_excludes() -> None:
+    picture, shape = folded(3, 0.0)
+    picture[30:112, 86:89][shape[30:112, 86:89]] = (90, 25, 30)
+    mask = segment(picture, [(87.5, 60), (110, 70)], [1, 0])
+    assert not mask[70, 110]
+    assert mask[70, 65]
+    assert mask[60, 87]
+
+
+def test_a_rope_before_the_sky_is_no_line() -> None:
+    picture = page()
+    picture[:] = (120, 160, 220)
+    rope = np.zeros((HEIGHT, WIDTH), bool)
+    rope[:, 98:102] = True
+    picture[rope] = (60, 30, 30)
+    assert overlap(segment(picture, [(100, 70)], [1]), rope) > 0.7
+
+
+@pytest.mark.parametrize("technique", TECHNIQUES)
+def test_a_click_on_a_line_over_paint(technique: str) -> None:
+    picture, truth = painted(technique, "skirt", width=320, height=240, seed=2)
+    usable = 0
+    for x, y in points_in(truth, 5, 0, seed=3)[:, :2]:
+        lined = picture.copy()
+        cv2.line(lined, (int(x), int(y) - 25), (int(x), int(y) + 25), (25, 15, 15), 3, cv2.LINE_AA)
+        mask = segment(lined, [(x, y)], [1])
+        usable += mask.sum() > 0.1 * truth.sum() and (mask & truth).sum() > 0.7 * mask.sum()
+    assert usable >= 3
