@@ -7,7 +7,7 @@ animate(picture, [mask], preset="hair").save("girl.mp4")
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
@@ -22,21 +22,20 @@ from ..physics.material import Material
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.process_end import working
 from ..physics.progress import Progress
-from ..physics.scene import Attachment, Body, Collider, Contact, Scene, automatic_scene, check_scene_rate
+from ..physics.scene import Attachment, Body, Collider, Contact, Scene, automatic_scene
 from ..physics.simulation import loop_frames, simulate
 from .animation import Animation, StageProgress, timed
 from .composite import renderer_of
-from .drawing_checks import check_count
 from .matting import part_mesh
+from .options import DEFAULT_FRAME_RATE, DEFAULT_FRAMES, AutomaticWind, Timing, Touching, Watch
 from .pictures import as_picture, over
 
-__all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "Animation", "StageProgress", "animate"]
+__all__ = ["animate"]
 
 Image = NDArray[Any]
 Mask = NDArray[Any]
 
-DEFAULT_FRAMES = 72
-DEFAULT_FRAME_RATE = 24.0
+_USUAL_WIND, _USUAL_TIMING, _AS_THE_SCENE_SAYS, _NOBODY = AutomaticWind(), Timing(), Touching(), Watch()
 
 
 @working()
@@ -47,24 +46,16 @@ def animate(
     *,
     scene: Scene | Mapping[str, Any] | None = None,
     preset: str | Sequence[str] | None = None,
-    frames: int | None = None,
-    skip: int = 0,
-    loop: float | None = None,
-    frame_rate: float | None = None,
-    spacing: float | None = None,
     sway: float | None = None,
+    spacing: float | None = None,
     attach: Attachment = "auto",
-    wind_strength: float = 1.0,
-    wind_angle: float = 0.0,
-    turbulence: float | None = None,
-    contact: Contact | None = None,
-    colliders: Sequence[Mask] = (),
+    wind: AutomaticWind = _USUAL_WIND,
+    timing: Timing = _USUAL_TIMING,
+    touching: Touching = _AS_THE_SCENE_SAYS,
     plate: Image | None = None,
-    progress: StageProgress | None = None,
     pixel_art: bool = False,
     max_minutes: float = DEFAULT_MINUTES,
-    on_cut: Callable[[Sequence[Mask]], None] | None = None,
-    on_scene: Callable[[Scene], None] | None = None,
+    watch: Watch = _NOBODY,
 ) -> Animation:
     """Set parts of an illustration in motion.
 
@@ -80,27 +71,18 @@ def animate(
             without one, the parts are pinned where they are attached and a gentle wind blows.
         preset: name of the material, one for all parts or one for each; replaces the scene's materials.
             Without a scene it is "hair" unless said otherwise.
-        frames: frames of the motion; frame 0 is the illustration. When None, those of the loop, or 72 without one.
-        skip: frames at the start that are simulated but not shown, so that the motion has settled in.
-        loop: length of a seamless loop [s]; its frame 0 is not the illustration. None: the scene's own, if it has one.
-        frame_rate: frames a second; the scene's own, or 24, when None.
-        spacing: distance of the mesh's vertices [px]; chosen from each mask when None.
         sway: how often a part sways to and fro in a second, instead of the preset's [Hz].
+        spacing: distance of the mesh's vertices [px]; chosen from each mask when None.
         attach: side at which the parts are held when there is no scene.
-        wind_strength: factor on the wind when there is no scene.
-        wind_angle: where that wind blows to [degrees]; 0 is right, 90 up.
-        turbulence: blow a steady wind field with gusts and eddies, which are this share of it (0 to 1), instead of
-            passing gusts, when there is no scene.
-        contact: how the parts keep out of each other, instead of what the scene says.
-        colliders: masks of what the parts keep out of besides the scene's colliders; they need contact.
+        wind: what blows when there is no scene.
+        timing: how many frames, how fast, and whether they loop.
+        touching: what the parts keep out of.
         plate: the illustration without the moving parts, if it exists, RGB or RGBA in any form that ``image`` may have
             and of its size; painted in when None.
-        progress: called as the stages "simulate" and those of the frames advance.
         pixel_art: move whole pixels, or the blocks that an enlarged picture shows for them, and mix no colours.
         max_minutes: minutes that the simulation may take, by the estimate for one core of an ordinary machine; what
             would take longer is refused before it begins.
-        on_cut: called with the masks that were cut from points, before anything is made of them.
-        on_scene: called with the scene before it is simulated.
+        watch: who hears of the work while it is done.
 
     Raises:
         InvalidInputError: an input is unusable; the message names it.
@@ -108,13 +90,8 @@ def animate(
     seconds: dict[str, float] = {}
     image = as_picture(image, alpha=True)
     plate = _checked_plate(plate, image)
-    masks, colliders = (
-        _coverages("masks", () if masks is None else masks, image),
-        _coverages("colliders", colliders, image),
-    )
-    _check_frames(frames, skip)
-    if frame_rate is not None:
-        check_scene_rate(frame_rate)
+    masks = _coverages("masks", () if masks is None else masks, image)
+    colliders = _coverages("colliders", touching.colliders, image)
     work_of_minutes(max_minutes)
     if scene is not None and not isinstance(scene, Scene):
         from ..physics.document import check_document
@@ -124,36 +101,51 @@ def animate(
         parts = (*masks, *_segmented(over(image), points or ()))
     _check_parts(parts)
     names = _part_names(len(masks), len(parts))
-    if on_cut is not None:
-        on_cut(parts[len(masks) :])
+    if watch.on_cut is not None:
+        watch.on_cut(parts[len(masks) :])
     with timed(seconds, "mesh"):
         seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
         meshes = [_meshed(part, spacing, name, seen) for part, name in zip(parts, names, strict=True)]
     with timed(seconds, "scene"):
         if scene is None:
-            whole = automatic_scene(
-                _layered(meshes, materials_of(preset or "hair", sway, len(meshes))),
-                attach=attach,
-                frame_rate=DEFAULT_FRAME_RATE if frame_rate is None else frame_rate,
-                wind_strength=wind_strength,
-                wind_angle=wind_angle,
-                turbulence=turbulence,
-                sway_by_size=sway is None,
-            )
+            materials = materials_of(preset or "hair", sway, len(meshes))
+            whole = _automatic(_layered(meshes, materials), wind, timing, attach=attach, sway_by_size=sway is None)
         else:
-            whole = given_scene(scene, meshes, preset=preset, sway=sway, frame_rate=frame_rate)
-        whole = whole if loop is None else replace(whole, loop=loop)
-        if frames is None:
-            frames = DEFAULT_FRAMES if whole.loop is None else loop_frames(whole) + skip
-            _check_frames(frames, skip)
-        whole = _touching(whole, contact, colliders)
-    if on_scene is not None:
-        on_scene(whole)
+            whole = given_scene(scene, meshes, preset=preset, sway=sway, frame_rate=timing.frame_rate)
+        whole = whole if timing.loop is None else replace(whole, loop=timing.loop)
+        timing = _settled(timing, whole)
+        whole = _touching(whole, touching.contact, colliders)
+    if watch.on_scene is not None:
+        watch.on_scene(whole)
     with timed(seconds, "simulate"):
-        motion = simulate(whole, frames=frames, progress=_stage("simulate", progress), max_minutes=max_minutes)
+        hears = _stage("simulate", watch.progress)
+        motion = simulate(whole, frames=timing.frames, progress=hears, max_minutes=max_minutes)
     with timed(seconds, "prepare"):
         renderer = renderer_of(image, parts, motion, plate=plate, pixel_art=pixel_art)
-    return Animation(image, parts, whole, motion, renderer, skip, seconds)
+    return Animation(image, parts, whole, motion, renderer, timing.skip, seconds)
+
+
+def _automatic(
+    bodies: Sequence[Body], wind: AutomaticWind, timing: Timing, *, attach: Attachment, sway_by_size: bool
+) -> Scene:
+    """The scene where none is given."""
+    return automatic_scene(
+        bodies,
+        attach=attach,
+        frame_rate=DEFAULT_FRAME_RATE if timing.frame_rate is None else timing.frame_rate,
+        wind_strength=wind.strength,
+        wind_angle=wind.angle,
+        turbulence=wind.turbulence,
+        sway_by_size=sway_by_size,
+    )
+
+
+def _settled(timing: Timing, scene: Scene) -> Timing:
+    """The timing with its number of frames, which may follow from the scene's loop."""
+    if timing.frames is not None:
+        return timing
+    frames = DEFAULT_FRAMES if scene.loop is None else loop_frames(scene) + timing.skip
+    return replace(timing, frames=frames)
 
 
 def _checked_plate(plate: Image | None, image: Image) -> Image | None:
@@ -164,13 +156,6 @@ def _checked_plate(plate: Image | None, image: Image) -> Image | None:
     if plate.shape[:2] != image.shape[:2]:
         raise InvalidInputError(f"plate must have the picture's size, {image.shape[:2]}. Got: {plate.shape[:2]}")
     return plate
-
-
-def _check_frames(frames: int | None, skip: int) -> None:
-    check_count("skip", skip, least=0)
-    if frames is not None:
-        check_count("frames", frames)
-        require("skip", skip, 0 <= skip < frames, f"at least 0 and below the number of frames ({frames})")
 
 
 def _coverages(name: str, masks: Sequence[Mask], image: Image) -> list[Mask]:

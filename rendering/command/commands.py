@@ -12,6 +12,7 @@ from ... import __version__
 
 if TYPE_CHECKING:
     from ..animation import StageProgress
+    from ..options import Timing, Watch
 
 __all__ = ["main"]
 
@@ -190,12 +191,12 @@ def _measure(options: argparse.Namespace) -> None:
     check_taken(options, image)
     image = over(image)  # clips are compared by their colours
     plate = read_plate(options, alpha=False)
-    timing = {"frames": options.frames, "loop": options.loop, "skip": options.skip, "frame_rate": options.fps}
-    timing["max_minutes"] = options.max_minutes
     with ExitStack() as bars:
         progress = _progress(options, bars)
-        timing |= _advisers(options, inputs["points"])
-        animation = animate(image, plate=plate, progress=progress, **timing, **inputs)
+        watch = _watch(options, progress, inputs["points"])
+        animation = animate(
+            image, plate=plate, timing=_timing(options), max_minutes=options.max_minutes, watch=watch, **inputs
+        )
         found = measured(options, animation, progress)
     show(table(found, as_json=options.json))
 
@@ -218,15 +219,11 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
         progress = _progress(options, bars)
         animation = animate(
             image,
-            frames=options.frames,
-            loop=options.loop,
-            skip=options.skip,
-            frame_rate=options.fps,
+            timing=_timing(options),
             plate=plate,
-            progress=progress,
             pixel_art=options.pixel_art,
             max_minutes=options.max_minutes,
-            **_advisers(options, inputs.get("points", ())),
+            watch=_watch(options, progress, inputs.get("points", ())),
             **inputs,
         )
         for sentence in stillness(animation.motion):
@@ -238,9 +235,16 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
         say(f"{options.output}: {len(animation)} frames at {animation.motion.frame_rate:g} frames a second")
 
 
-def _advisers(options: argparse.Namespace, points: Sequence[str] = ()) -> dict[str, Any]:
-    """What says, before the simulation, what is suspicious about the cuts and the scene."""
+def _timing(options: argparse.Namespace) -> Timing:
+    from ..options import Timing
+
+    return Timing(frames=options.frames, loop=options.loop, skip=options.skip, frame_rate=options.fps)
+
+
+def _watch(options: argparse.Namespace, progress: StageProgress, points: Sequence[str]) -> Watch:
+    """Who hears of the work; before the simulation, what is suspicious about the cuts and the scene is said."""
     from ...physics.scene import advice
+    from ..options import Watch
     from ..segmentation import judge_points
     from .messages import warn
 
@@ -249,10 +253,11 @@ def _advisers(options: argparse.Namespace, points: Sequence[str] = ()) -> dict[s
             warn(f"physanimator: warning: {sentence}")
 
     named = bool(getattr(options, "mask", None))
-    return {
-        "on_cut": lambda cut: tell(judge_points(cut, points)),
-        "on_scene": lambda scene: tell(advice(scene, masks=not named)),
-    }
+    return Watch(
+        progress=progress,
+        on_cut=lambda cut: tell(judge_points(cut, points)),
+        on_scene=lambda scene: tell(advice(scene, masks=not named)),
+    )
 
 
 def _progress(options: argparse.Namespace, stack: ExitStack) -> StageProgress:

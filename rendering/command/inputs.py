@@ -11,6 +11,7 @@ from .names import named_as
 
 if TYPE_CHECKING:
     from ...physics.scene import Contact
+    from ..options import AutomaticWind
 
 __all__ = ["check_inputs", "check_taken", "read_inputs", "read_plate"]
 
@@ -29,7 +30,8 @@ def check_inputs(options: argparse.Namespace) -> None:
 
     if not options.mask and not options.points:
         raise InvalidInputError(f"{options.command} needs --mask or --points to know what moves. Got: neither")
-    if options.scene is not None and _wind(options):
+    automatic = (options.attach, options.wind, options.wind_angle, options.turbulence)
+    if options.scene is not None and any(said is not None for said in automatic):
         raise InvalidInputError("--attach, --wind, --wind-angle and --turbulence work without --scene. Got: both")
 
 
@@ -62,11 +64,12 @@ def check_taken(options: argparse.Namespace, image: Any) -> None:
         warn(f"physanimator: {options.image}, the last value of {option}, is taken as the picture")
 
 
-def _wind(options: argparse.Namespace) -> dict[str, Any]:
-    """What was said of the automatic scene."""
-    wind = {"attach": options.attach, "wind_strength": options.wind, "wind_angle": options.wind_angle}
-    wind["turbulence"] = options.turbulence
-    return {name: value for name, value in wind.items() if value is not None}
+def _wind(options: argparse.Namespace) -> AutomaticWind:
+    """What was said of the automatic scene's wind."""
+    from ..options import AutomaticWind
+
+    said = {"strength": options.wind, "angle": options.wind_angle, "turbulence": options.turbulence}
+    return AutomaticWind(**{name: value for name, value in said.items() if value is not None})
 
 
 def read_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
@@ -75,6 +78,8 @@ def read_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
     Raises:
         InvalidInputError: a file cannot be read.
     """
+    from ..options import Touching
+
     scene = _scene(options)
     image = _picture(options.image, "IMAGE")
     height, width = image.shape[:2]
@@ -85,9 +90,11 @@ def read_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
         "preset": options.preset,
         "sway": options.sway,
         "spacing": options.spacing,
-        "contact": _contact(options, scene),
-        "colliders": [_mask(path, "--collider", width, height) for path in options.collider],
-        **_wind(options),
+        "touching": Touching(
+            _contact(options, scene), [_mask(path, "--collider", width, height) for path in options.collider]
+        ),
+        "wind": _wind(options),
+        **({} if options.attach is None else {"attach": options.attach}),
     }
 
 

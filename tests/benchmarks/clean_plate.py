@@ -21,6 +21,7 @@ import cv2
 import numpy as np
 from layered_sample import load_sample
 from layered_truth import TrueFrames
+from physanimator.rendering.options import AutomaticWind
 from physanimator.rendering.pipeline import animate
 
 RADII = (1, 2, 3, 5, 8, 12)
@@ -47,7 +48,7 @@ def measure(folder: Path, mask_name: str, preset: str, wind: float) -> dict[str,
     """Figures of one layered picture."""
     sample = load_sample(folder, mask_name=mask_name)
     image, mask, truth = sample.picture, sample.mask, np.rint(sample.background * 255).astype(np.uint8)
-    animation = animate(image, [mask], preset=preset, wind_strength=wind)
+    animation = animate(image, [mask], preset=preset, wind=AutomaticWind(strength=wind))
     bared, ever_covered = np.zeros(mask.shape, dtype=bool), np.zeros(mask.shape, dtype=bool)
     untouched_error = 0
     frames = []

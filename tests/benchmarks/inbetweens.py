@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
 from physanimator.rendering.inbetweens import BACKENDS, interpolate, keyframe_indices
+from physanimator.rendering.options import AutomaticWind, Timing
 from physanimator.rendering.pictures import load_image, load_mask
 from physanimator.rendering.pipeline import animate
 
@@ -45,7 +46,7 @@ def along_a_motion(folder: Path, every: int) -> dict[str, float]:
     """Mean PSNR of the frames between every n-th, by backend [dB]."""
     image, background = load_image(folder / "composite.png"), load_image(folder / "background.png")
     mask = load_mask(folder / "mask.png", width=image.shape[1], height=image.shape[0])
-    animation = animate(image, [mask], frames=FRAMES, wind_strength=2.0, plate=background)
+    animation = animate(image, [mask], plate=background, timing=Timing(frames=FRAMES), wind=AutomaticWind(strength=2.0))
     frames = [animation.renderer.frame(number) for number in range(FRAMES)]
     indices = keyframe_indices(FRAMES, every)
     between = [number for number in range(FRAMES) if number not in indices]

@@ -16,6 +16,7 @@ import time
 
 import cv2
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
+from physanimator.rendering.options import Timing
 from physanimator.rendering.pipeline import animate
 from pipeline import illustration
 
@@ -37,7 +38,7 @@ def main() -> None:
     image = cv2.resize(image, (WIDTH, HEIGHT), interpolation=cv2.INTER_CUBIC)
     mask = cv2.resize(mask.astype("uint8"), (WIDTH, HEIGHT), interpolation=cv2.INTER_LINEAR) > 0
     start, at_start = time.perf_counter(), peak_mb()
-    animation = animate(image, [mask], frames=frames)
+    animation = animate(image, [mask], timing=Timing(frames=frames))
     early = 0.0
     for number, _ in enumerate(zip(animation.frames(), animation.sketches(), strict=True), start=1):
         if number == max(1, frames // 10):

@@ -33,6 +33,7 @@ from physanimator.physics.motion import FlowSequence
 from physanimator.physics.scene import Body, automatic_scene
 from physanimator.physics.simulation import simulate
 from physanimator.rendering.composite import LayeredRenderer
+from physanimator.rendering.options import AutomaticWind, Timing
 from physanimator.rendering.pipeline import animate
 from physanimator.rendering.sketch import extract_sketch, warp_sketch
 from pipeline import illustration, mesh_of_about, timed
@@ -51,9 +52,8 @@ def measure(folder: Path, options: argparse.Namespace) -> dict[str, dict[str, fl
         sample.picture,
         [sample.mask],
         preset=options.preset,
-        frames=options.frames,
-        wind_strength=options.wind,
-        wind_angle=options.wind_angle,
+        timing=Timing(frames=options.frames),
+        wind=AutomaticWind(strength=options.wind, angle=options.wind_angle),
     )
     truth, peers = TrueFrames(sample, animation.motion), Peers(sample.picture, sample.mask, animation.motion)
     methods = {"ours": animation.renderer.frame, **peers.methods}

@@ -29,6 +29,7 @@ from physanimator.physics.mesh import PixelBox, TriangleMesh, interpolate
 from physanimator.physics.motion import FlowSequence
 from physanimator.rendering.composite import ApronedMesh, canvas_of
 from physanimator.rendering.metrics import chamfer_distance
+from physanimator.rendering.options import AutomaticWind, Timing
 from physanimator.rendering.pictures import load_image, load_mask
 from physanimator.rendering.pipeline import animate
 from physanimator.rendering.sketch import extract_sketch, warped_sketches
@@ -105,7 +106,9 @@ def measure(folder: Path, wind: float) -> dict[str, Any]:
     image = load_image(folder / "composite.png")
     height, width = image.shape[:2]
     mask = load_mask(folder / "mask_sprite.png", width=width, height=height)
-    animation = animate(image, [mask], preset="hair", frames=FRAMES[-1] + 1, wind_strength=wind)
+    animation = animate(
+        image, [mask], preset="hair", timing=Timing(frames=FRAMES[-1] + 1), wind=AutomaticWind(strength=wind)
+    )
     truth, flow = Truth(folder, animation.motion.bodies[0].mesh), FlowSequence(animation.motion)
     frames = [truth.frame(animation.motion.positions[t]) for t in FRAMES]
     sketch, plate = extract_sketch(image), extract_sketch(animation.renderer.plate)

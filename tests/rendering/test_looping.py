@@ -11,6 +11,7 @@ from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.scene import Body, automatic_scene
 from physanimator.rendering.command import main
+from physanimator.rendering.options import AutomaticWind, Timing
 from physanimator.rendering.pipeline import animate
 
 WIDTH, HEIGHT = 160, 120
@@ -29,14 +30,16 @@ def picture() -> np.ndarray:
 
 
 def test_a_loop_has_its_own_number_of_frames() -> None:
-    looped = animate(picture(), [strip()], loop=1.5, frame_rate=12.0, wind_strength=2.0)
+    looped = animate(picture(), [strip()], timing=Timing(loop=1.5, frame_rate=12.0), wind=AutomaticWind(strength=2.0))
     assert len(looped) == 18
     assert looped.motion.loop is not None
     frames = [frame.astype(int) for frame in looped.frames()]
     steps = [np.abs(a - b).mean() for a, b in zip(frames, [*frames[1:], frames[0]], strict=True)]
     assert steps[-1] < 1.5 * max(steps[:-1])
     assert max(steps) > 0.05
-    skipped = animate(picture(), [strip()], loop=1.5, skip=3, frame_rate=12.0, wind_strength=2.0)
+    skipped = animate(
+        picture(), [strip()], timing=Timing(loop=1.5, skip=3, frame_rate=12.0), wind=AutomaticWind(strength=2.0)
+    )
     assert len(skipped) == 18
 
 
@@ -68,4 +71,4 @@ def test_the_command_line_loops(tmp_path: Path, capsys: pytest.CaptureFixture[st
 
 def test_a_frame_count_is_still_checked() -> None:
     with pytest.raises(InvalidInputError, match="skip must be"):
-        animate(picture(), [strip()], skip=72)
+        animate(picture(), [strip()], timing=Timing(skip=72))

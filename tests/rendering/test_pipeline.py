@@ -12,6 +12,7 @@ import pytest
 from physanimator.physics.errors import InvalidInputError, PhysAnimatorError
 from physanimator.physics.material import PRESETS
 from physanimator.rendering.animation import Animation, timed
+from physanimator.rendering.options import AutomaticWind, Timing, Watch
 from physanimator.rendering.pipeline import animate
 from PIL import Image
 
@@ -41,7 +42,9 @@ def document(**changes: Any) -> dict[str, Any]:
 
 @pytest.fixture(scope="module")
 def windy() -> Animation:
-    return animate(picture(), [strip()], frames=FRAMES, frame_rate=12.5, wind_strength=2.0)
+    return animate(
+        picture(), [strip()], timing=Timing(frames=FRAMES, frame_rate=12.5), wind=AutomaticWind(strength=2.0)
+    )
 
 
 def test_first_frame_is_the_picture(windy: Animation) -> None:
@@ -63,17 +66,19 @@ def test_part_moves_and_what_it_never_covers_stays_exactly_as_drawn(windy: Anima
 
 
 def test_same_input_gives_the_same_motion(windy: Animation) -> None:
-    again = animate(picture(), [strip()], frames=FRAMES, frame_rate=12.5, wind_strength=2.0)
+    again = animate(
+        picture(), [strip()], timing=Timing(frames=FRAMES, frame_rate=12.5), wind=AutomaticWind(strength=2.0)
+    )
     assert (again.motion.positions == windy.motion.positions).all()
 
 
 def test_calm_air_moves_nothing() -> None:
-    calm = animate(picture(), [strip()], frames=5, wind_strength=0)
+    calm = animate(picture(), [strip()], timing=Timing(frames=5), wind=AutomaticWind(strength=0))
     assert np.abs(calm.motion.positions - calm.motion.positions[0]).max() < 0.01
 
 
 def test_scene_document_leads_the_part_and_sets_the_frame_rate() -> None:
-    led = animate(picture(), [strip()], scene=document(), frames=4)
+    led = animate(picture(), [strip()], scene=document(), timing=Timing(frames=4))
     assert led.motion.frame_rate == 12
     rest = led.scene.bodies[0].mesh.vertices
     top = np.linalg.norm(rest - (70, 20), axis=1) < 20
@@ -85,8 +90,8 @@ def test_scene_document_leads_the_part_and_sets_the_frame_rate() -> None:
 def test_scene_document_with_its_own_mesh_needs_no_other() -> None:
     from physanimator.physics.document import scene_to_dict
 
-    led = animate(picture(), [strip()], scene=document(), frames=2)
-    again = animate(picture(), [strip()], scene=scene_to_dict(led.scene), frames=2)
+    led = animate(picture(), [strip()], scene=document(), timing=Timing(frames=2))
+    again = animate(picture(), [strip()], scene=scene_to_dict(led.scene), timing=Timing(frames=2))
     assert len(again.scene.bodies) == 1
     assert again.scene.bodies[0].mesh.content_hash == led.scene.bodies[0].mesh.content_hash
 
@@ -96,11 +101,13 @@ def test_scene_document_with_its_own_mesh_needs_no_other() -> None:
 )
 def test_what_is_no_scene_is_refused_before_the_work(scene: object) -> None:
     with pytest.raises(InvalidInputError, match=r"must be|is missing"):
-        animate(picture(), [strip()], scene=scene, frames=2)  # type: ignore[arg-type]
+        animate(picture(), [strip()], scene=scene, timing=Timing(frames=2))  # type: ignore[arg-type]
 
 
 def test_caller_may_change_a_given_scene() -> None:
-    changed = animate(picture(), [strip()], scene=document(), frames=2, frame_rate=30, preset="jelly", sway=3.0)
+    changed = animate(
+        picture(), [strip()], scene=document(), preset="jelly", sway=3.0, timing=Timing(frames=2, frame_rate=30)
+    )
     assert changed.motion.frame_rate == 30
     assert changed.scene.bodies[0].material.poisson_ratio == PRESETS["jelly"].poisson_ratio
     assert changed.scene.bodies[0].material.sway_frequency == 3.0
@@ -108,14 +115,20 @@ def test_caller_may_change_a_given_scene() -> None:
 
 def test_given_plate_shows_where_the_part_was() -> None:
     plate = np.full((HEIGHT, WIDTH, 3), (255, 0, 255), np.uint8)
-    other = animate(picture(), [strip()], frames=FRAMES, frame_rate=12.5, wind_strength=2.0, plate=plate)
+    other = animate(
+        picture(),
+        [strip()],
+        plate=plate,
+        timing=Timing(frames=FRAMES, frame_rate=12.5),
+        wind=AutomaticWind(strength=2.0),
+    )
     uncovered = strip() & (other.renderer.alpha(FRAMES - 1) == 0)
     assert uncovered.sum() > 20
     assert (list(other.frames())[-1][uncovered] == (255, 0, 255)).all()
 
 
 def test_points_select_the_part() -> None:
-    chosen = animate(picture(), points=["70,50,1\n120,50,0"], frames=1)
+    chosen = animate(picture(), points=["70,50,1\n120,50,0"], timing=Timing(frames=1))
     assert (chosen.masks[0] > 0.5)[strip()].mean() > 0.9
     assert (chosen.masks[0] > 0.5)[~strip()].mean() < 0.05
 
@@ -128,7 +141,7 @@ def test_cuts_are_shown_before_anything_is_made_of_them() -> None:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        animate(picture(), [strip()], points=["70,50,1\n120,50,0"], on_cut=stop, on_scene=seen.append)
+        animate(picture(), [strip()], points=["70,50,1\n120,50,0"], watch=Watch(on_cut=stop, on_scene=seen.append))
     (cut,) = seen
     assert (cut > 0.5)[strip()].mean() > 0.9
 
@@ -138,22 +151,23 @@ def test_the_scene_is_shown_before_it_is_simulated() -> None:
     animate(
         picture(),
         [strip()],
-        frames=2,
-        on_scene=lambda scene: seen.append("scene"),
-        progress=lambda *step: seen.append(step[0]),
+        timing=Timing(frames=2),
+        watch=Watch(on_scene=lambda scene: seen.append("scene"), progress=lambda *step: seen.append(step[0])),
     )
     assert seen == ["scene", "simulate", "simulate"]
 
 
 def test_presets_one_for_each_part() -> None:
     other = np.roll(strip(), 45, axis=1)
-    both = animate(picture(), [strip(), other], preset=["ribbon", "leaf"], frames=1)
+    both = animate(picture(), [strip(), other], preset=["ribbon", "leaf"], timing=Timing(frames=1))
     assert [body.material.damping for body in both.scene.bodies] == [PRESETS["ribbon"].damping, PRESETS["leaf"].damping]
 
 
 def test_stages_are_timed_and_reported() -> None:
     seen: list[tuple[str, int, int]] = []
-    animation = animate(picture(), [strip()], frames=3, progress=lambda *step: seen.append(step))
+    animation = animate(
+        picture(), [strip()], timing=Timing(frames=3), watch=Watch(progress=lambda *step: seen.append(step))
+    )
     list(animation.frames(progress=lambda *step: seen.append(step)))
     assert seen == [(stage, done, 3) for stage in ("simulate", "render") for done in (1, 2, 3)]
     assert list(animation.seconds) == ["segment", "mesh", "scene", "simulate", "prepare", "render"]
@@ -166,7 +180,7 @@ def test_interruption_leaves_everything_usable(windy: Animation) -> None:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        animate(picture(), [strip()], frames=FRAMES, progress=stop)
+        animate(picture(), [strip()], timing=Timing(frames=FRAMES), watch=Watch(progress=stop))
     with pytest.raises(KeyboardInterrupt):
         list(windy.frames(progress=stop))
     assert len(list(windy.frames())) == FRAMES
@@ -242,9 +256,10 @@ def test_saved_video_has_the_right_length_rate_and_alpha(windy: Animation, tmp_p
     ],
 )
 def test_bad_input_is_refused_in_one_sentence(changes: dict[str, Any], words: str) -> None:
-    inputs: dict[str, Any] = {"image": picture(), "masks": [strip()], "frames": 2, **changes}
+    timing = {name: changes[name] for name in ("frames", "skip", "frame_rate") if name in changes}
+    inputs: dict[str, Any] = {name: value for name, value in changes.items() if name not in timing}
     with pytest.raises(InvalidInputError, match=words) as caught:
-        animate(**inputs)
+        animate(**{"image": picture(), "masks": [strip()], "timing": Timing(**{"frames": 2, **timing}), **inputs})
     assert isinstance(caught.value, PhysAnimatorError)
     assert "\n" not in str(caught.value)
 
@@ -254,7 +269,7 @@ def test_bad_input_is_refused_before_the_simulation(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr("physanimator.rendering.pipeline.simulate", lambda *_, **__: pytest.fail("simulated"))
     for plate in (np.zeros((4, 4, 3), np.uint8), np.zeros((HEIGHT, WIDTH, 3), np.complex64), "plate.png"):
         with pytest.raises(InvalidInputError):
-            animate(picture(), [strip()], frames=2, plate=plate)  # type: ignore[arg-type]
+            animate(picture(), [strip()], plate=plate, timing=Timing(frames=2))  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("every", [0, -1, 1.5, "2", True, None])
@@ -287,7 +302,7 @@ def sprite() -> np.ndarray:
 
 
 def test_a_picture_with_transparency_moves_on_it(tmp_path: Path) -> None:
-    animation = animate(sprite(), [strip()], frames=FRAMES, wind_strength=3.0)
+    animation = animate(sprite(), [strip()], timing=Timing(frames=FRAMES), wind=AutomaticWind(strength=3.0))
     frames = list(animation.frames())
     assert (frames[0] == sprite()).all()
     assert (frames[-1] != frames[0]).any(axis=2).sum() > 50

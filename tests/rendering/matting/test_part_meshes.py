@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 from physanimator.physics.mesh import PixelBox, mesh_from_mask, triangle_ids
 from physanimator.rendering.matting import part_mesh
+from physanimator.rendering.options import AutomaticWind, Timing
 from physanimator.rendering.pipeline import animate
 
 WIDTH, HEIGHT, FINE = 230, 170, 4
@@ -62,7 +63,7 @@ def test_transparency_bounds_the_mesh() -> None:
 
 def test_animations_leave_no_strand_behind() -> None:
     picture, part, strand = drawn()
-    animation = animate(picture, [shrunk(part)], frames=2)
+    animation = animate(picture, [shrunk(part)], timing=Timing(frames=2))
     left = np.abs(animation.renderer.plate / 255 - SKY).mean(axis=2)[strand > 0.5] > 0.12
     assert left.mean() < 0.05
 
@@ -73,7 +74,7 @@ def test_in_betweens_show_the_part_as_the_keyframes_do() -> None:
     blurred = cv2.GaussianBlur((part > 0.5).astype(np.float32), (0, 0), 3)
     errors = []
     for mask in (part, blurred):
-        animation = animate(picture, [mask], frames=5, wind_strength=3)
+        animation = animate(picture, [mask], timing=Timing(frames=5), wind=AutomaticWind(strength=3))
         between = list(animation.frames(every=4))[2].astype(int)
         errors.append(np.abs(between - animation.renderer.frame(2)).mean())
     assert errors[1] < 1.5 * errors[0] + 0.1

@@ -12,6 +12,7 @@ import torch
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.mesh import coverage_of
 from physanimator.rendering.inbetweens import interpolate
+from physanimator.rendering.options import Timing, Touching
 from physanimator.rendering.pictures import as_float, as_picture, data_address, save_image, write_animation
 from physanimator.rendering.pipeline import animate
 from physanimator.rendering.plate import clean_plate
@@ -102,8 +103,8 @@ def test_rgba_where_it_is_asked_for() -> None:
 
 
 USERS: dict[str, Callable[[Any], Any]] = {
-    "animate": lambda picture: animate(picture, [part()], frames=1).renderer.frame(0),
-    "plate": lambda picture: animate(drawing(), [part()], plate=picture, frames=1).renderer.frame(0),
+    "animate": lambda picture: animate(picture, [part()], timing=Timing(frames=1)).renderer.frame(0),
+    "plate": lambda picture: animate(drawing(), [part()], plate=picture, timing=Timing(frames=1)).renderer.frame(0),
     "clean_plate": lambda picture: clean_plate(picture, part()),
     "sketch": extract_sketch,
     "segment": lambda picture: segment(picture, [[30, 20]], [1]),
@@ -135,7 +136,7 @@ def test_writers_refuse_what_would_be_white(tmp_path: Path) -> None:
 
 def test_the_first_frame_of_any_kind_is_the_picture() -> None:
     for kind in ("uint16", "int64", "float64"):
-        animation = animate(SAME[kind](drawing()), [part()], plate=drawing(), frames=2)
+        animation = animate(SAME[kind](drawing()), [part()], plate=drawing(), timing=Timing(frames=2))
         assert np.abs(as_float(animation.renderer.frame(0)) - drawing() / 255).max() < 1e-6
 
 
@@ -177,13 +178,13 @@ def test_masks_of_every_kind(mask: Any) -> None:
 )
 def test_masks_that_say_something_else(mask: Any, message: str) -> None:
     with pytest.raises(InvalidInputError, match=r"masks\[0\] must.*" + message):
-        animate(drawing(), [mask], frames=1)
+        animate(drawing(), [mask], timing=Timing(frames=1))
 
 
 def test_masks_of_the_same_proportions_are_scaled_for_every_route() -> None:
     half = part()[::2, ::2]
-    animation = animate(drawing(), [half], contact=None, frames=1)
+    animation = animate(drawing(), [half], touching=Touching(contact=None), timing=Timing(frames=1))
     assert animation.masks[0].shape == (HEIGHT, WIDTH)
     assert np.abs(animation.masks[0] - part()).mean() < 0.02
     with pytest.raises(InvalidInputError, match=r"colliders\[0\] must have the picture's size.*Got: 40 x 40 px"):
-        animate(drawing(), [part()], colliders=[part()[:, :40]], frames=1)
+        animate(drawing(), [part()], touching=Touching(colliders=[part()[:, :40]]), timing=Timing(frames=1))

@@ -1,0 +1,93 @@
+"""What can be said to ``animate``, in groups that belong together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from numpy.typing import NDArray
+
+from ..physics.errors import require
+from ..physics.scene import Contact, Scene, check_scene_rate
+from .animation import StageProgress
+from .drawing_checks import check_count
+
+__all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "AutomaticWind", "Timing", "Touching", "Watch"]
+
+DEFAULT_FRAMES = 72
+DEFAULT_FRAME_RATE = 24.0
+
+
+@dataclass(frozen=True)
+class Timing:
+    """How long the motion is, and how fast it is shown.
+
+    Attributes:
+        frames: frames of the motion; frame 0 is the illustration. When None, those of the loop, or 72 without one.
+        skip: frames at the start that are simulated but not shown, so that the motion has settled in.
+        loop: length of a seamless loop [s]; its frame 0 is not the illustration. None: the scene's own, if it has one.
+        frame_rate: frames a second; the scene's own, or 24, when None.
+
+    Raises:
+        InvalidInputError: a number is out of range.
+    """
+
+    frames: int | None = None
+    skip: int = 0
+    loop: float | None = None
+    frame_rate: float | None = None
+
+    def __post_init__(self) -> None:
+        check_count("skip", self.skip, least=0)
+        if self.frames is not None:
+            check_count("frames", self.frames)
+            require(
+                "skip", self.skip, self.skip < self.frames, f"at least 0 and below the number of frames ({self.frames})"
+            )
+        if self.frame_rate is not None:
+            check_scene_rate(self.frame_rate)
+
+
+@dataclass(frozen=True)
+class AutomaticWind:
+    """The wind that blows where there is no scene.
+
+    Attributes:
+        strength: factor on the usual wind; 0 is calm, 1 gentle, 3 a storm.
+        angle: where it blows to [degrees]; 0 is right, 90 up.
+        turbulence: blow a steady wind field with gusts and eddies, which are this share of it (0 to 1), instead of
+            passing gusts.
+    """
+
+    strength: float = 1.0
+    angle: float = 0.0
+    turbulence: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Touching:
+    """What the parts keep out of.
+
+    Attributes:
+        contact: how they keep out of each other, instead of what the scene says; None: as the scene says.
+        colliders: masks of what they keep out of besides the scene's colliders; they need contact. Shape [h, w] each.
+    """
+
+    contact: Contact | None = None
+    colliders: Sequence[NDArray[Any]] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Watch:
+    """Who hears of the work while it is done.
+
+    Attributes:
+        progress: called as the stages "simulate" and those of the frames advance.
+        on_cut: called with the masks that were cut from points, before anything is made of them.
+        on_scene: called with the scene before it is simulated.
+    """
+
+    progress: StageProgress | None = None
+    on_cut: Callable[[Sequence[NDArray[Any]]], None] | None = None
+    on_scene: Callable[[Scene], None] | None = None
