@@ -12,7 +12,7 @@ START = f"""\
 import sys, threading, time
 sys.path.insert(0, {str(Path(__file__).resolve().parents[1])!r})
 import conftest
-from physanimator.physics import ending
+from physanimator.physics import process_end
 from physanimator.physics.errors import Cancelled
 """
 
@@ -25,11 +25,11 @@ def test_the_end_waits_for_work_and_tells_it_to_stop() -> None:
     done = ended("""\
 def work():
     try:
-        with ending.working():
+        with process_end.working():
             begun.set()
             for _ in range(1000):
                 time.sleep(0.02)
-                ending.stop_at_end()
+                process_end.stop_at_end()
     except Cancelled as error:
         print(error, flush=True)
 begun = threading.Event()
@@ -44,12 +44,12 @@ def test_whoever_ends_the_process_does_not_wait_for_itself_and_nothing_begins_an
 import atexit
 def late():
     try:
-        with ending.working():
+        with process_end.working():
             pass
     except Cancelled as error:
         print(error)
 atexit.register(late)
-section = ending.working()
+section = process_end.working()
 section.__enter__()
 """)
     assert (done.returncode, done.stdout, done.stderr) == (0, "the process is ending\n", "")
@@ -59,8 +59,8 @@ section.__enter__()
 def test_a_simulation_in_a_daemon_thread_stops_at_the_end(seconds: float) -> None:
     done = ended(f"""\
 import numpy as np
-from physanimator.physics.automatic import automatic_scene
-from physanimator.physics.meshing import mesh_from_mask
+from physanimator.physics.scene import automatic_scene
+from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.scene import Body
 from physanimator.physics.simulation import simulate
 def work():

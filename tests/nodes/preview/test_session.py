@@ -18,13 +18,13 @@ from physanimator.nodes.preview import session as preview_session
 from physanimator.nodes.preview.queue import RecordQueue
 from physanimator.nodes.preview.records import END, ERROR, record
 from physanimator.nodes.preview.session import PreviewRun, PreviewRuns, stream, warm_up
+from physanimator.physics import runtime
 from physanimator.physics.assembly import Preparations, preparation, system
 from physanimator.physics.errors import Cancelled
 from physanimator.physics.forces import EnergyStroke
 from physanimator.physics.material import Material, modes
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.rig import Circle, MaskRegion, Polygon, RigPoint, Wave
-from physanimator.physics.runtime import taichi_runtime
 from physanimator.physics.scene import Body, Contact, Holds, Paint, Scene
 from physanimator.physics.simulation import sample_simulations, simulate, simulation
 from physanimator.physics.solver import scheduling as schedule
@@ -267,7 +267,7 @@ def test_the_kernel_for_shared_parts_is_loaded_as_well(monkeypatch: pytest.Monke
     warmed: list[Scene] = []
     monkeypatch.setattr(schedule, "most_threads", lambda: 2)
     monkeypatch.setattr(sample_simulations, "simulate", lambda scene, **_: warmed.append(scene))
-    monkeypatch.setattr(taichi_runtime, "keep_compiled", lambda: False)
+    monkeypatch.setattr(runtime, "keep_compiled", lambda: False)
     warm_up()
     planned = simulation.plan(warmed[0], frames=2)
     assert (planned.alone, planned.shared) == (1, (2,))
@@ -281,13 +281,13 @@ def test_large_kernels_run_where_they_stop_nobody_in_this_process(
     contact: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[bool] = []
-    launched = taichi_runtime._TaichiThread.launched
+    launched = runtime.taichi_runtime._TaichiThread.launched
 
     def noted(thread: Any, aside: bool, *rest: Any) -> Any:
         asked.append(aside)
         return launched(thread, False, *rest)
 
-    monkeypatch.setattr(taichi_runtime._TaichiThread, "launched", noted)
+    monkeypatch.setattr(runtime.taichi_runtime._TaichiThread, "launched", noted)
     monkeypatch.setattr(preview_session, "compile_aside", lambda **_: None)
     runs, acting = PreviewRuns(), scene(contact=Contact() if contact else None)
     run = runs.enter("one", next(ORDER))
@@ -302,7 +302,7 @@ def test_large_kernels_run_where_they_stop_nobody_in_this_process(
 def test_what_was_compiled_is_kept_before_it_is_needed_again(monkeypatch: pytest.MonkeyPatch) -> None:
     done: list[str] = []
     monkeypatch.setattr(sample_simulations, "simulate", lambda *_, **__: done.append("simulated"))
-    monkeypatch.setattr(taichi_runtime, "keep_compiled", lambda: done.append("kept") or True)
+    monkeypatch.setattr(runtime, "keep_compiled", lambda: done.append("kept") or True)
     warm_up()
     assert done == ["simulated", "kept", "simulated"]
 
