@@ -5,7 +5,7 @@ Units stand in square brackets in each title. Defaults are those of the dataclas
 
 from __future__ import annotations
 
-from ..forces import FALLOFFS, STROKE_KINDS, EnergyStroke, Wind
+from ..forces import EnergyStroke, Wind
 from ..limits import (
     LARGEST,
     MAX_BODIES,
@@ -13,7 +13,6 @@ from ..limits import (
     MAX_LOOP,
     MAX_MASK_PIXELS,
     MAX_PAINT,
-    MAX_POINTS,
     MAX_QUERY_POINTS,
     MAX_RIG_POINTS,
     MAX_SIDE,
@@ -40,6 +39,7 @@ from .schema_blocks import (
     number,
     object_of,
     pair_of_numbers,
+    properties_of,
     whole_number,
 )
 from .wind_schema import wind_properties
@@ -73,7 +73,7 @@ def scene_schema() -> Schema:
             "body": object_of(Body, "Body", _body(), required=[]),
             "material": object_of(Material, "Material", _material()),
             "mesh": object_of(None, "Mesh", _mesh(), required=["vertices", "triangles"]),
-            "stroke": object_of(EnergyStroke, "Energy stroke", _stroke()),
+            "stroke": object_of(EnergyStroke, "Energy stroke", properties_of(EnergyStroke)),
             "wind": {**object_of(Wind, "Wind", wind_properties()), "type": ["object", "null"]},
             **rig_definitions(),
             **contact_definitions(),
@@ -239,73 +239,6 @@ def _mesh() -> dict[str, Schema]:
     return {
         "vertices": list_of("Vertices [px]", "Positions at rest.", "point", MAX_VERTICES, least=3),
         "triangles": list_of("Triangles", "Three vertex numbers each, from 0.", "triangle", MAX_TRIANGLES, least=1),
-    }
-
-
-def _stroke() -> dict[str, Schema]:
-    return {
-        "kind": {
-            "enum": list(STROKE_KINDS),
-            "title": "Kind",
-            "description": "wind blows along the path; repel pushes away, hardest at the radius; attract pulls"
-            " closer, hardest at the centre (with a negative strength it pushes away, hardest at the centre).",
-        },
-        "path": list_of(
-            "Path [px]",
-            "The points that particles travel along, in order, at least two for wind. One point is a particle at rest.",
-            "point",
-            MAX_POINTS,
-            least=1,
-        ),
-        "radius": number("Radius [px]", "How far a particle reaches; nothing beyond is touched.", **ABOVE_0),
-        "speed": number(
-            "Speed [px/s]",
-            "How fast particles travel along the path. 0 is one particle at rest at the first point.",
-            **FROM_0,
-        ),
-        "strength": number(
-            "Strength [side/s^2]",
-            "Acceleration at full effect. 1 is a breeze, 5 a storm. Negative turns the direction round.",
-            **ANY_SIZE,
-        ),
-        "start": number("Start [s]", "When the first particle leaves.", **FROM_0),
-        "end": {
-            **number("End [s]", "When particles stop leaving; after start. null: never.", **ABOVE_0),
-            "type": ["number", "null"],
-        },
-        "interval": number(
-            "Interval [s]",
-            "Time from one particle to the next: 0.1 sends ten a second, 2 lets single gusts pass.",
-            minimum=0.01,
-            maximum=LARGEST,
-        ),
-        "falloff": {
-            "enum": list(FALLOFFS),
-            "title": "Falloff",
-            "description": "How the effect falls off up to the radius: linear (for repel it grows), smooth without a"
-            " kink, constant not at all.",
-        },
-        "repeat": {
-            **number(
-                "Repeat [s]",
-                "The time from start to end begins anew every so often. null: never.",
-                minimum=0.01,
-                maximum=LARGEST,
-            ),
-            "type": ["number", "null"],
-        },
-        "strength_keys": list_of(
-            "Strength along the path",
-            "How the strength changes along the path; between two keys, evenly. Empty: not at all.",
-            "strength_key",
-            100,
-        ),
-        "speed_keys": list_of(
-            "Speed along the path",
-            "How the speed changes along the path; between two keys, evenly. Empty: not at all.",
-            "speed_key",
-            100,
-        ),
     }
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import MISSING, fields
 from typing import Any
 
+from ..fields import DescribedField, Field, described_fields
 from ..limits import LARGEST
 from .encoding import encode
 
@@ -13,17 +14,21 @@ __all__ = [
     "ANY_SIZE",
     "FROM_0",
     "Schema",
+    "bounds_of",
     "choice_of",
     "defined",
     "list_of",
     "number",
     "object_of",
     "pair_of_numbers",
+    "properties_of",
     "typed_object",
     "whole_number",
 ]
 
 Schema = dict[str, Any]
+
+_TYPES = {float: "number", int: "integer", bool: "boolean", str: "string"}
 
 ABOVE_0 = {"exclusiveMinimum": 0, "maximum": LARGEST}
 FROM_0 = {"minimum": 0, "maximum": LARGEST}
@@ -43,6 +48,39 @@ def object_of(
         required = [name for name in properties if name in of_class and "default" not in described[name]]
     schema = {"title": title, "type": "object", "properties": described, "additionalProperties": False}
     return {**schema, "required": required} if required else schema
+
+
+def properties_of(kind: type, **others: Schema) -> dict[str, Schema]:
+    """The described fields of a dataclass as properties, by name.
+
+    Args:
+        kind: the dataclass.
+        others: what a field of a type of its own is, such as one of several objects; it gets title and description.
+    """
+    return {name: _property(each, others.get(name)) for name, each in described_fields(kind).items()}
+
+
+def _property(described: DescribedField, form: Schema | None) -> Schema:
+    field = described.field
+    text: Schema = {"title": field.heading, "description": field.about}
+    if form is None and described.choices:
+        return {"enum": list(described.choices), **text}
+    if field.most:
+        return list_of(field.heading, field.about, field.entry, field.most, least=field.least)
+    if field.entry:
+        form = defined(field.entry)
+    elif form is None:
+        form = {"type": _TYPES[described.type]}
+    bounds = bounds_of(field) if described.type in (int, float) else {}
+    nullable = {"type": [form["type"], "null"]} if described.nullable and "type" in form else {}
+    return {**form, **text, **bounds, **nullable}
+
+
+def bounds_of(field: Field) -> Schema:
+    """The bounds of a number."""
+    low = {"minimum": field.minimum} if field.above is None else {"exclusiveMinimum": field.above}
+    high = {"maximum": field.maximum} if field.below is None else {"exclusiveMaximum": field.below}
+    return {**low, **high}
 
 
 def typed_object(

@@ -14,14 +14,14 @@ from numpy.typing import ArrayLike, NDArray
 from ..checks import numbers_of
 from ..errors import InvalidInputError, require
 
-__all__ = ["Key", "Travel", "checked_keys", "factors"]
+__all__ = ["MOST_KEYS", "Key", "Travel", "checked_keys", "factors"]
 
 FloatArray = NDArray[np.float64]
 
 Key = tuple[float, float]
 """Share of the path's length from 0 to 1, and a factor there."""
 
-_MOST_KEYS = 100
+MOST_KEYS = 100
 _LEAST, _MOST = 0.001, 1000.0  # factors
 
 
@@ -39,7 +39,7 @@ def checked_keys(name: str, keys: Sequence[Key], *, positive: bool = False) -> t
     expected = "pairs of a share of the path and a factor"
     if not isinstance(keys, tuple | list | np.ndarray):
         raise InvalidInputError(f"{name} must be {expected}. Got: {keys!r:.60}")
-    require(name, f"{len(keys)} keys", len(keys) <= _MOST_KEYS, f"at most {_MOST_KEYS} keys")
+    require(name, f"{len(keys)} keys", len(keys) <= MOST_KEYS, f"at most {MOST_KEYS} keys")
     pairs = [numbers_of(name, key, expected) for key in keys]
     if not all(len(pair) == 2 for pair in pairs):
         raise InvalidInputError(f"{name} must be {expected}. Got: {keys!r:.60}")
