@@ -19,21 +19,19 @@ from ..limits import (
     MAX_STROKES,
     MAX_TRIANGLES,
     MAX_VERTICES,
-    STIFFEST,
 )
-from ..material import PRESETS, Material
+from ..material import PRESETS, SCALES, Material
 from ..rig import MOST_DEGREES, MOST_STRETCH
-from ..scene import Body, Scene
-from .contact_schema import contact_definitions
-from .encoding import SCENE_VERSION
+from ..scene import Body, Collider, Contact, Paint, QueryPoint, Scene
+from .encoding import COLLIDER_TYPES, SCENE_VERSION
 from .migration import READABLE_VERSIONS
-from .paint_schema import paint_definitions
 from .rig_schema import rig_definitions
 from .schema_blocks import (
     ABOVE_0,
     ANY_SIZE,
     FROM_0,
     Schema,
+    choice_of,
     defined,
     list_of,
     number,
@@ -42,7 +40,6 @@ from .schema_blocks import (
     properties_of,
     whole_number,
 )
-from .wind_schema import wind_properties
 
 __all__ = ["scene_schema"]
 
@@ -61,6 +58,7 @@ _EXAMPLE = {
 
 def scene_schema() -> Schema:
     """The JSON Schema (draft 2020-12) of a scene document."""
+    shape = choice_of(COLLIDER_TYPES)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": f"urn:physanimator:scene:{SCENE_VERSION}",
@@ -74,10 +72,12 @@ def scene_schema() -> Schema:
             "material": object_of(Material, "Material", _material()),
             "mesh": object_of(None, "Mesh", _mesh(), required=["vertices", "triangles"]),
             "stroke": object_of(EnergyStroke, "Energy stroke", properties_of(EnergyStroke)),
-            "wind": {**object_of(Wind, "Wind", wind_properties()), "type": ["object", "null"]},
+            "wind": {**object_of(Wind, "Wind", properties_of(Wind)), "type": ["object", "null"]},
             **rig_definitions(),
-            **contact_definitions(),
-            **paint_definitions(),
+            "contact": {**object_of(Contact, "Contact", properties_of(Contact)), "type": ["object", "null"]},
+            "collider": object_of(Collider, "Collider", properties_of(Collider, region=shape)),
+            "query_point": object_of(QueryPoint, "Query point", properties_of(QueryPoint)),
+            "paint": object_of(Paint, "Paint", properties_of(Paint, region=shape)),
             **_entries(),
         },
     }
@@ -169,70 +169,14 @@ def _body() -> dict[str, Schema]:
 
 
 def _material() -> dict[str, Schema]:
-    return {
-        "preset": {
-            "enum": list(PRESETS),
-            "title": "Preset",
-            "description": "A material to start from; values given beside it replace the preset's own.",
-        },
-        "name": {"type": "string", "title": "Name", "description": 'What the material is called, such as "hair".'},
-        "youngs_modulus": number(
-            "Young's modulus [density side^2/s^2]",
-            "Stiffness: how hard the body is to stretch and bend. Twice the sway needs four times the stiffness. A set"
-            " sway_frequency takes its place.",
-            exclusiveMinimum=0,
-            maximum=STIFFEST,
-        ),
-        "poisson_ratio": number(
-            "Poisson's ratio",
-            "How much a stretched body narrows: 0 not at all, near 0.5 like rubber or jelly.",
-            minimum=0,
-            exclusiveMaximum=0.5,
-        ),
-        "density": number(
-            "Density",
-            "Mass for its size; 1 is ordinary. A heavier body of the same stiffness sways more slowly.",
-            **ABOVE_0,
-        ),
-        "damping": number(
-            "Damping [1/s]", "How fast motion dies away: 0 never, 1 within some seconds, 5 almost at once.", **FROM_0
-        ),
-        "sway_frequency": {
-            **number(
-                "Sway frequency [Hz]",
-                "How often the body sways about where it is held; hair sways about once a second. Its shorter separate"
-                " parts sway faster. The stiffness follows from it. null: use youngs_modulus.",
-                minimum=0.001,
-                maximum=1000,
-            ),
-            "type": ["number", "null"],
-        },
-        "stretch_limit": {
-            **number(
-                "Stretch limit",
-                "How many times as far as in the drawing a point gets from where its part is held, at most, as if on"
-                " a thread: 1.06 for hair and ribbon, which bend but do not stretch. null: no limit.",
-                minimum=1,
-                maximum=LARGEST,
-            ),
-            "type": ["number", "null"],
-        },
-        "wind_response": number(
-            "Wind response",
-            "How strongly wind and strokes act on the body: 1 is ordinary, 2 light as paper, 0.5 heavy, 0 not at all.",
-            **FROM_0,
-        ),
-        **{
-            f"{quantity}_scale": {
-                "type": ["array", "null"],
-                "title": f"{quantity.capitalize()} scale",
-                "description": f"A factor on the {quantity} of each triangle of the mesh; null means 1 everywhere.",
-                "items": {"$ref": "#/$defs/factor"},
-                "maxItems": MAX_TRIANGLES,
-            }
-            for quantity in ("stiffness", "damping", "density")
-        },
+    preset = {
+        "enum": list(PRESETS),
+        "title": "Preset",
+        "description": "A material to start from; values given beside it replace the preset's own.",
     }
+    own = properties_of(Material)
+    scales = {name: own.pop(name) for name in SCALES}
+    return {"preset": preset, "name": own.pop("name"), **own, **scales}
 
 
 def _mesh() -> dict[str, Schema]:

@@ -55,7 +55,7 @@ def properties_of(kind: type, **others: Schema) -> dict[str, Schema]:
 
     Args:
         kind: the dataclass.
-        others: what a field of a type of its own is, such as one of several objects; it gets title and description.
+        others: what a field is that holds objects, or what the entries of its list are.
     """
     return {name: _property(each, others.get(name)) for name, each in described_fields(kind).items()}
 
@@ -65,15 +65,20 @@ def _property(described: DescribedField, form: Schema | None) -> Schema:
     text: Schema = {"title": field.heading, "description": field.about}
     if form is None and described.choices:
         return {"enum": list(described.choices), **text}
-    if field.most:
-        return list_of(field.heading, field.about, field.entry, field.most, least=field.least)
-    if field.entry:
-        form = defined(field.entry)
-    elif form is None:
-        form = {"type": _TYPES[described.type]}
-    bounds = bounds_of(field) if described.type in (int, float) else {}
-    nullable = {"type": [form["type"], "null"]} if described.nullable and "type" in form else {}
-    return {**form, **text, **bounds, **nullable}
+    if field.entry and not field.most:
+        return {**defined(field.entry), **text}
+    if field.most and form is None:
+        found = list_of(field.heading, field.about, field.entry, field.most, least=field.least)
+    elif field.most:
+        found = {"type": "array", **text, "items": form, "minItems": field.least, "maxItems": field.most}
+    elif form is not None:
+        found = {**form, **text}
+    elif described.type in _TYPES:
+        bounds = bounds_of(field) if described.type in (int, float) else {}
+        found = {"type": _TYPES[described.type], **text, **bounds}
+    else:
+        found = pair_of_numbers(field.heading, field.about, **bounds_of(field))
+    return {**found, "type": [found["type"], "null"]} if described.nullable else found
 
 
 def bounds_of(field: Field) -> Schema:
@@ -84,10 +89,11 @@ def bounds_of(field: Field) -> Schema:
 
 
 def typed_object(
-    kind: type, name: str, title: str, properties: dict[str, Schema], *, required: list[str] | None = None
+    kind: type, name: str, title: str, properties: dict[str, Schema] | None = None, *, required: list[str] | None = None
 ) -> Schema:
-    """An object told from its siblings by its type."""
-    return object_of(kind, title, {"type": {"const": name, "title": "Type"}, **properties}, required=required)
+    """An object told from its siblings by its type; its properties, unless told, are its class's described fields."""
+    own = properties_of(kind) if properties is None else properties
+    return object_of(kind, title, {"type": {"const": name, "title": "Type"}, **own}, required=required)
 
 
 def choice_of(types: dict[str, type]) -> Schema:
