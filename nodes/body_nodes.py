@@ -68,13 +68,7 @@ class Body(io.ComfyNode):
                     default="hair",
                     tooltip="What it is made of. Connect a Material node to set your own values instead.",
                 ),
-                io.Int.Input(
-                    "layer",
-                    default=PhysicalBody.layer,
-                    min=-99,
-                    max=99,
-                    tooltip="A higher layer covers a lower one; of equal layers, the later one in the chain does.",
-                ),
+                input_of(PhysicalBody, "layer"),
                 io.Combo.Input(
                     "attach",
                     options=list(ATTACHMENTS),

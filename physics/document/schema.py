@@ -7,16 +7,8 @@ from __future__ import annotations
 
 from ..forces import EnergyStroke, Wind
 from ..limits import (
-    LARGEST,
-    MAX_BODIES,
-    MAX_COLLIDERS,
-    MAX_LOOP,
     MAX_MASK_PIXELS,
-    MAX_PAINT,
-    MAX_QUERY_POINTS,
-    MAX_RIG_POINTS,
     MAX_SIDE,
-    MAX_STROKES,
     MAX_TRIANGLES,
     MAX_VERTICES,
 )
@@ -34,7 +26,6 @@ from .schema_blocks import (
     choice_of,
     defined,
     list_of,
-    number,
     object_of,
     pair_of_numbers,
     properties_of,
@@ -84,6 +75,7 @@ def scene_schema() -> Schema:
 
 
 def _document() -> dict[str, Schema]:
+    own = properties_of(Scene, wind={}, contact={})
     return {
         "$schema": {"type": "string", "title": "Schema", "description": "Where editors find this schema; not read."},
         "version": {
@@ -93,76 +85,19 @@ def _document() -> dict[str, Schema]:
         },
         "width": whole_number("Width [px]", "Width of the illustration that the positions refer to.", 1, MAX_SIDE),
         "height": whole_number("Height [px]", "Height of the illustration that the positions refer to.", 1, MAX_SIDE),
-        "frame_rate": number(
-            "Frame rate [frames/s]", "How many frames a second has. The motion stays the same.", minimum=1, maximum=240
-        ),
-        "loop": {
-            **number(
-                "Loop [s]",
-                "Length of a seamless loop: all that acts is fitted to it, and the first frame is not the drawing but"
-                " one that comes again after the last. null: no loop.",
-                exclusiveMinimum=0,
-                maximum=MAX_LOOP,
-            ),
-            "type": ["number", "null"],
-        },
-        "wind": {"$ref": "#/$defs/wind"},
-        "gravity": pair_of_numbers(
-            "Gravity [side/s^2]",
-            "A steady pull on everything, x and y. [0, 0.5] pulls down gently. Held bodies hang as they are drawn.",
-            **ANY_SIZE,
-        ),
-        "sag": {
-            "type": "boolean",
-            "title": "Sag",
-            "description": "Whether bodies are drawn without their weight, so that gravity makes them sag from the"
-            " first frame on.",
-        },
-        "bodies": list_of(
-            "Bodies",
-            "What can move, in the order of the masks. Bodies left out are of default material.",
-            "body",
-            MAX_BODIES,
-        ),
-        "strokes": list_of("Energy strokes", "What blows, pushes and pulls.", "stroke", MAX_STROKES),
-        "rig_points": list_of(
-            "Rig points",
-            "Where bodies are held or led. Where several reach the same part, the last one in this list leads it.",
-            "rig_point",
-            MAX_RIG_POINTS,
-        ),
-        "contact": {
-            **defined("contact"),
-            "type": ["object", "null"],
-            "description": "How bodies keep out of each other and of colliders. null: they pass through.",
-        },
-        "colliders": list_of(
-            "Colliders",
-            "Still shapes that bodies keep out of where there is contact, such as a shoulder under hair.",
-            "collider",
-            MAX_COLLIDERS,
-        ),
-        "paint": list_of(
-            "Paint",
-            "Where bodies are stiffer, heavier or more damped than their materials say; entries that overlap multiply.",
-            "paint",
-            MAX_PAINT,
-        ),
-        "query_points": list_of(
-            "Query points",
-            "Where somebody clicked to say which part of the illustration is meant: for segmentation, not for motion.",
-            "query_point",
-            MAX_QUERY_POINTS,
-        ),
+        **{name: own[name] for name in ("frame_rate", "loop")},
+        "wind": defined("wind"),
+        **{name: own[name] for name in ("gravity", "sag", "bodies", "strokes", "rig_points")},
+        "contact": {**defined("contact"), "type": ["object", "null"], "description": own["contact"]["description"]},
+        **{name: own[name] for name in ("colliders", "paint", "query_points")},
     }
 
 
 def _body() -> dict[str, Schema]:
+    own = properties_of(Body, material={}, mesh={})
     return {
-        "name": {"type": "string", "title": "Name", "description": 'For people, such as "left sleeve".'},
-        "layer": whole_number(
-            "Layer", "Who covers whom: a higher layer is in front; of equal layers the later body.", -LARGEST, LARGEST
-        ),
+        "name": own["name"],
+        "layer": own["layer"],
         "material": {"$ref": "#/$defs/material"},
         "mesh": {"$ref": "#/$defs/mesh"},
     }

@@ -78,7 +78,7 @@ def _property(described: DescribedField, form: Schema | None) -> Schema:
         found = {"type": _TYPES[described.type], **text, **bounds}
     else:
         found = pair_of_numbers(field.heading, field.about, **bounds_of(field))
-    return {**found, "type": [found["type"], "null"]} if described.nullable else found
+    return {**found, "type": [found["type"], "null"]} if described.nullable and "type" in found else found
 
 
 def bounds_of(field: Field) -> Schema:

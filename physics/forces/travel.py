@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..checks import numbers_of
 from ..errors import InvalidInputError, require
+from ..limits import LEAST_FACTOR, MOST_FACTOR
 
 __all__ = ["MOST_KEYS", "Key", "Travel", "checked_keys", "factors"]
 
@@ -22,7 +23,6 @@ Key = tuple[float, float]
 """Share of the path's length from 0 to 1, and a factor there."""
 
 MOST_KEYS = 100
-_LEAST, _MOST = 0.001, 1000.0  # factors
 
 
 def checked_keys(name: str, keys: Sequence[Key], *, positive: bool = False) -> tuple[Key, ...]:
@@ -47,9 +47,9 @@ def checked_keys(name: str, keys: Sequence[Key], *, positive: bool = False) -> t
     shares = [share for share, _ in checked]
     rising = all(0 <= share <= 1 for share in shares) and all(a < b for a, b in pairwise(shares))
     require(name, shares, rising, "at increasing shares of the path from 0 to 1")
-    least = _LEAST if positive else -_MOST
-    bounded = all(least <= factor <= _MOST for _, factor in checked)
-    require(name, [factor for _, factor in checked], bounded, f"factors from {least:g} to {_MOST:g}")
+    least = LEAST_FACTOR if positive else -MOST_FACTOR
+    bounded = all(least <= factor <= MOST_FACTOR for _, factor in checked)
+    require(name, [factor for _, factor in checked], bounded, f"factors from {least:g} to {MOST_FACTOR:g}")
     return checked
 
 

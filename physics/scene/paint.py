@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 from ..fields import Field, check_fields, described
+from ..limits import LEAST_FACTOR, MOST_FACTOR
 from ..points import Scale
 from ..rig import BodyNumber
 from .shapes import Shape, shape_field
@@ -16,7 +17,7 @@ QUANTITIES = ("stiffness", "damping", "density")
 
 
 def _factor(title: str, about: str) -> Field:
-    return Field(title, about, minimum=0.001, maximum=1_000)
+    return Field(title, about, minimum=LEAST_FACTOR, maximum=MOST_FACTOR)
 
 
 @described
