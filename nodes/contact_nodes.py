@@ -9,6 +9,7 @@ from comfy_api.latest import io
 from ..physics.scene import Collider
 from ..physics.scene import Contact as PhysicalContact
 from .host import mask_of
+from .host.field_inputs import input_of
 from .host.wires import ContactWire, Touch
 
 if TYPE_CHECKING:
@@ -26,27 +27,7 @@ class Contact(io.ComfyNode):
             category="PhysAnimator/scene",
             description="Lets bodies touch instead of passing through each other, and slide over still shapes.",
             inputs=[
-                io.Float.Input(
-                    "friction",
-                    default=PhysicalContact.friction,
-                    min=0.0,
-                    max=1.0,
-                    step=0.05,
-                    tooltip="Friction [1]: 0 slides freely, 1 hardly slides.",
-                ),
-                io.Float.Input(
-                    "thickness",
-                    default=PhysicalContact.thickness,
-                    min=0.1,
-                    max=100.0,
-                    step=0.1,
-                    tooltip="Distance that bodies keep from each other [px]; what is nearer as drawn stays as near.",
-                ),
-                io.Boolean.Input(
-                    "self_contact",
-                    default=PhysicalContact.self_contact,
-                    tooltip="Whether a body also keeps out of itself, such as a curl that folds.",
-                ),
+                *(input_of(PhysicalContact, name) for name in ("friction", "thickness", "self_contact")),
                 io.Mask.Input(
                     "collider",
                     optional=True,

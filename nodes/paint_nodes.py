@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from comfy_api.latest import io
 
+from ..physics.limits import LEAST_FACTOR, MOST_FACTOR
 from ..physics.material import PRESETS
 from ..physics.material import Material as PhysicalMaterial
 from ..physics.material import preset as preset_material
@@ -67,4 +68,4 @@ class PaintMaterial(io.ComfyNode):
 
 def _factor(name: str, default: float, colour: str) -> io.Float.Input:
     tooltip = f"Factor where a mask is {colour} [1]; greys lie between. 1 changes nothing."
-    return io.Float.Input(name, default=default, min=0.001, max=1000.0, step=0.05, tooltip=tooltip)
+    return io.Float.Input(name, default=default, min=LEAST_FACTOR, max=float(MOST_FACTOR), step=0.05, tooltip=tooltip)

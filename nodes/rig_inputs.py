@@ -9,7 +9,6 @@ from comfy_api.latest import io
 
 from ..physics.document import parse_polyline
 from ..physics.rig import (
-    EASINGS,
     Circle,
     KeyedPath,
     MaskRegion,
@@ -25,6 +24,7 @@ from ..physics.rig import (
     Wave,
 )
 from .host import PATH_FORMS, chosen, mask_of, numbers_of, times_of
+from .host.field_inputs import input_of
 
 __all__ = [
     "OPTIONAL_INPUTS",
@@ -49,9 +49,7 @@ _SQUASHES = ("none", "pulse", "squash")
 
 def region_options() -> list[io.DynamicCombo.Option]:
     """What may follow a rig point."""
-    radius = _number(
-        "radius", RigPoint.region.radius, 0.5, 16384.0, 1.0, "What lies within this distance follows [px]."
-    )
+    radius = _input(Circle, "radius", default=RigPoint.region.radius)
     corners = "[[600, 80], [680, 80], [680, 160], [600, 160]]"
     points = _text("points", corners, f"Corners of the region in pixels {PATH_FORMS}")
     mask = io.Mask.Input("mask", display_name="mask", tooltip="What it covers follows.")
@@ -64,12 +62,11 @@ def region_options() -> list[io.DynamicCombo.Option]:
 
 def motion_options() -> list[io.DynamicCombo.Option]:
     """Where a rig point may go."""
-    wave = Wave()
     swinging = [
-        _number("amplitude", wave.amplitude, -16384.0, 16384.0, 1.0, "How far it swings to either side [px]."),
-        _period(wave.period, "Time of one swing forth and back [s]."),
-        _number("angle", 0.0, -360.0, 360.0, 5.0, "Where it swings to first [degrees]: 0 to the right, 90 up."),
-        _phase(),
+        _input(Wave, "amplitude"),
+        _input(Wave, "period"),
+        _angle(),
+        _input(Wave, "phase"),
     ]
     keyed = [
         _text(
@@ -78,7 +75,7 @@ def motion_options() -> list[io.DynamicCombo.Option]:
             f"Keys in pixels {PATH_FORMS} The region moves by the difference to the first.",
         ),
         _times("[0, 1]"),
-        _easing(KeyedPath.easing),
+        _input(KeyedPath, "easing"),
     ]
     return [
         io.DynamicCombo.Option("pinned", []),
@@ -89,16 +86,11 @@ def motion_options() -> list[io.DynamicCombo.Option]:
 
 def turn_options() -> list[io.DynamicCombo.Option]:
     """How a region may turn about its rig point."""
-    swing = Swing()
-    swinging = [
-        _number("amplitude", swing.amplitude, -3600.0, 3600.0, 1.0, "How far it turns to either side [degrees]."),
-        _period(swing.period, "Time of one swing forth and back [s]."),
-        _phase(),
-    ]
+    swinging = [_input(Swing, name) for name in ("amplitude", "period", "phase")]
     keyed = [
         _text("angles", "[0, 20, 0]", "Keys as a list of angles [degrees], counterclockwise, relative to the first."),
         _times("[0, 0.5, 1]"),
-        _easing(Rotation.easing),
+        _input(Rotation, "easing"),
     ]
     return [
         io.DynamicCombo.Option("none", []),
@@ -109,20 +101,13 @@ def turn_options() -> list[io.DynamicCombo.Option]:
 
 def squash_options() -> list[io.DynamicCombo.Option]:
     """How a region may be squashed about its rig point."""
-    pulse = Pulse()
-    pulsing = [
-        _number(
-            "stretch", pulse.stretch, 0.05, 20.0, 0.05, "Largest factor: 1.2 stretches by 20 %, squashes to 1/1.2."
-        ),
-        _period(pulse.period, "Time from one stretch to the next [s]."),
-        _phase(),
-        *_stretching(pulse.angle, pulse.keep_area),
-    ]
+    pulsing = [_input(Pulse, name) for name in ("stretch", "period", "phase", "angle", "keep_area")]
     keyed = [
         _text("factors", "[1, 0.8, 1.1, 1]", "Keys as a list of factors: above 1 is longer, relative to the first."),
         _times("[0, 0.2, 0.5, 0.8]"),
-        *_stretching(Squash.angle, Squash.keep_area),
-        _easing(Squash.easing),
+        _input(Squash, "angle"),
+        _input(Squash, "keep_area"),
+        _input(Squash, "easing"),
     ]
     return [
         io.DynamicCombo.Option("none", []),
@@ -190,18 +175,15 @@ def _seconds(count: int) -> tuple[float, ...]:
     return tuple(map(float, range(count)))
 
 
-def _number(
-    name: str, default: float, low: float, high: float, step: float, tooltip: str, *, optional: bool = False
-) -> io.Float.Input:
+def _input(kind: type, name: str, **options: Any) -> io.Input:
+    title = name.replace("_", " ")
+    return input_of(kind, name, display_name=title, optional=name in OPTIONAL_INPUTS, **options)
+
+
+def _angle() -> io.Float.Input:
+    tooltip = "Where it swings to first [degrees]: 0 to the right, 90 up."
     return io.Float.Input(
-        name,
-        default=default,
-        min=low,
-        max=high,
-        step=step,
-        display_name=name.replace("_", " "),
-        optional=optional,
-        tooltip=tooltip,
+        "angle", default=0.0, min=-360.0, max=360.0, step=5.0, display_name="angle", optional=False, tooltip=tooltip
     )
 
 
@@ -209,38 +191,6 @@ def _text(name: str, default: str, tooltip: str) -> io.String.Input:
     return io.String.Input(name, default=default, display_name=name, tooltip=tooltip)
 
 
-def _period(default: float, tooltip: str) -> io.Float.Input:
-    return _number("period", default, 0.05, 3600.0, 0.1, tooltip)
-
-
-def _phase() -> io.Float.Input:
-    tooltip = "Where in its course it begins [degrees]; -90 begins at rest."
-    return _number("phase", 0.0, -360.0, 360.0, 5.0, tooltip, optional=True)
-
-
 def _times(default: str) -> io.String.Input:
     tooltip = "When it is at each key, as a list of rising seconds [s]; empty means one second apart."
     return _text("times", default, tooltip)
-
-
-def _easing(default: str) -> io.Combo.Input:
-    return io.Combo.Input(
-        "easing",
-        options=list(EASINGS),
-        default=default,
-        display_name="easing",
-        optional=True,
-        tooltip="smooth flows through the keys, linear keeps an even speed, ease stops at each, hold jumps.",
-    )
-
-
-def _stretching(angle: float, keep_area: bool) -> list[io.Input]:
-    return [
-        _number("angle", angle, -360.0, 360.0, 5.0, "Direction of the stretching [degrees]: 0 along x, 90 along y."),
-        io.Boolean.Input(
-            "keep_area",
-            default=keep_area,
-            display_name="keep area",
-            tooltip="Narrows as much as it is stretched, as soft things do.",
-        ),
-    ]

@@ -12,6 +12,7 @@ from ..physics.document import parse_polyline
 from ..physics.rig import Combined, Pinned, RigMotion
 from ..physics.rig import RigPoint as PhysicalRigPoint
 from .host import PATH_FORMS, refusal
+from .host.field_inputs import input_of
 from .host.wires import RigWire
 from .rig_inputs import (
     OPTIONAL_INPUTS,
@@ -78,15 +79,7 @@ class RigPoint(io.ComfyNode):
                     optional=True,
                     tooltip="Squashes and stretches the region about the rig point: pulse to and fro, squash by keys.",
                 ),
-                io.Float.Input(
-                    "falloff",
-                    default=PhysicalRigPoint.falloff,
-                    min=0.0,
-                    max=16384.0,
-                    step=1.0,
-                    optional=True,
-                    tooltip="How far beyond the region its pull fades out [px]; 0 leaves all outside free.",
-                ),
+                input_of(PhysicalRigPoint, "falloff", optional=True),
                 RigWire.Input("rig_points", optional=True, tooltip="Rig points that act besides this one."),
             ],
             outputs=[

@@ -12,7 +12,7 @@ import numpy as np
 from comfy_api.latest import io, ui
 
 from ..physics.errors import require
-from .host import batch_of_pictures, picture_with_alpha, refusal
+from .host import batch_of_pictures, checked_document, picture_with_alpha, refusal
 from .host.wires import BodiesWire, MaskedBody
 from .preview import STORE, PreviewBodies
 from .preview.server import warm_up
@@ -57,9 +57,7 @@ class SceneEditor(io.ComfyNode):
 
     @classmethod
     def validate_inputs(cls, scene: str | None = None) -> bool | str:
-        from ..physics.document import check_document, read_json
-
-        return scene is None or refusal(lambda: check_document(read_json(scene)))
+        return scene is None or refusal(lambda: checked_document(scene))
 
     @classmethod
     def execute(
@@ -69,9 +67,9 @@ class SceneEditor(io.ComfyNode):
         image: torch.Tensor | None = None,
         plate: torch.Tensor | None = None,
     ) -> io.NodeOutput:
-        from ..physics.document import read_json, scene_over
+        from ..physics.document import checked_scene_over
 
-        drawn = scene_over(read_json(scene), [item.body for item in bodies])
+        drawn = checked_scene_over(checked_document(scene), [item.body for item in bodies])
         shown = None if image is None else _shown(image, drawn.width, drawn.height, "image")
         behind = None if plate is None else _shown(plate, drawn.width, drawn.height, "plate")
         info = {

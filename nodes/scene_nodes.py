@@ -12,7 +12,7 @@ from ..physics.forces import EnergyStroke, Wind
 from ..physics.rig import RigPoint
 from ..physics.scene import Scene as PhysicalScene
 from ..physics.scene import automatic_scene
-from .host import refusal
+from .host import checked_document, refusal
 from .host.wires import (
     BodiesWire,
     ContactWire,
@@ -177,15 +177,13 @@ class SceneFromJSON(io.ComfyNode):
 
     @classmethod
     def validate_inputs(cls, scene: str | None = None) -> bool | str:
-        from ..physics.document import check_document, read_json
-
-        return scene is None or refusal(lambda: check_document(read_json(scene)))
+        return scene is None or refusal(lambda: checked_document(scene))
 
     @classmethod
     def execute(cls, bodies: tuple[MaskedBody, ...], scene: str) -> io.NodeOutput:
-        from ..physics.document import read_json, scene_over
+        from ..physics.document import checked_scene_over
 
-        return scene_output(scene_over(read_json(scene), _physical(bodies)), bodies)
+        return scene_output(checked_scene_over(checked_document(scene), _physical(bodies)), bodies)
 
 
 def _touching(scene: PhysicalScene, touch: Touch | None) -> PhysicalScene:

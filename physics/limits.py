@@ -5,6 +5,7 @@ from __future__ import annotations
 __all__ = [
     "DEFAULT_MINUTES",
     "LARGEST",
+    "LEAST_FACTOR",
     "MAX_BODIES",
     "MAX_COLLIDERS",
     "MAX_DOCUMENT_BYTES",
@@ -24,12 +25,16 @@ __all__ = [
     "MAX_STROKES",
     "MAX_TRIANGLES",
     "MAX_VERTICES",
+    "MOST_FACTOR",
     "MOST_MINUTES",
     "STIFFEST",
 ]
 
 LARGEST = 1_000_000
 """Largest coordinate [px], radius [px], speed [px/s], acceleration [side/s^2] or time [s], without its sign."""
+
+LEAST_FACTOR, MOST_FACTOR = 0.001, 1_000
+"""Smallest and largest factor that is painted on a material, or keyed along a stroke."""
 
 STIFFEST = 1e12
 """Largest Young's modulus [density side^2 / s^2]."""

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 
 from .checks import numbers_of
 from .errors import InvalidInputError, require
+from .fields import Field
 from .limits import LARGEST, MAX_POINTS
 
-__all__ = ["Point", "Scale", "checked_pair", "checked_points", "scaled_points"]
+__all__ = ["Point", "Scale", "checked_pair", "checked_points", "point_field", "points_field", "scaled_points"]
 
 Point = tuple[float, float]
 """x and y [px]."""
@@ -36,6 +38,19 @@ def checked_points(name: str, points: Iterable[Point], *, least: int) -> tuple[P
     far = [point for point in points if not (abs(point[0]) <= LARGEST and abs(point[1]) <= LARGEST)]
     require(name, far[:1], not far, f"pixel coordinates from -{LARGEST} to {LARGEST}")
     return points
+
+
+def points_field(title: str, about: str, *, least: int) -> Field:
+    """A field that holds points [px], at least so many."""
+    check = partial(checked_points, least=least)
+    return Field(title, about, "px", entry="point", least=least, most=MAX_POINTS, check=check)
+
+
+def point_field(title: str, about: str) -> Field:
+    """A field that holds a point [px]."""
+    return Field(
+        title, about, "px", entry="point", check=lambda name, point: checked_points(name, (point,), least=1)[0]
+    )
 
 
 def checked_pair(name: str, pair: object) -> Point:

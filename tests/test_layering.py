@@ -76,7 +76,9 @@ MAY_IMPORT = {
         "rendering/metrics/learned rendering/pictures rendering/segmentation"
     ),
     # nodes: the host
-    "nodes/host": "physics physics/mesh physics/motion physics/scene rendering/composite rendering/pictures",
+    "nodes/host": (
+        "physics physics/document physics/mesh physics/motion physics/scene rendering/composite rendering/pictures"
+    ),
     "nodes/preview": (
         "physics physics/assembly physics/document physics/forces physics/rig physics/runtime physics/scene "
         "physics/simulation rendering/composite rendering/pictures rendering/plate"

@@ -6,6 +6,7 @@ from .batches import announce_batch
 from .choices import checked
 from .computing import PRECISIONS, dtype_of
 from .defaults import default_of
+from .documents import checked_document
 from .literals import PATH_FORMS, boxes_of, chosen, keys_of, numbers_of, refusal, times_of, whole_numbers_of
 from .messages import all_told, hint_of_pixel_art, shown_with, tell_user
 from .progress import host_check, host_preview, host_progress
@@ -38,6 +39,7 @@ __all__ = [
     "boxes_of",
     "check_prefix",
     "checked",
+    "checked_document",
     "chosen",
     "default_of",
     "dtype_of",

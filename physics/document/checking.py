@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import SceneError, shown
 from .encoding import SCENE_VERSION
+from .quick_check import is_right
 from .schema import scene_schema
 
 if TYPE_CHECKING:
@@ -45,6 +46,8 @@ def check_document(data: object) -> dict[str, Any]:
     if not isinstance(data, dict):
         raise SceneError("", f"a scene must be an object in braces. Got: {_shown(data)}")
     _check_version(data)
+    if is_right(data):
+        return data
     errors = list(islice(_validator().iter_errors(data), _ENOUGH))
     if errors:
         raise min((_described(error) for error in errors), key=lambda found: found[0])[1]

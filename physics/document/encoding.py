@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import is_dataclass
 from typing import Any
 
 import numpy as np
 
-from ..forces import EnergyStroke, Wind
-from ..material import Material
+from ..fields import described_fields
 from ..mesh import runs_of
 from ..rig import (
     Circle,
@@ -18,13 +17,12 @@ from ..rig import (
     Pinned,
     Polygon,
     Pulse,
-    RigPoint,
     Rotation,
     Squash,
     Swing,
     Wave,
 )
-from ..scene import Body, Collider, Contact, Paint, QueryPoint, Scene
+from ..scene import Body, Scene
 
 __all__ = ["COLLIDER_TYPES", "MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "encode", "scene_to_dict"]
 
@@ -92,10 +90,11 @@ def encode(value: Any) -> Any:
     if isinstance(value, MaskRegion):
         height, width = value.mask.shape
         return {**tag, "width": width, "height": height, "runs": runs_of(value.mask)}
-    plain = Material | EnergyStroke | RigPoint | Wind | Contact | Collider | Paint | QueryPoint
-    if type(value) not in _TYPE_NAMES and not isinstance(value, plain):
+    kind: type = type(value)
+    names = described_fields(kind) if is_dataclass(kind) else {}
+    if not names and not tag:
         raise TypeError(f"a scene holds no {type(value).__name__}")
-    entries = {field.name: encode(getattr(value, field.name)) for field in fields(value)}
+    entries = {name: encode(getattr(value, name)) for name in names}
     return {**tag, **{name: entry for name, entry in entries.items() if entry is not None}}
 
 

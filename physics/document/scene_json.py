@@ -135,8 +135,6 @@ def _read_bodies(
             raise SceneError(f"{path}.mesh", f"is missing. Meshes given beside the scene: {len(supply)}")
         material = _read_material(entry.get("material", {}), f"{path}.material")
         options = {name: value for name, value in entry.items() if name not in ("mesh", "material")}
-        if "layer" in options:
-            options["layer"] = int(options["layer"])
         with _located(f"{path}.material"):
             bodies.append(Body(mesh, material, **options))
     return bodies + [Body(mesh) for mesh in spare]
@@ -163,9 +161,8 @@ def _read_stroke(entry: dict[str, Any], path: str) -> EnergyStroke:
 def _read_wind(entry: dict[str, Any] | None, size: tuple[int, int], target: tuple[int, int]) -> Wind | None:
     if entry is None:
         return None
-    values = _floats(entry) | ({"seed": int(entry["seed"])} if "seed" in entry else {})
     with _located("wind"):
-        return Wind(**values).rescaled((target[0] / size[0], target[1] / size[1], max(target) / max(size)))
+        return Wind(**_floats(entry)).rescaled((target[0] / size[0], target[1] / size[1], max(target) / max(size)))
 
 
 def _read_rig_point(entry: dict[str, Any], path: str) -> RigPoint:
@@ -174,8 +171,6 @@ def _read_rig_point(entry: dict[str, Any], path: str) -> RigPoint:
         values["region"] = _read_typed(entry["region"], REGION_TYPES, f"{path}.region")
     if "motion" in entry:
         values["motion"] = _read_typed(entry["motion"], MOTION_TYPES, f"{path}.motion")
-    if entry.get("body") is not None:
-        values["body"] = int(entry["body"])
     with _located(path):
         return RigPoint(**values)
 
@@ -204,11 +199,10 @@ def _read_collider(entry: dict[str, Any], path: str) -> Collider:
 
 
 def _read_paint(entry: dict[str, Any], path: str) -> Paint:
-    values = _floats({name: value for name, value in entry.items() if name not in ("region", "body")})
+    values = _floats({name: value for name, value in entry.items() if name != "region"})
     region = _read_typed(entry["region"], COLLIDER_TYPES, f"{path}.region")
-    body = None if entry.get("body") is None else int(entry["body"])
     with _located(path):
-        return Paint(region, body=body, **values)
+        return Paint(region, **values)
 
 
 def query_points_of(document: dict[str, Any]) -> list[QueryPoint]:
@@ -217,7 +211,7 @@ def query_points_of(document: dict[str, Any]) -> list[QueryPoint]:
 
 
 def _read_query_point(entry: dict[str, Any], _path: str) -> QueryPoint:
-    return QueryPoint(**{**_floats(entry), "part": int(entry.get("part", 0))})
+    return QueryPoint(**_floats(entry))
 
 
 def _require_small_masks(document: dict[str, Any]) -> None:

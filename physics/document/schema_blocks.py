@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import MISSING, fields
 from typing import Any
 
+from ..fields import DescribedField, Field, described_fields
 from ..limits import LARGEST
 from .encoding import encode
 
@@ -13,17 +14,21 @@ __all__ = [
     "ANY_SIZE",
     "FROM_0",
     "Schema",
+    "bounds_of",
     "choice_of",
     "defined",
     "list_of",
     "number",
     "object_of",
     "pair_of_numbers",
+    "properties_of",
     "typed_object",
     "whole_number",
 ]
 
 Schema = dict[str, Any]
+
+_TYPES = {float: "number", int: "integer", bool: "boolean", str: "string"}
 
 ABOVE_0 = {"exclusiveMinimum": 0, "maximum": LARGEST}
 FROM_0 = {"minimum": 0, "maximum": LARGEST}
@@ -45,11 +50,50 @@ def object_of(
     return {**schema, "required": required} if required else schema
 
 
+def properties_of(kind: type, **others: Schema) -> dict[str, Schema]:
+    """The described fields of a dataclass as properties, by name.
+
+    Args:
+        kind: the dataclass.
+        others: what a field is that holds objects, or what the entries of its list are.
+    """
+    return {name: _property(each, others.get(name)) for name, each in described_fields(kind).items()}
+
+
+def _property(described: DescribedField, form: Schema | None) -> Schema:
+    field = described.field
+    text: Schema = {"title": field.heading, "description": field.about}
+    if form is None and described.choices:
+        return {"enum": list(described.choices), **text}
+    if field.entry and not field.most:
+        return {**defined(field.entry), **text}
+    if field.most and form is None:
+        found = list_of(field.heading, field.about, field.entry, field.most, least=field.least)
+    elif field.most:
+        found = {"type": "array", **text, "items": form, "minItems": field.least, "maxItems": field.most}
+    elif form is not None:
+        found = {**form, **text}
+    elif described.type in _TYPES:
+        bounds = bounds_of(field) if described.type in (int, float) else {}
+        found = {"type": _TYPES[described.type], **text, **bounds}
+    else:
+        found = pair_of_numbers(field.heading, field.about, **bounds_of(field))
+    return {**found, "type": [found["type"], "null"]} if described.nullable and "type" in found else found
+
+
+def bounds_of(field: Field) -> Schema:
+    """The bounds of a number."""
+    low = {"minimum": field.minimum} if field.above is None else {"exclusiveMinimum": field.above}
+    high = {"maximum": field.maximum} if field.below is None else {"exclusiveMaximum": field.below}
+    return {**low, **high}
+
+
 def typed_object(
-    kind: type, name: str, title: str, properties: dict[str, Schema], *, required: list[str] | None = None
+    kind: type, name: str, title: str, properties: dict[str, Schema] | None = None, *, required: list[str] | None = None
 ) -> Schema:
-    """An object told from its siblings by its type."""
-    return object_of(kind, title, {"type": {"const": name, "title": "Type"}, **properties}, required=required)
+    """An object told from its siblings by its type; its properties, unless told, are its class's described fields."""
+    own = properties_of(kind) if properties is None else properties
+    return object_of(kind, title, {"type": {"const": name, "title": "Type"}, **own}, required=required)
 
 
 def choice_of(types: dict[str, type]) -> Schema:

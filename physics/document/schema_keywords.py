@@ -12,7 +12,7 @@ from typing import Any
 import jsonschema
 from jsonschema.exceptions import ValidationError
 
-from ..limits import LARGEST, MAX_MASK_PIXELS, MAX_VERTICES
+from .quick_check import test_of
 
 __all__ = ["SceneValidator"]
 
@@ -21,33 +21,8 @@ def _is_number(checker: object, value: object) -> bool:
     return type(value) is int or (type(value) is float and math.isfinite(value))
 
 
-def _is_point(entry: object) -> bool:
-    return (
-        type(entry) is list
-        and len(entry) == 2
-        and all(type(value) in (int, float) and -LARGEST <= value <= LARGEST for value in entry)
-    )
-
-
-def _is_triangle(entry: object) -> bool:
-    return (
-        type(entry) is list
-        and len(entry) == 3
-        and all(type(value) is int and 0 <= value < MAX_VERTICES for value in entry)
-    )
-
-
 def _never(entry: object) -> bool:
     return False
-
-
-_QUICK_CHECKS: dict[str, Callable[[object], bool]] = {
-    "#/$defs/point": _is_point,
-    "#/$defs/triangle": _is_triangle,
-    "#/$defs/run": lambda entry: type(entry) is int and 0 <= entry <= MAX_MASK_PIXELS,
-    "#/$defs/factor": lambda entry: type(entry) in (int, float) and 0 < entry <= LARGEST,  # type: ignore[operator]
-    "#/$defs/time": lambda entry: type(entry) in (int, float) and 0 <= entry <= LARGEST,  # type: ignore[operator]
-}
 
 
 def _without_its_content(keyword: str) -> Callable[..., Iterator[ValidationError]]:
@@ -82,7 +57,7 @@ def _check_items(validator: Any, items: dict[str, Any], instance: Any, schema: A
     """The keyword "items", with a short way through long lists whose entries are right, and none into too long ones."""
     if not isinstance(instance, list) or len(instance) > schema.get("maxItems", math.inf):
         return
-    is_right = _QUICK_CHECKS.get(items.get("$ref", ""), _never)
+    is_right = test_of(items["$ref"]) if "$ref" in items else _never
     for index, entry in enumerate(instance):
         if not is_right(entry):
             yield from validator.descend(entry, items, path=index)

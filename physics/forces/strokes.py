@@ -8,17 +8,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import Literal, get_args
+from functools import cached_property, partial
+from typing import Annotated, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks import within
 from ..errors import require
+from ..fields import Field, Input, check_fields, described
 from ..limits import LARGEST, MAX_PARTICLES_OF_STROKE
-from ..points import Point, Scale, checked_points, scaled_points
-from .travel import Key, Travel, checked_keys
+from ..points import Point, Scale, points_field, scaled_points
+from .travel import MOST_KEYS, Key, Travel, checked_keys
 
 __all__ = ["FALLOFFS", "ROUNDING", "STROKE_KINDS", "EnergyStroke", "Falloff", "Polyline", "StrokeKind"]
 
@@ -54,6 +54,7 @@ class Polyline:
         return float(self.arc_lengths[-1])
 
 
+@described
 @dataclass(frozen=True)
 class EnergyStroke:
     """A drawn stroke that emits flow particles.
@@ -62,62 +63,142 @@ class EnergyStroke:
     moves along the path at ``speed`` and vanishes at its last point. A path of one point, or a speed of 0, is a
     single resting particle that lives from ``start`` to ``end``. With ``repeat`` all of that comes again and again.
 
-    Attributes:
-        kind: wind pushes along the particle's direction, repel pushes away from it, attract pulls towards it.
-        path: points of the stroke [px], at least one (two different ones for wind).
-        radius: a particle acts up to this distance [px].
-        speed: how fast particles travel along the path [px/s].
-        strength: acceleration at full effect [side/s^2], a side being the picture's longest; negative reverses it.
-        start: when the first particle leaves [s].
-        end: when the stroke stops emitting [s]; None means never.
-        interval: time from one particle to the next [s]; the rate of emission is its inverse.
-        falloff: how the effect goes with the distance d: linear as 1 - d/radius (repel: as d/radius), smooth as
-            (1 - (d/radius)^2)^2 without a kink, constant up to the radius.
-        repeat: the time from ``start`` to ``end`` begins anew every so many seconds [s]; None means once.
-        strength_keys: factors on the strength along the path, as pairs (share of its length from 0 to 1, factor).
-        speed_keys: factors above 0 on the speed along the path, in the same form.
+    With the distance d the effect goes, by ``falloff``, as 1 - d/radius (linear; for repel as d/radius), as
+    (1 - (d/radius)^2)^2 (smooth), or stays (constant).
     """
 
-    kind: StrokeKind = "wind"
-    path: tuple[Point, ...] = ((0.0, 0.0), (1.0, 0.0))
-    radius: float = 200.0
-    speed: float = 600.0
-    strength: float = 2.0
-    start: float = 0.0
-    end: float | None = None
-    interval: float = 0.5
-    falloff: Falloff = "linear"
-    repeat: float | None = None
-    strength_keys: tuple[Key, ...] = ()
-    speed_keys: tuple[Key, ...] = ()
+    kind: Annotated[
+        StrokeKind,
+        Field(
+            "Kind",
+            "wind blows along the path; repel pushes away, hardest at the radius; attract pulls closer, hardest at the"
+            " centre (with a negative strength it pushes away, hardest at the centre).",
+        ),
+        Input("wind pushes along the path, repel pushes away from the particles, attract pulls to them."),
+    ] = "wind"
+    path: Annotated[
+        tuple[Point, ...],
+        points_field(
+            "Path",
+            "The points that particles travel along, in order, at least two for wind. One point is a particle at rest.",
+            least=1,
+        ),
+    ] = ((0.0, 0.0), (1.0, 0.0))
+    radius: Annotated[
+        float,
+        Field("Radius", "How far a particle reaches; nothing beyond is touched.", "px", above=0),
+        Input("A particle acts up to this distance [px].", 1.0, 16384.0, step=10.0),
+    ] = 200.0
+    speed: Annotated[
+        float,
+        Field(
+            "Speed",
+            "How fast particles travel along the path. 0 is one particle at rest at the first point.",
+            "px/s",
+            minimum=0,
+        ),
+        Input(
+            "How fast particles travel along the path [px/s]; 0 keeps one at its first point.",
+            high=100_000.0,
+            step=10.0,
+        ),
+    ] = 600.0
+    strength: Annotated[
+        float,
+        Field(
+            "Strength",
+            "Acceleration at full effect. 1 is a breeze, 5 a storm. Negative turns the direction round.",
+            "side/s^2",
+        ),
+        Input(
+            "Acceleration at full effect [sides/s^2], a side being the picture's longest; 1 is a breeze, 10 a blow."
+            " Negative reverses it.",
+            -1000.0,
+            1000.0,
+            step=0.1,
+        ),
+    ] = 2.0
+    start: Annotated[
+        float,
+        Field("Start", "When the first particle leaves.", "s", minimum=0),
+        Input("When the first particle sets out [s].", high=3600.0, step=0.1),
+    ] = 0.0
+    end: Annotated[
+        float | None,
+        Field("End", "When particles stop leaving; after start. null: never.", "s", above=0),
+        Input("When the last particle has set out [s]; 0 means never.", 0.0, 3600.0, step=0.1),
+    ] = None
+    interval: Annotated[
+        float,
+        Field(
+            "Interval",
+            "Time from one particle to the next: 0.1 sends ten a second, 2 lets single gusts pass.",
+            "s",
+            minimum=0.01,
+        ),
+        Input(
+            "Time from one particle to the next [s]: 0.1 sends ten a second, a steady stream; 2 lets single gusts"
+            " pass.",
+            high=3600.0,
+            step=0.1,
+        ),
+    ] = 0.5
+    falloff: Annotated[
+        Falloff,
+        Field(
+            "Falloff",
+            "How the effect falls off up to the radius: linear (for repel it grows), smooth without a kink, constant"
+            " not at all.",
+        ),
+        Input(
+            "How the effect goes with the distance: linear falls evenly (repel: grows), smooth falls without a kink,"
+            " constant acts alike up to the radius."
+        ),
+    ] = "linear"
+    repeat: Annotated[
+        float | None,
+        Field("Repeat", "The time from start to end begins anew every so often. null: never.", "s", minimum=0.01),
+        Input(
+            "The time from start to end begins anew every so often [s]; 0 means never. Needs an end.",
+            0.0,
+            3600.0,
+            step=0.1,
+        ),
+    ] = None
+    strength_keys: Annotated[
+        tuple[Key, ...],
+        Field(
+            "Strength along the path",
+            "How the strength changes along the path; between two keys, evenly. Empty: not at all.",
+            entry="strength_key",
+            most=MOST_KEYS,
+            check=checked_keys,
+        ),
+    ] = ()
+    speed_keys: Annotated[
+        tuple[Key, ...],
+        Field(
+            "Speed along the path",
+            "How the speed changes along the path; between two keys, evenly. Empty: not at all.",
+            entry="speed_key",
+            most=MOST_KEYS,
+            check=partial(checked_keys, positive=True),
+        ),
+    ] = ()
 
     def __post_init__(self) -> None:
-        known = isinstance(self.kind, str) and self.kind in STROKE_KINDS
-        require("kind", self.kind, known, f"one of {', '.join(STROKE_KINDS)}")
-        path = checked_points("path", self.path, least=1)
-        object.__setattr__(self, "path", path)
-        require("radius", self.radius, within(self.radius, 0, LARGEST, above=True), f"above 0 and at most {LARGEST} px")
-        require("speed", self.speed, within(self.speed, 0, LARGEST), f"0 to {LARGEST} px/s")
-        bounded = within(self.strength, -LARGEST, LARGEST)
-        require("strength", self.strength, bounded, f"-{LARGEST} to {LARGEST} side/s^2")
-        require("start", self.start, within(self.start, 0, LARGEST), f"0 to {LARGEST} s")
-        require("interval", self.interval, within(self.interval, 0.01, LARGEST), f"0.01 to {LARGEST} s")
+        check_fields(self)
         if self.end is not None:
-            after_start = within(self.end, self.start, LARGEST, above=True)
-            require("end", self.end, after_start, f"after start ({self.start} s) and at most {LARGEST} s")
-        known = isinstance(self.falloff, str) and self.falloff in FALLOFFS
-        require("falloff", self.falloff, known, f"one of {', '.join(FALLOFFS)}")
+            expected = f"after start ({self.start} s) and at most {LARGEST} s"
+            require("end", self.end, self.end > self.start, expected)
         if self.repeat is not None:
             window = math.inf if self.end is None else self.end - self.start
-            long_enough = within(self.repeat, max(window * (1 - ROUNDING), 0.01), LARGEST)
             expected = f"at least 0.01 s and the time from start to end ({window:g} s), and at most {LARGEST} s"
             expected = "left out where the stroke has no end" if self.end is None else expected
-            require("repeat", self.repeat, long_enough, expected)
-        object.__setattr__(self, "strength_keys", checked_keys("strength_keys", self.strength_keys))
-        object.__setattr__(self, "speed_keys", checked_keys("speed_keys", self.speed_keys, positive=True))
+            require("repeat", self.repeat, self.repeat >= window * (1 - ROUNDING), expected)
         if self.kind == "wind":
             direction = self.polyline.length > 0
-            require("path", path[:2], direction, "at least 2 different points, to give the wind a direction")
+            require("path", self.path[:2], direction, "at least 2 different points, to give the wind a direction")
         self._require_few_particles()
 
     @cached_property

@@ -13,16 +13,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..checks import numbers_of
 from ..errors import InvalidInputError, require
+from ..limits import LEAST_FACTOR, MOST_FACTOR
 
-__all__ = ["Key", "Travel", "checked_keys", "factors"]
+__all__ = ["MOST_KEYS", "Key", "Travel", "checked_keys", "factors"]
 
 FloatArray = NDArray[np.float64]
 
 Key = tuple[float, float]
 """Share of the path's length from 0 to 1, and a factor there."""
 
-_MOST_KEYS = 100
-_LEAST, _MOST = 0.001, 1000.0  # factors
+MOST_KEYS = 100
 
 
 def checked_keys(name: str, keys: Sequence[Key], *, positive: bool = False) -> tuple[Key, ...]:
@@ -39,7 +39,7 @@ def checked_keys(name: str, keys: Sequence[Key], *, positive: bool = False) -> t
     expected = "pairs of a share of the path and a factor"
     if not isinstance(keys, tuple | list | np.ndarray):
         raise InvalidInputError(f"{name} must be {expected}. Got: {keys!r:.60}")
-    require(name, f"{len(keys)} keys", len(keys) <= _MOST_KEYS, f"at most {_MOST_KEYS} keys")
+    require(name, f"{len(keys)} keys", len(keys) <= MOST_KEYS, f"at most {MOST_KEYS} keys")
     pairs = [numbers_of(name, key, expected) for key in keys]
     if not all(len(pair) == 2 for pair in pairs):
         raise InvalidInputError(f"{name} must be {expected}. Got: {keys!r:.60}")
@@ -47,9 +47,9 @@ def checked_keys(name: str, keys: Sequence[Key], *, positive: bool = False) -> t
     shares = [share for share, _ in checked]
     rising = all(0 <= share <= 1 for share in shares) and all(a < b for a, b in pairwise(shares))
     require(name, shares, rising, "at increasing shares of the path from 0 to 1")
-    least = _LEAST if positive else -_MOST
-    bounded = all(least <= factor <= _MOST for _, factor in checked)
-    require(name, [factor for _, factor in checked], bounded, f"factors from {least:g} to {_MOST:g}")
+    least = LEAST_FACTOR if positive else -MOST_FACTOR
+    bounded = all(least <= factor <= MOST_FACTOR for _, factor in checked)
+    require(name, [factor for _, factor in checked], bounded, f"factors from {least:g} to {MOST_FACTOR:g}")
     return checked
 
 

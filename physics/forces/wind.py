@@ -8,15 +8,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..checks import is_whole, within
-from ..errors import require
-from ..limits import LARGEST
-from ..points import Point, Scale, checked_points, scaled_points
+from ..fields import Field, Input, check_fields, described
+from ..points import Point, Scale, point_field, scaled_points
 from .rhythm import fitted_period
 
 __all__ = ["Eddies", "Wind", "eddies", "uniform", "wind_acceleration"]
@@ -26,46 +24,73 @@ FloatArray = NDArray[np.float64]
 _WAVES = 8
 _SPREAD = 0.6  # wavelengths differ from the usual one by up to this many octaves
 _GUSTS = ((1.0, 0.6), (0.618, 0.4))  # part of the gust period, share: two rhythms that do not seem to repeat
-_LARGEST_SEED = 2**31 - 1
 
 
+@described
 @dataclass(frozen=True)
 class Wind:
     """Wind that blows everywhere.
 
-    Attributes:
-        strength: acceleration at its hardest, without eddies [side/s^2]; negative blows the other way.
-        angle: where it blows to [degrees]: 0 to the right, 90 up.
-        gust: share of the strength that comes and goes, 0 to 1; at 1 it is calm between two gusts.
-        gust_period: time from one gust to the next [s].
-        turbulence: strength of the eddies as a share of the wind's, root mean square, 0 to 1.
-        turbulence_size: how large an eddy is [px].
-        seed: chooses among winds that are alike in all of this.
-        origin: point of the picture [px] from which the pattern of eddies is laid; None for the upper left corner.
+    The eddies are the stated share of the wind as a root mean square.
     """
 
-    strength: float = 1.0
-    angle: float = 0.0
-    gust: float = 0.6
-    gust_period: float = 2.0
-    turbulence: float = 0.3
-    turbulence_size: float = 200.0
-    seed: int = 0
-    origin: Point | None = None
+    strength: Annotated[
+        float,
+        Field(
+            "Strength", "Acceleration when it blows hardest, without eddies. 0.5 is a breeze, 3 a storm.", "side/s^2"
+        ),
+        Input(
+            "Acceleration when it blows hardest, without eddies [sides/s^2], a side being the picture's longest; 0.5 is"
+            " a breeze, 3 a storm.",
+            0.0,
+            1000.0,
+            step=0.1,
+        ),
+    ] = 1.0
+    angle: Annotated[
+        float,
+        Field("Angle", "Where it blows to: 0 to the right, 90 up, 180 to the left.", "degrees"),
+        Input("Where it blows to [degrees]: 0 to the right, 90 up, 180 to the left.", -360.0, 360.0, step=5.0),
+    ] = 0.0
+    gust: Annotated[
+        float,
+        Field(
+            "Gusts",
+            "Share of the strength that comes and goes: 0 blows steadily, at 1 it is calm between two gusts.",
+            minimum=0,
+            maximum=1,
+        ),
+        Input(
+            "Share of the strength that comes and goes [1]: 0 blows steadily, at 1 it is calm between gusts.", step=0.05
+        ),
+    ] = 0.6
+    gust_period: Annotated[
+        float,
+        Field("Gust period", "Time from gust to gust.", "s", minimum=0.05),
+        Input("Time from gust to gust [s].", high=3600.0, step=0.1),
+    ] = 2.0
+    turbulence: Annotated[
+        float,
+        Field("Turbulence", "How strong the eddies are, as a share of the wind.", minimum=0, maximum=1),
+        Input("How strong the eddies are, as a share of the wind [1].", step=0.05),
+    ] = 0.3
+    turbulence_size: Annotated[
+        float,
+        Field("Turbulence size", "How large an eddy is.", "px", minimum=1),
+        Input("How large an eddy is [px].", high=16384.0, step=10.0),
+    ] = 200.0
+    seed: Annotated[
+        int,
+        Field("Seed", "Chooses among winds that are alike in all else.", minimum=0, maximum=2**31 - 1),
+        Input("Chooses among winds that are alike in all else."),
+    ] = 0
+    origin: Annotated[
+        Point | None,
+        point_field("Origin", "From where the pattern of eddies is laid; without it, the picture's upper left corner."),
+    ] = None
 
     def __post_init__(self) -> None:
-        bounded = within(self.strength, -LARGEST, LARGEST)
-        require("strength", self.strength, bounded, f"-{LARGEST} to {LARGEST} side/s^2")
-        require("angle", self.angle, within(self.angle, -LARGEST, LARGEST), f"-{LARGEST} to {LARGEST} degrees")
-        require("gust", self.gust, within(self.gust, 0, 1), "0 to 1")
-        require("gust_period", self.gust_period, within(self.gust_period, 0.05, LARGEST), f"0.05 to {LARGEST} s")
-        require("turbulence", self.turbulence, within(self.turbulence, 0, 1), "0 to 1")
-        size = self.turbulence_size
-        require("turbulence_size", size, within(size, 1, LARGEST), f"1 to {LARGEST} px")
-        require("seed", self.seed, is_whole(self.seed, 0, _LARGEST_SEED), f"a whole number from 0 to {_LARGEST_SEED}")
-        object.__setattr__(self, "seed", int(self.seed))
-        if self.origin is not None:
-            object.__setattr__(self, "origin", checked_points("origin", [self.origin], least=1)[0])
+        check_fields(self)
 
     def rescaled(self, scale: Scale) -> Wind:
         """The same wind over the picture at another size."""

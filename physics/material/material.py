@@ -7,83 +7,19 @@ A look therefore survives a change of resolution.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..checks import within
 from ..errors import InvalidInputError, require
-from ..limits import LARGEST, STIFFEST
+from ..fields import Field, Input, check_fields, described
+from ..limits import LARGEST, MAX_TRIANGLES, STIFFEST
 
 __all__ = ["PRESETS", "SCALES", "Material", "preset"]
 
 SCALES = ("stiffness_scale", "damping_scale", "density_scale")
 """Fields of a material that hold one factor for each triangle."""
-
-
-@dataclass(frozen=True, eq=False)
-class Material:
-    """An isotropic fixed corotated solid (paper, Method, "Deformable Body Model").
-
-    Attributes:
-        youngs_modulus: stiffness against stretching [density side^2 / s^2].
-        poisson_ratio: how much a pull in one direction narrows the other, 0 to below 0.5.
-        density: mass per area [1].
-        damping: rate alpha of the velocity's decay, v(t) = v(0) exp(-alpha t) [1/s].
-        sway_frequency: when set, Young's modulus is chosen so that the body's longest connected part sways this often
-            about its pinned points [Hz], 0.001 to 1000; shorter parts sway faster, as pendulums do, and parts without
-            a pinned point keep ``youngs_modulus``.
-        stretch_limit: when set, no point gets farther from where its part is held than this factor times the way to
-            there through the drawing [1], at least 1: 1.06 looks inextensible and yet bends freely. Parts of which
-            nothing is held do not feel it.
-        wind_response: factor on the acceleration by wind and strokes [1]: light things fly, heavy ones hardly move.
-        stiffness_scale: factor on Young's modulus for each triangle, shape [t]; None means 1 everywhere.
-        damping_scale: factor on the damping for each triangle, shape [t]; None means 1 everywhere.
-        density_scale: factor on the density for each triangle, shape [t]; None means 1 everywhere.
-        name: the preset it came from, or empty; the automatic scene reads from it how such bodies are attached.
-    """
-
-    youngs_modulus: float = 500.0
-    poisson_ratio: float = 0.3
-    density: float = 1.0
-    damping: float = 1.5
-    sway_frequency: float | None = None
-    stiffness_scale: NDArray[np.float64] | None = None
-    name: str = ""
-    damping_scale: NDArray[np.float64] | None = None
-    density_scale: NDArray[np.float64] | None = None
-    stretch_limit: float | None = None
-    wind_response: float = 1.0
-
-    def __post_init__(self) -> None:
-        bounded = within(self.youngs_modulus, 0, STIFFEST, above=True)
-        require("youngs_modulus", self.youngs_modulus, bounded, f"above 0 and at most {STIFFEST:g}")
-        narrow = within(self.poisson_ratio, 0, 0.5, below=True)
-        require("poisson_ratio", self.poisson_ratio, narrow, "at least 0 and below 0.5")
-        heavy = within(self.density, 0, LARGEST, above=True)
-        require("density", self.density, heavy, f"above 0 and at most {LARGEST}")
-        require("damping", self.damping, within(self.damping, 0, LARGEST), f"0 to {LARGEST} per second")
-        if self.sway_frequency is not None:
-            swaying = within(self.sway_frequency, 0.001, 1_000)
-            require("sway_frequency", self.sway_frequency, swaying, "0.001 to 1000 Hz")
-        if self.stretch_limit is not None:
-            require("stretch_limit", self.stretch_limit, within(self.stretch_limit, 1, LARGEST), f"1 to {LARGEST}")
-        require("wind_response", self.wind_response, within(self.wind_response, 0, LARGEST), f"0 to {LARGEST}")
-        require("name", self.name, isinstance(self.name, str), "a text")
-        for field in SCALES:
-            if getattr(self, field) is not None:
-                object.__setattr__(self, field, _checked_scale(field, getattr(self, field)))
-
-    def densities(self, count: int) -> NDArray[np.float64]:
-        """Mass per area of each of so many triangles, shape [t]."""
-        return self.density * (np.ones(count) if self.density_scale is None else self.density_scale)
-
-    @property
-    def lame(self) -> tuple[float, float]:
-        """Lame parameters (mu, lambda) in plane strain [density side^2 / s^2]."""
-        e, nu = self.youngs_modulus, self.poisson_ratio
-        return e / (2 * (1 + nu)), e * nu / ((1 + nu) * (1 - 2 * nu))
 
 
 def _checked_scale(name: str, values: ArrayLike) -> NDArray[np.float64]:
@@ -97,6 +33,141 @@ def _checked_scale(name: str, values: ArrayLike) -> NDArray[np.float64]:
     require(name, wrong[:1], not len(wrong), expected)
     scale.setflags(write=False)
     return scale
+
+
+def _scale(quantity: str) -> Field:
+    about = f"A factor on the {quantity} of each triangle of the mesh; null means 1 everywhere."
+    return Field(f"{quantity.capitalize()} scale", about, entry="factor", most=MAX_TRIANGLES, check=_checked_scale)
+
+
+@described
+@dataclass(frozen=True, eq=False)
+class Material:
+    """An isotropic fixed corotated solid (paper, Method, "Deformable Body Model").
+
+    Damping is the rate alpha of the velocity's decay, v(t) = v(0) exp(-alpha t). From a sway frequency Young's modulus
+    follows so that the body's longest connected part sways this often about its pinned points; parts without a pinned
+    point keep ``youngs_modulus``, and do not feel the stretch limit. The automatic scene reads from the name how such
+    bodies are attached. Scales hold one factor for each triangle, shape [t].
+    """
+
+    youngs_modulus: Annotated[
+        float,
+        Field(
+            "Young's modulus",
+            "Stiffness: how hard the body is to stretch and bend. Twice the sway needs four times the stiffness. A set"
+            " sway_frequency takes its place.",
+            "density side^2/s^2",
+            above=0,
+            maximum=STIFFEST,
+        ),
+        Input(
+            "Stiffness against stretching [density x side^2/s^2], a side being the picture's longest.",
+            0.1,
+            1_000_000.0,
+            step=10.0,
+        ),
+    ] = 500.0
+    poisson_ratio: Annotated[
+        float,
+        Field(
+            "Poisson's ratio",
+            "How much a stretched body narrows: 0 not at all, near 0.5 like rubber or jelly.",
+            minimum=0,
+            below=0.5,
+        ),
+        Input(
+            "How much a pull in one direction narrows the other [1]: 0 not at all, 0.45 like rubber.",
+            high=0.49,
+            step=0.01,
+        ),
+    ] = 0.3
+    density: Annotated[
+        float,
+        Field(
+            "Density",
+            "Mass for its size; 1 is ordinary. A heavier body of the same stiffness sways more slowly.",
+            above=0,
+        ),
+        Input("Mass per area [1]; 1 is ordinary.", 0.01, 100.0, step=0.1),
+    ] = 1.0
+    damping: Annotated[
+        float,
+        Field(
+            "Damping",
+            "How fast motion dies away: 0 never, 1 within some seconds, 5 almost at once.",
+            "1/s",
+            minimum=0,
+        ),
+        Input(
+            "How fast it comes to rest [1/s]: 0 swings forever, 1.5 is a breeze, 10 moves as in honey.",
+            high=50.0,
+            step=0.1,
+        ),
+    ] = 1.5
+    sway_frequency: Annotated[
+        float | None,
+        Field(
+            "Sway frequency",
+            "How often the body sways about where it is held; hair sways about once a second. Its shorter separate"
+            " parts sway faster. The stiffness follows from it. null: use youngs_modulus.",
+            "Hz",
+            minimum=0.001,
+            maximum=1000,
+        ),
+        Input(
+            "How often it swings to and fro about where it is held [Hz]: lower is softer and heavier.",
+            0.05,
+            20.0,
+            step=0.05,
+        ),
+    ] = None
+    stiffness_scale: Annotated[NDArray[np.float64] | None, _scale("stiffness")] = None
+    name: Annotated[str, Field("Name", 'What the material is called, such as "hair".')] = ""
+    damping_scale: Annotated[NDArray[np.float64] | None, _scale("damping")] = None
+    density_scale: Annotated[NDArray[np.float64] | None, _scale("density")] = None
+    stretch_limit: Annotated[
+        float | None,
+        Field(
+            "Stretch limit",
+            "How many times as far as in the drawing a point gets from where its part is held, at most, as if on a"
+            " thread: 1.06 for hair and ribbon, which bend but do not stretch. null: no limit.",
+            minimum=1,
+        ),
+        Input(
+            "How many times as far as drawn a point gets from where the part is held, at most [1]: 1.06 hardly"
+            " stretches and yet bends; 0 for no limit.",
+            0.0,
+            10.0,
+            step=0.01,
+        ),
+    ] = None
+    wind_response: Annotated[
+        float,
+        Field(
+            "Wind response",
+            "How strongly wind and strokes act on the body: 1 is ordinary, 2 light as paper, 0.5 heavy, 0 not at all.",
+            minimum=0,
+        ),
+        Input(
+            "How strongly wind and strokes act on it [1]: 1 is ordinary, 3 light as a ribbon, 0.5 heavy, 0 not at all.",
+            high=100.0,
+            step=0.1,
+        ),
+    ] = 1.0
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+    def densities(self, count: int) -> NDArray[np.float64]:
+        """Mass per area of each of so many triangles, shape [t]."""
+        return self.density * (np.ones(count) if self.density_scale is None else self.density_scale)
+
+    @property
+    def lame(self) -> tuple[float, float]:
+        """Lame parameters (mu, lambda) in plane strain [density side^2 / s^2]."""
+        e, nu = self.youngs_modulus, self.poisson_ratio
+        return e / (2 * (1 + nu)), e * nu / ((1 + nu) * (1 - 2 * nu))
 
 
 PRESETS: dict[str, Material] = {

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..checks import within
 from ..errors import require
-from ..limits import LARGEST
+from ..limits import LARGEST, LEAST_FACTOR, MOST_FACTOR
 from ..mesh import TriangleMesh, coverage_of
 from .material import Material
 
@@ -53,7 +53,7 @@ def painted(
             mesh.
     """
     for name, factor in (("low", low), ("high", high)):
-        require(name, factor, within(factor, 0.001, 1000), "0.001 to 1000")
+        require(name, factor, within(factor, LEAST_FACTOR, MOST_FACTOR), f"{LEAST_FACTOR} to {MOST_FACTOR:g}")
     masks = {"stiffness": stiffness, "damping": damping, "density": density}
     for name, mask in masks.items():
         if mask is not None:

@@ -7,6 +7,7 @@ from .leading import farthest_led, lead, linear_part
 from .regions import EDGE, Points, coarseness_of, displacement, distances_of, leaders_of, vertices_of
 from .rig_point import (
     MOST_COMBINED,
+    BodyNumber,
     Circle,
     Combined,
     KeyedPath,
@@ -27,6 +28,7 @@ __all__ = [
     "MOST_COMBINED",
     "MOST_DEGREES",
     "MOST_STRETCH",
+    "BodyNumber",
     "Circle",
     "Combined",
     "KeyedPath",

@@ -4,18 +4,32 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks import is_whole, require_kind, within
+from ..checks import require_kind
 from ..errors import InvalidInputError, require
-from ..limits import LARGEST, MAX_BODIES
-from ..points import Point, Scale, checked_pair, checked_points, scaled_points
-from .turns import Easing, Pulse, Rotation, Squash, Swing, checked_easing, checked_phase, checked_times
+from ..fields import Field, Input, check_fields, described
+from ..limits import MAX_BODIES
+from ..points import Point, Scale, checked_pair, point_field, points_field, scaled_points
+from .turns import (
+    EasingField,
+    Phase,
+    Pulse,
+    Rotation,
+    Squash,
+    Swing,
+    checked_times,
+    period_field,
+    period_input,
+    times_field,
+)
 
 __all__ = [
     "MOST_COMBINED",
+    "BodyNumber",
     "Circle",
     "Combined",
     "KeyedPath",
@@ -32,36 +46,46 @@ _UNIT = 1e-15  # a direction that is this close to length 1 stays as it is, so t
 MOST_COMBINED = 8
 
 
+BodyNumber = Annotated[
+    int | None,
+    Field(
+        "Body",
+        "Number of the only body that it acts on, from 0. null: every body.",
+        minimum=0,
+        maximum=MAX_BODIES - 1,
+        noun="a body's number,",
+    ),
+]
+
+
+@described
 @dataclass(frozen=True)
 class Circle:
-    """A disc about the rig point.
+    """A disc about the rig point."""
 
-    Attributes:
-        radius: [px]; vertices within it follow the rig point.
-    """
-
-    radius: float
+    radius: Annotated[
+        float,
+        Field("Radius", "What is this near to the position is taken along.", "px", above=0),
+        Input("What lies within this distance follows [px].", 0.5, 16384.0, step=1.0),
+    ]
 
     def __post_init__(self) -> None:
-        require("radius", self.radius, within(self.radius, 0, LARGEST, above=True), f"above 0 and at most {LARGEST} px")
+        check_fields(self)
 
     def rescaled(self, scale: Scale) -> Circle:
         """The same disc over the picture at another size."""
         return Circle(self.radius * scale[2])
 
 
+@described
 @dataclass(frozen=True)
 class Polygon:
-    """The inside of a closed polygon.
+    """The inside of a closed polygon."""
 
-    Attributes:
-        points: corners [px], at least three.
-    """
-
-    points: tuple[Point, ...]
+    points: Annotated[tuple[Point, ...], points_field("Corners", "Corners of a closed outline, in order.", least=3)]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "points", checked_points("points", self.points, least=3))
+        check_fields(self)
 
     def rescaled(self, scale: Scale) -> Polygon:
         """The same polygon over the picture at another size."""
@@ -103,61 +127,68 @@ class Pinned:
         return self
 
 
+@described
 @dataclass(frozen=True)
 class KeyedPath:
     """Led through keyed points; at rest before the first and after the last.
 
     The region moves by the difference to the first key, so it never jumps at the start.
 
-    Attributes:
-        times: one per key [s], increasing by at least 1 ms, from 0 or later.
-        points: where the rig point is at each key [px].
-        easing: how it goes from key to key, one of ``turns.EASINGS``.
+    The times increase by at least 1 ms.
     """
 
-    times: tuple[float, ...]
-    points: tuple[Point, ...]
-    easing: Easing = "smooth"
+    times: Annotated[tuple[float, ...], times_field("When each point is reached, rising.")]
+    points: Annotated[
+        tuple[Point, ...],
+        points_field(
+            "Points",
+            "Where the rig point is at each time. The part moves by the difference to the first.",
+            least=2,
+        ),
+    ]
+    easing: EasingField = "smooth"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "points", checked_points("points", self.points, least=2))
+        check_fields(self)
         object.__setattr__(self, "times", checked_times(self.times, len(self.points), "point"))
-        checked_easing(self.easing)
 
     def rescaled(self, scale: Scale) -> KeyedPath:
         """The same path over the picture at another size."""
         return replace(self, points=scaled_points(self.points, scale))
 
 
+def _checked_direction(name: str, direction: object) -> Point:
+    x, y = checked_pair(name, direction)
+    length = math.hypot(x, y)
+    require(name, (x, y), 1e-9 <= length < math.inf, "a direction other than (0, 0)")
+    return (x, y) if abs(length - 1) <= _UNIT else (x / length, y / length)
+
+
+@described
 @dataclass(frozen=True)
 class Wave:
     """Swings: displacement = amplitude * sin(2 pi t / period) * direction (the paper's wavy rigging point).
 
     With a phase p it is amplitude * (sin(2 pi t / period + p) - sin p) * direction: it begins where it was drawn.
 
-    Attributes:
-        amplitude: [px].
-        period: time of one swing forth and back [s], at least 0.01.
-        direction: of the swing; scaled to unit length.
-        phase: where in the swing it begins [degrees]; at -90 it begins at rest.
     """
 
-    amplitude: float = 20.0
-    period: float = 2.0
-    direction: Point = (1.0, 0.0)
-    phase: float = 0.0
+    amplitude: Annotated[
+        float,
+        Field("Amplitude", "How far it swings to each side.", "px"),
+        Input("How far it swings to either side [px].", -16384.0, 16384.0, step=1.0),
+    ] = 20.0
+    period: Annotated[
+        float, period_field("Time of one swing forth and back."), period_input("Time of one swing forth and back [s].")
+    ] = 2.0
+    direction: Annotated[
+        Point,
+        Field("Direction", "Which way it swings first, x and y, of any length but 0.", check=_checked_direction),
+    ] = (1.0, 0.0)
+    phase: Phase = 0.0
 
     def __post_init__(self) -> None:
-        x, y = checked_pair("direction", self.direction)
-        length = math.hypot(x, y)
-        bounded = within(self.amplitude, -LARGEST, LARGEST)
-        require("amplitude", self.amplitude, bounded, f"-{LARGEST} to {LARGEST} px")
-        require("period", self.period, within(self.period, 0.01, LARGEST), f"0.01 to {LARGEST} s")
-        require("direction", (x, y), 1e-9 <= length < math.inf, "a direction other than (0, 0)")
-        if abs(length - 1) > _UNIT:
-            x, y = x / length, y / length
-        object.__setattr__(self, "direction", (x, y))
-        checked_phase(self.phase)
+        check_fields(self)
 
     def rescaled(self, scale: Scale) -> Wave:
         """The same swing over the picture at another size."""
@@ -165,27 +196,40 @@ class Wave:
         return replace(self, amplitude=self.amplitude * math.hypot(x, y), direction=(x, y))
 
 
+def _checked_motions(name: str, given: Any) -> tuple[RigMotion, ...]:
+    require_kind(name, given, (tuple, list), "a list of motions")
+    motions = tuple(given)
+    require(name, f"{len(motions)} motions", 1 <= len(motions) <= MOST_COMBINED, f"1 to {MOST_COMBINED}")
+    if any(isinstance(motion, Combined) for motion in motions):
+        raise InvalidInputError("motions must not be combined themselves. Got: a combined motion among them")
+    for motion in motions:
+        require_kind(name, motion, MOTIONS, _EXPECTED_MOTION)
+    return motions
+
+
+@described
 @dataclass(frozen=True)
 class Combined:
     """Several motions of one rig point at once.
 
     Ways add up. Turns and squashes act about the moving point, in the order in which they are given.
 
-    Attributes:
-        motions: at least one, none of them combined itself.
+    None of them is combined itself.
     """
 
-    motions: tuple[Pinned | KeyedPath | Wave | Rotation | Swing | Squash | Pulse, ...]
+    motions: Annotated[
+        tuple[Pinned | KeyedPath | Wave | Rotation | Swing | Squash | Pulse, ...],
+        Field(
+            "Motions",
+            "Ways add up; turns and squashes act about the moving position, one after the other.",
+            least=1,
+            most=MOST_COMBINED,
+            check=_checked_motions,
+        ),
+    ]
 
     def __post_init__(self) -> None:
-        require_kind("motions", self.motions, (tuple, list), "a list of motions")
-        motions = tuple(self.motions)
-        require("motions", f"{len(motions)} motions", 1 <= len(motions) <= MOST_COMBINED, f"1 to {MOST_COMBINED}")
-        if any(isinstance(motion, Combined) for motion in motions):
-            raise InvalidInputError("motions must not be combined themselves. Got: a combined motion among them")
-        for motion in motions:
-            require_kind("motions", motion, MOTIONS, _EXPECTED_MOTION)
-        object.__setattr__(self, "motions", motions)
+        check_fields(self)
 
     def rescaled(self, scale: Scale) -> Combined:
         """The same motions over the picture at another size."""
@@ -200,35 +244,45 @@ MOTIONS = (Pinned, KeyedPath, Wave, Rotation, Swing, Squash, Pulse, Combined)
 _EXPECTED_MOTION = f"a motion: {', '.join(kind.__name__ for kind in MOTIONS)}"
 
 
+def _checked_region(name: str, region: object) -> object:
+    require_kind(name, region, REGIONS, "a region: Circle, Polygon or MaskRegion")
+    return region
+
+
+def _checked_motion(name: str, motion: object) -> object:
+    if isinstance(motion, tuple | list):
+        return Combined(tuple(motion))
+    require_kind(name, motion, MOTIONS, _EXPECTED_MOTION)
+    return motion
+
+
+@described
 @dataclass(frozen=True)
 class RigPoint:
     """A point whose region is held or led.
 
-    Attributes:
-        position: [px].
-        region: which vertices follow.
-        motion: how they move; several motions at once may be given as a tuple.
-        body: number of the body that it acts on; None means every body.
-        falloff: how far beyond the region the pull fades out [px]; 0 leaves everything outside free.
+    Several motions at once may be given as a tuple.
     """
 
-    position: Point
-    region: RigRegion = Circle(20.0)
-    motion: RigMotion = Pinned()
-    body: int | None = None
-    falloff: float = 0.0
+    position: Annotated[Point, point_field("Position", "Where the rig point is drawn.")]
+    region: Annotated[RigRegion, Field("Region", "Which part of the body it takes along.", check=_checked_region)] = (
+        Circle(20.0)
+    )
+    motion: Annotated[RigMotion, Field("Motion", "How that part moves.", check=_checked_motion)] = Pinned()
+    body: BodyNumber = None
+    falloff: Annotated[
+        float,
+        Field(
+            "Falloff",
+            "How far beyond the region its pull fades out. 0: everything outside moves freely.",
+            "px",
+            minimum=0,
+        ),
+        Input("How far beyond the region its pull fades out [px]; 0 leaves all outside free.", high=16384.0, step=1.0),
+    ] = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "position", checked_points("position", (self.position,), least=1)[0])
-        if isinstance(self.motion, tuple | list):
-            object.__setattr__(self, "motion", Combined(tuple(self.motion)))
-        require_kind("region", self.region, REGIONS, "a region: Circle, Polygon or MaskRegion")
-        require_kind("motion", self.motion, MOTIONS, _EXPECTED_MOTION)
-        if self.body is not None:
-            most = MAX_BODIES - 1
-            require("body", self.body, is_whole(self.body, 0, most), f"a body's number, 0 to {most}")
-            object.__setattr__(self, "body", int(self.body))
-        require("falloff", self.falloff, within(self.falloff, 0, LARGEST), f"0 to {LARGEST} px")
+        check_fields(self)
 
     def rescaled(self, scale: Scale) -> RigPoint:
         """The same rig point over the picture at another size."""

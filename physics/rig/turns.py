@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
-from typing import Literal, TypeVar, get_args
+from typing import Annotated, Literal, TypeVar, get_args
 
-from ..checks import numbers_of, within
+from ..checks import numbers_of
 from ..errors import require
-from ..limits import LARGEST
+from ..fields import Field, Input, check_fields, described
+from ..limits import LARGEST, MAX_POINTS
 from ..points import Scale
 
 __all__ = [
@@ -17,13 +19,16 @@ __all__ = [
     "MOST_DEGREES",
     "MOST_STRETCH",
     "Easing",
+    "EasingField",
+    "Phase",
     "Pulse",
     "Rotation",
     "Squash",
     "Swing",
-    "checked_easing",
-    "checked_phase",
     "checked_times",
+    "period_field",
+    "period_input",
+    "times_field",
 ]
 
 T = TypeVar("T")
@@ -57,29 +62,57 @@ def checked_times(times: Sequence[float], count: int, what: str) -> tuple[float,
     return checked
 
 
-def checked_easing(easing: str) -> None:
-    """Refuse an unknown easing."""
-    require("easing", easing, isinstance(easing, str) and easing in EASINGS, f"one of {', '.join(EASINGS)}")
-
-
-def checked_phase(phase: float) -> None:
-    """Refuse a phase that is no angle."""
-    require("phase", phase, within(phase, -MOST_DEGREES, MOST_DEGREES), f"-{MOST_DEGREES} to {MOST_DEGREES} degrees")
-
-
-def _checked_angle(angle: float) -> None:
-    require("angle", angle, within(angle, -MOST_DEGREES, MOST_DEGREES), f"-{MOST_DEGREES} to {MOST_DEGREES} degrees")
-
-
-def _checked_period(period: float) -> None:
-    require("period", period, within(period, 0.01, LARGEST), f"0.01 to {LARGEST} s")
-
-
-def _checked_values(name: str, values: Sequence[float], low: float, high: float, unit: str) -> tuple[float, ...]:
+def _checked_values(
+    name: str, values: Sequence[float], *, low: float, high: float, unit: str = ""
+) -> tuple[float, ...]:
     checked = numbers_of(name, values, "a list of numbers")
     require(name, f"{len(checked)} values", len(checked) >= 2, "at least 2 values")
     require(name, checked[:8], all(low <= value <= high for value in checked), f"{low:g} to {high:g}{unit}")
     return checked
+
+
+def _angle_field(title: str, about: str) -> Field:
+    return Field(title, about, "degrees", minimum=-MOST_DEGREES, maximum=MOST_DEGREES)
+
+
+def times_field(about: str) -> Field:
+    """A field that holds the times of keys [s], to be checked by ``checked_times``."""
+    return Field("Times", about, "s", entry="time", least=2, most=MAX_POINTS)
+
+
+def period_field(about: str) -> Field:
+    """A field that holds a period [s]."""
+    return Field("Period", about, "s", minimum=0.01)
+
+
+def period_input(tooltip: str) -> Input:
+    """Its input."""
+    return Input(tooltip, 0.05, 3600.0, step=0.1)
+
+
+EasingField = Annotated[
+    Easing,
+    Field(
+        "Easing",
+        "smooth: flows through the keys; linear: at even speed; ease: stops at every key; hold: stays, then jumps.",
+    ),
+    Input("smooth flows through the keys, linear keeps an even speed, ease stops at each, hold jumps."),
+]
+Phase = Annotated[
+    float,
+    _angle_field("Phase", "Where in its course it begins, from where it was drawn; at -90 it begins at rest."),
+    Input("Where in its course it begins [degrees]; -90 begins at rest.", -360.0, 360.0, step=5.0),
+]
+StretchAngle = Annotated[
+    float,
+    _angle_field("Angle", "Direction of the stretching: 0 along x, 90 along y."),
+    Input("Direction of the stretching [degrees]: 0 along x, 90 along y.", -360.0, 360.0, step=5.0),
+]
+KeepArea = Annotated[
+    bool,
+    Field("Keep area", "Whether it narrows as much as it is stretched."),
+    Input("Narrows as much as it is stretched, as soft things do."),
+]
 
 
 class _SameAtAnySize:
@@ -88,50 +121,58 @@ class _SameAtAnySize:
         return self
 
 
+@described
 @dataclass(frozen=True)
 class Rotation(_SameAtAnySize):
     """Turned about the rig point through keyed angles; at rest before the first and after the last.
 
     The region turns by the difference to the first key, so it never jumps at the start.
 
-    Attributes:
-        times: one per key [s], increasing by at least 1 ms, from 0 or later.
-        angles: at each key [degrees], counterclockwise as seen.
-        easing: how it goes from key to key, one of ``EASINGS``.
+    The times increase by at least 1 ms; angles are counterclockwise as seen.
     """
 
-    times: tuple[float, ...]
-    angles: tuple[float, ...]
-    easing: Easing = "ease"
+    times: Annotated[tuple[float, ...], times_field("When each angle is reached, rising.")]
+    angles: Annotated[
+        tuple[float, ...],
+        Field(
+            "Angles",
+            "How far it is turned at each time, counterclockwise. It turns by the difference to the first.",
+            "degrees",
+            entry="angle",
+            least=2,
+            most=MAX_POINTS,
+            check=partial(_checked_values, low=-MOST_DEGREES, high=MOST_DEGREES, unit=" degrees"),
+        ),
+    ]
+    easing: EasingField = "ease"
 
     def __post_init__(self) -> None:
-        angles = _checked_values("angles", self.angles, -MOST_DEGREES, MOST_DEGREES, " degrees")
-        object.__setattr__(self, "angles", angles)
-        object.__setattr__(self, "times", checked_times(self.times, len(angles), "angle"))
-        checked_easing(self.easing)
+        check_fields(self)
+        object.__setattr__(self, "times", checked_times(self.times, len(self.angles), "angle"))
 
 
+@described
 @dataclass(frozen=True)
 class Swing(_SameAtAnySize):
-    """Turned to and fro about the rig point: angle = amplitude (sin(2 pi t / period + phase) - sin phase).
+    """Turned to and fro about the rig point: angle = amplitude (sin(2 pi t / period + phase) - sin phase)."""
 
-    Attributes:
-        amplitude: [degrees], counterclockwise as seen.
-        period: time of one swing forth and back [s], at least 0.01.
-        phase: where in the swing it begins [degrees]; at -90 it begins at rest.
-    """
-
-    amplitude: float = 10.0
-    period: float = 2.0
-    phase: float = 0.0
+    amplitude: Annotated[
+        float,
+        _angle_field("Amplitude", "How far it turns to each side, counterclockwise first."),
+        Input("How far it turns to either side [degrees].", -3600.0, 3600.0, step=1.0),
+    ] = 10.0
+    period: Annotated[
+        float,
+        period_field("Time of one swing forth and back."),
+        period_input("Time of one swing forth and back [s]."),
+    ] = 2.0
+    phase: Phase = 0.0
 
     def __post_init__(self) -> None:
-        bounded = within(self.amplitude, -MOST_DEGREES, MOST_DEGREES)
-        require("amplitude", self.amplitude, bounded, f"-{MOST_DEGREES} to {MOST_DEGREES} degrees")
-        _checked_period(self.period)
-        checked_phase(self.phase)
+        check_fields(self)
 
 
+@described
 @dataclass(frozen=True)
 class Squash(_SameAtAnySize):
     """Stretched and squashed about the rig point by keyed factors; at rest before the first and after the last.
@@ -139,49 +180,53 @@ class Squash(_SameAtAnySize):
     The region is stretched by the ratio to the first key, so it never jumps at the start. Between the keys the
     logarithm is eased, so that stretching and squashing by one factor take the same course.
 
-    Attributes:
-        times: one per key [s], increasing by at least 1 ms, from 0 or later.
-        factors: at each key; above 1 stretches, below squashes.
-        angle: direction of the stretching [degrees]: 0 along x, 90 along y.
-        keep_area: whether it narrows as much as it is stretched.
-        easing: how it goes from key to key, one of ``EASINGS``.
+    The times increase by at least 1 ms.
     """
 
-    times: tuple[float, ...]
-    factors: tuple[float, ...]
-    angle: float = 90.0
-    keep_area: bool = True
-    easing: Easing = "ease"
+    times: Annotated[tuple[float, ...], times_field("When each factor is reached, rising.")]
+    factors: Annotated[
+        tuple[float, ...],
+        Field(
+            "Factors",
+            "Length at each time; above 1 stretches, below squashes. It is stretched by the ratio to the first.",
+            entry="stretch",
+            least=2,
+            most=MAX_POINTS,
+            check=partial(_checked_values, low=1 / MOST_STRETCH, high=MOST_STRETCH),
+        ),
+    ]
+    angle: StretchAngle = 90.0
+    keep_area: KeepArea = True
+    easing: EasingField = "ease"
 
     def __post_init__(self) -> None:
-        factors = _checked_values("factors", self.factors, 1 / MOST_STRETCH, MOST_STRETCH, "")
-        object.__setattr__(self, "factors", factors)
-        object.__setattr__(self, "times", checked_times(self.times, len(factors), "factor"))
-        _checked_angle(self.angle)
-        checked_easing(self.easing)
+        check_fields(self)
+        object.__setattr__(self, "times", checked_times(self.times, len(self.factors), "factor"))
 
 
+@described
 @dataclass(frozen=True)
 class Pulse(_SameAtAnySize):
-    """Stretched and squashed to and fro: factor = stretch^(sin(2 pi t / period + phase) - sin phase).
+    """Stretched and squashed to and fro: factor = stretch^(sin(2 pi t / period + phase) - sin phase)."""
 
-    Attributes:
-        stretch: largest factor; 1.2 stretches by a fifth and squashes to 1 / 1.2.
-        period: time from one stretch to the next [s], at least 0.01.
-        phase: where in the pulse it begins [degrees]; at -90 it begins at rest.
-        angle: direction of the stretching [degrees]: 0 along x, 90 along y.
-        keep_area: whether it narrows as much as it is stretched.
-    """
-
-    stretch: float = 1.1
-    period: float = 2.0
-    phase: float = 0.0
-    angle: float = 90.0
-    keep_area: bool = True
+    stretch: Annotated[
+        float,
+        Field(
+            "Stretch",
+            "Largest factor; 1.2 stretches by a fifth and squashes to 1 / 1.2.",
+            minimum=1 / MOST_STRETCH,
+            maximum=MOST_STRETCH,
+        ),
+        Input("Largest factor: 1.2 stretches by 20 %, squashes to 1/1.2.", step=0.05),
+    ] = 1.1
+    period: Annotated[
+        float,
+        period_field("Time from one stretch to the next."),
+        period_input("Time from one stretch to the next [s]."),
+    ] = 2.0
+    phase: Phase = 0.0
+    angle: StretchAngle = 90.0
+    keep_area: KeepArea = True
 
     def __post_init__(self) -> None:
-        bounded = within(self.stretch, 1 / MOST_STRETCH, MOST_STRETCH)
-        require("stretch", self.stretch, bounded, f"{1 / MOST_STRETCH:g} to {MOST_STRETCH:g}")
-        _checked_period(self.period)
-        checked_phase(self.phase)
-        _checked_angle(self.angle)
+        check_fields(self)

@@ -18,16 +18,14 @@ from .collider_outlines import (
 )
 from .collision import Collider, Contact
 from .holds import Holds, holds_of, region_work
-from .paint import LEAST_FACTOR, MOST_FACTOR, QUANTITIES, Paint
+from .paint import QUANTITIES, Paint
 from .query_points import QueryPoint
 from .scene import Body, Scene, check_scene_rate
 
 __all__ = [
     "ATTACHMENTS",
-    "LEAST_FACTOR",
     "LEAST_SPACING",
     "MAX_OUTLINE_CROSSINGS",
-    "MOST_FACTOR",
     "QUANTITIES",
     "Attachment",
     "Body",

@@ -3,59 +3,70 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks import within
-from ..errors import require
+from ..fields import Field, Input, check_fields, described
 from ..points import Scale
-from ..rig import MaskRegion, Polygon
+from ..rig import MaskRegion
+from .shapes import Shape, shape_field
 
 __all__ = ["Collider", "Contact"]
 
 
+@described
 @dataclass(frozen=True)
 class Contact:
     """How bodies touch. Those that overlap as drawn keep their overlap, until they come apart.
 
-    Attributes:
-        friction: Coulomb's coefficient: 0 slides freely, 1 hardly slides.
-        thickness: distance that bodies keep from each other [px]; half of it gives way under pressure.
-        self_contact: whether a body also keeps out of itself, such as a curl that folds, and the separate parts of a
-            body out of each other.
+    Friction is Coulomb's coefficient. Half of the thickness gives way under pressure.
     """
 
-    friction: float = 0.3
-    thickness: float = 1.5
-    self_contact: bool = False
+    friction: Annotated[
+        float,
+        Field("Friction", "0 slides freely, 1 hardly slides.", minimum=0, maximum=1),
+        Input("Friction [1]: 0 slides freely, 1 hardly slides.", step=0.05),
+    ] = 0.3
+    thickness: Annotated[
+        float,
+        Field(
+            "Thickness",
+            "Distance that bodies keep from each other. What is nearer as drawn keeps the distance it has.",
+            "px",
+            above=0,
+            maximum=100,
+        ),
+        Input("Distance that bodies keep from each other [px]; what is nearer as drawn stays as near.", 0.1, step=0.1),
+    ] = 1.5
+    self_contact: Annotated[
+        bool,
+        Field("Self-contact", "Whether a body also keeps out of itself, and its separate parts out of each other."),
+        Input("Whether a body also keeps out of itself, such as a curl that folds."),
+    ] = False
 
     def __post_init__(self) -> None:
-        require("friction", self.friction, within(self.friction, 0, 1), "0 to 1")
-        require("thickness", self.thickness, within(self.thickness, 0, 100, above=True), "above 0 and at most 100 px")
-        given = isinstance(self.self_contact, bool)
-        require("self_contact", self.self_contact, given, "True or False")
+        check_fields(self)
 
     def rescaled(self, scale: Scale) -> Contact:
         """The same contact over the picture at another size."""
         return Contact(self.friction, self.thickness * scale[2], self.self_contact)
 
 
+@described
 @dataclass(frozen=True, eq=False)
 class Collider:
     """Something in the picture that does not move and that bodies keep out of, such as a shoulder under hair.
 
     It acts where the scene has a ``Contact``.
 
-    Attributes:
-        region: its shape: a polygon, or a painted mask, which is stretched over the illustration.
     """
 
-    region: Polygon | MaskRegion
+    region: Annotated[Shape, shape_field("The shape: a polygon or a painted mask.")]
 
     def __post_init__(self) -> None:
-        shape = type(self.region).__name__
-        require("region", shape, isinstance(self.region, Polygon | MaskRegion), "a polygon or a mask")
+        check_fields(self)
 
     @staticmethod
     def from_mask(mask: NDArray[np.bool_]) -> Collider:

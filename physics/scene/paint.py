@@ -3,54 +3,39 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import Annotated
 
-from ..checks import is_whole, within
-from ..errors import InvalidInputError, require
-from ..limits import MAX_BODIES
+from ..fields import Field, check_fields, described
+from ..limits import LEAST_FACTOR, MOST_FACTOR
 from ..points import Scale
-from ..rig import MaskRegion, Polygon
+from ..rig import BodyNumber
+from .shapes import Shape, shape_field
 
-if TYPE_CHECKING:
-    pass
-
-__all__ = ["LEAST_FACTOR", "MOST_FACTOR", "QUANTITIES", "Paint"]
+__all__ = ["QUANTITIES", "Paint"]
 
 QUANTITIES = ("stiffness", "damping", "density")
-LEAST_FACTOR, MOST_FACTOR = 0.001, 1_000
 
 
+def _factor(title: str, about: str) -> Field:
+    return Field(title, about, minimum=LEAST_FACTOR, maximum=MOST_FACTOR)
+
+
+@described
 @dataclass(frozen=True)
 class Paint:
-    """Factors on the material of what lies in a region; a triangle that lies in it in part takes a part of them.
+    """Factors on the material of what lies in a region; a triangle that lies in it in part takes a part of them."""
 
-    Attributes:
-        region: where, a polygon or a mask.
-        stiffness: factor on Young's modulus, 0.001 to 1000; a body with a sway frequency still sways as often.
-        damping: factor on the damping, 0.001 to 1000.
-        density: factor on the density, 0.001 to 1000.
-        body: number of the only body that it acts on; None for all.
-    """
-
-    region: Polygon | MaskRegion
-    stiffness: float = 1.0
-    damping: float = 1.0
-    density: float = 1.0
-    body: int | None = None
+    region: Annotated[Shape, shape_field("Where: a polygon or a painted mask.")]
+    stiffness: Annotated[
+        float,
+        _factor("Stiffness", "Factor on the stiffness there. A body with a sway frequency still sways as often."),
+    ] = 1.0
+    damping: Annotated[float, _factor("Damping", "Factor on the damping there.")] = 1.0
+    density: Annotated[float, _factor("Density", "Factor on the density there.")] = 1.0
+    body: BodyNumber = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.region, Polygon | MaskRegion):
-            raise InvalidInputError(f"region must be a polygon or a mask. Got: {type(self.region).__name__}")
-        for name in QUANTITIES:
-            factor = getattr(self, name)
-            require(name, factor, within(factor, LEAST_FACTOR, MOST_FACTOR), f"{LEAST_FACTOR} to {MOST_FACTOR}")
-        require(
-            "body",
-            self.body,
-            self.body is None or is_whole(self.body, 0, MAX_BODIES - 1),
-            f"a body's number, 0 to {MAX_BODIES - 1}",
-        )
-        object.__setattr__(self, "body", None if self.body is None else int(self.body))
+        check_fields(self)
 
     def rescaled(self, scale: Scale) -> Paint:
         """The same over the picture at another size."""

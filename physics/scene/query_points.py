@@ -3,37 +3,35 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Annotated
 
-from ..checks import is_whole, within
-from ..errors import require
-from ..limits import LARGEST, MAX_PARTS
+from ..fields import Field, check_fields, described
+from ..limits import MAX_PARTS
 from ..points import Scale
 
 __all__ = ["QueryPoint"]
 
 
+@described
 @dataclass(frozen=True)
 class QueryPoint:
-    """A clicked point of a segmentation.
+    """A clicked point of a segmentation."""
 
-    Attributes:
-        x: pixels from the left edge.
-        y: pixels from the top edge.
-        positive: true for a point on the wanted part, false for one beside it.
-        part: number of the part that is meant, from 0, where several are cut out at once.
-    """
-
-    x: float
-    y: float
-    positive: bool = True
-    part: int = 0
+    x: Annotated[float, Field("x", "From the left edge of the illustration.", "px")]
+    y: Annotated[float, Field("y", "From the top edge of the illustration.", "px")]
+    positive: Annotated[bool, Field("Positive", "true on the wanted part, false beside it.")] = True
+    part: Annotated[
+        int,
+        Field(
+            "Part",
+            "Number of the part that is meant, from 0, where several are cut out at once.",
+            minimum=0,
+            maximum=MAX_PARTS - 1,
+        ),
+    ] = 0
 
     def __post_init__(self) -> None:
-        for name in ("x", "y"):
-            value = getattr(self, name)
-            require(name, value, within(value, -LARGEST, LARGEST), f"-{LARGEST} to {LARGEST} px")
-        require("part", self.part, is_whole(self.part, 0, MAX_PARTS - 1), f"0 to {MAX_PARTS - 1}")
-        object.__setattr__(self, "part", int(self.part))
+        check_fields(self)
 
     def rescaled(self, scale: Scale) -> QueryPoint:
         """The same point over the picture at another size."""

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import Annotated, Any
 
-from ..checks import is_whole, numbers_of, require_kind, within
+from ..checks import numbers_of, require_kind, within
 from ..errors import InvalidInputError, require
+from ..fields import Field, Input, check_field, check_fields, described
 from ..forces import EnergyStroke, Wind
 from ..limits import (
     LARGEST,
@@ -34,32 +36,54 @@ def check_scene_rate(frame_rate: float) -> None:
     Raises:
         InvalidInputError: it is not 1 to 240 frames a second.
     """
-    require("frame_rate", frame_rate, within(frame_rate, 1, 240), "1 to 240 frames a second")
+    check_field(Scene, "frame_rate", frame_rate)
 
 
+def _one_of(kind: type, title: str, about: str, expected: str) -> Field:
+    def check(name: str, value: Any) -> Any:
+        require_kind(name, value, kind, expected)
+        return value
+
+    return Field(title, about, check=check)
+
+
+def _several(kind: type, title: str, about: str, entry: str, most: int) -> Field:
+    def check(name: str, given: Any) -> tuple[Any, ...]:
+        require_kind(name, given, (tuple, list), f"a list of {kind.__name__} objects")
+        for number, each in enumerate(given):
+            require_kind(f"{name}[{number}]", each, kind, f"of type {kind.__name__}")
+        require(name, f"{len(given)} entries", len(given) <= most, f"at most {most} entries")
+        return tuple(given)
+
+    return Field(title, about, entry=entry, most=most, check=check)
+
+
+def _checked_gravity(name: str, value: object) -> tuple[float, ...]:
+    expected = f"two numbers from -{LARGEST} to {LARGEST} side/s^2"
+    gravity = numbers_of(name, value, expected)
+    bounded = len(gravity) == 2 and all(within(each, -LARGEST, LARGEST) for each in gravity)
+    require(name, gravity[:3], bounded, expected)
+    return gravity
+
+
+@described
 @dataclass(frozen=True, eq=False)
 class Body:
-    """One deformable thing.
+    """One deformable thing."""
 
-    Attributes:
-        mesh: its shape.
-        material: what it is made of.
-        layer: occlusion order; a higher layer covers a lower one, and of equal layers the later body.
-        name: for people; may be empty.
-    """
-
-    mesh: TriangleMesh
-    material: Material = field(default_factory=Material)
-    layer: int = 0
-    name: str = ""
+    mesh: Annotated[TriangleMesh, _one_of(TriangleMesh, "Mesh", "Its shape.", "a TriangleMesh")]
+    material: Annotated[Material, _one_of(Material, "Material", "What it is made of.", "a Material")] = field(
+        default_factory=Material
+    )
+    layer: Annotated[
+        int,
+        Field("Layer", "Who covers whom: a higher layer is in front; of equal layers the later body."),
+        Input("A higher layer covers a lower one; of equal layers, the later one in the chain does.", -99, 99),
+    ] = 0
+    name: Annotated[str, Field("Name", 'For people, such as "left sleeve".')] = ""
 
     def __post_init__(self) -> None:
-        require_kind("mesh", self.mesh, TriangleMesh, "a TriangleMesh")
-        require_kind("material", self.material, Material, "a Material")
-        whole = is_whole(self.layer, -LARGEST, LARGEST)
-        require("layer", self.layer, whole, f"a whole number, -{LARGEST} to {LARGEST}")
-        object.__setattr__(self, "layer", int(self.layer))
-        require("name", self.name, isinstance(self.name, str), "a text")
+        check_fields(self)
         for name in SCALES:
             scale = getattr(self.material, name)
             if scale is not None and len(scale) != len(self.mesh.triangles):
@@ -69,82 +93,135 @@ class Body:
                 )
 
 
+@described
 @dataclass(frozen=True, eq=False)
 class Scene:
     """Bodies and what acts on them.
 
-    Attributes:
-        bodies: at least one; all over an illustration of one size.
-        strokes: energy strokes.
-        rig_points: pins and leads.
-        gravity: acceleration of every vertex [side/s^2], x right, y down. The drawing is how it hangs: held bodies
-            stay as drawn until something else acts, and swing more stiffly (hanging) or softly (standing).
-        frame_rate: frames a second.
-        loop: length of a seamless loop [s]; then frame 0 is not the drawing but a state that comes again after the
-            loop, and all that acts is fitted to it (see ``loop.periodic``). None: no loop.
-        wind: blows everywhere beside the strokes; None for calm.
-        sag: gravity instead acts on the drawing as on an undeformed shape, which sags from the first frame on.
-        contact: how bodies keep out of each other and of colliders; None: they pass through.
-        colliders: still shapes that bodies keep out of where there is contact.
-        paint: where bodies are stiffer, heavier or more damped than their materials say.
-        query_points: where somebody clicked to say which part of the picture is meant; they move nothing.
+    All bodies lie over an illustration of one size. Under gravity held bodies stay as drawn until something else acts,
+    and swing more stiffly (hanging) or softly (standing); where they sag, it acts on the drawing as on an undeformed
+    shape. In a loop frame 0 is not the drawing but a state that comes again after it (see ``loop.periodic``).
     """
 
-    bodies: tuple[Body, ...]
-    strokes: tuple[EnergyStroke, ...] = ()
-    rig_points: tuple[RigPoint, ...] = ()
-    gravity: tuple[float, float] = (0.0, 0.0)
-    frame_rate: float = 24.0
-    loop: float | None = None
-    wind: Wind | None = None
-    sag: bool = False
-    contact: Contact | None = None
-    colliders: tuple[Collider, ...] = ()
-    paint: tuple[Paint, ...] = ()
-    query_points: tuple[QueryPoint, ...] = ()
+    bodies: Annotated[
+        tuple[Body, ...],
+        _several(
+            Body,
+            "Bodies",
+            "What can move, in the order of the masks. Bodies left out are of default material.",
+            "body",
+            MAX_BODIES,
+        ),
+    ]
+    strokes: Annotated[
+        tuple[EnergyStroke, ...],
+        _several(EnergyStroke, "Energy strokes", "What blows, pushes and pulls.", "stroke", MAX_STROKES),
+    ] = ()
+    rig_points: Annotated[
+        tuple[RigPoint, ...],
+        _several(
+            RigPoint,
+            "Rig points",
+            "Where bodies are held or led. Where several reach the same part, the last one in this list leads it.",
+            "rig_point",
+            MAX_RIG_POINTS,
+        ),
+    ] = ()
+    gravity: Annotated[
+        tuple[float, float],
+        Field(
+            "Gravity",
+            "A steady pull on everything, x and y. [0, 0.5] pulls down gently. Held bodies hang as they are drawn.",
+            "side/s^2",
+            check=_checked_gravity,
+        ),
+    ] = (0.0, 0.0)
+    frame_rate: Annotated[
+        float,
+        Field(
+            "Frame rate",
+            "How many frames a second has. The motion stays the same.",
+            "frames/s",
+            minimum=1,
+            maximum=240,
+        ),
+    ] = 24.0
+    loop: Annotated[
+        float | None,
+        Field(
+            "Loop",
+            "Length of a seamless loop: all that acts is fitted to it, and the first frame is not the drawing but one"
+            " that comes again after the last. null: no loop.",
+            "s",
+            above=0,
+            maximum=MAX_LOOP,
+        ),
+    ] = None
+    wind: Annotated[
+        Wind | None, _one_of(Wind, "Wind", "Blows everywhere beside the strokes; none for calm.", "a Wind or None")
+    ] = None
+    sag: Annotated[
+        bool,
+        Field(
+            "Sag",
+            "Whether bodies are drawn without their weight, so that gravity makes them sag from the first frame on.",
+        ),
+    ] = False
+    contact: Annotated[
+        Contact | None,
+        _one_of(
+            Contact,
+            "Contact",
+            "How bodies keep out of each other and of colliders. null: they pass through.",
+            "a Contact or None",
+        ),
+    ] = None
+    colliders: Annotated[
+        tuple[Collider, ...],
+        _several(
+            Collider,
+            "Colliders",
+            "Still shapes that bodies keep out of where there is contact, such as a shoulder under hair.",
+            "collider",
+            MAX_COLLIDERS,
+        ),
+    ] = ()
+    paint: Annotated[
+        tuple[Paint, ...],
+        _several(
+            Paint,
+            "Paint",
+            "Where bodies are stiffer, heavier or more damped than their materials say; entries that overlap multiply.",
+            "paint",
+            MAX_PAINT,
+        ),
+    ] = ()
+    query_points: Annotated[
+        tuple[QueryPoint, ...],
+        _several(
+            QueryPoint,
+            "Query points",
+            "Where somebody clicked to say which part of the illustration is meant: for segmentation, not for motion.",
+            "query_point",
+            MAX_QUERY_POINTS,
+        ),
+    ] = ()
 
     def __post_init__(self) -> None:
-        for name, kind, most in (
-            ("bodies", Body, MAX_BODIES),
-            ("strokes", EnergyStroke, MAX_STROKES),
-            ("rig_points", RigPoint, MAX_RIG_POINTS),
-            ("colliders", Collider, MAX_COLLIDERS),
-            ("paint", Paint, MAX_PAINT),
-            ("query_points", QueryPoint, MAX_QUERY_POINTS),
-        ):
-            given = getattr(self, name)
-            require_kind(name, given, (tuple, list), f"a list of {kind.__name__} objects")
-            entries = tuple(given)
-            for number, entry in enumerate(entries):
-                require_kind(f"{name}[{number}]", entry, kind, f"of type {kind.__name__}")
-            require(name, f"{len(entries)} entries", len(entries) <= most, f"at most {most} entries")
-            object.__setattr__(self, name, entries)
+        check_fields(self)
         if not self.bodies:
             raise InvalidInputError("a scene needs at least one body. Got: none")
         sizes = {(body.mesh.width, body.mesh.height) for body in self.bodies}
         if len(sizes) > 1:
             raise InvalidInputError(f"all bodies must belong to a picture of one size. Got: {sorted(sizes)}")
-        expected = f"two numbers from -{LARGEST} to {LARGEST} side/s^2"
-        gravity = numbers_of("gravity", self.gravity, expected)
-        bounded = len(gravity) == 2 and all(within(value, -LARGEST, LARGEST) for value in gravity)
-        require("gravity", gravity[:3], bounded, expected)
-        object.__setattr__(self, "gravity", gravity)
-        check_scene_rate(self.frame_rate)
         if self.loop is not None:
-            long = within(self.loop, 2 / self.frame_rate, MAX_LOOP)
-            require("loop", self.loop, long, f"2 frames to {MAX_LOOP} s long")
-        if self.wind is not None:
-            require_kind("wind", self.wind, Wind, "a Wind or None")
-        if self.contact is not None:
-            require_kind("contact", self.contact, Contact, "a Contact or None")
-        require("sag", self.sag, isinstance(self.sag, bool), "True or False")
+            require("loop", self.loop, self.loop >= 2 / self.frame_rate, f"2 frames to {MAX_LOOP} s long")
         count = len(self.bodies)
-        for number, rig_point in enumerate(self.rig_points):
-            known = rig_point.body is None or rig_point.body < count
-            require(f"rig_points[{number}].body", rig_point.body, known, f"below the number of bodies ({count})")
-        for number, entry in enumerate(self.paint):
-            known = entry.body is None or entry.body < count
-            require(f"paint[{number}].body", entry.body, known, f"below the number of bodies ({count})")
+        placed: dict[str, tuple[RigPoint | Paint, ...]] = {"rig_points": self.rig_points, "paint": self.paint}
+        for name, entries in placed.items():
+            for number, entry in enumerate(entries):
+                known = entry.body is None or entry.body < count
+                require(f"{name}[{number}].body", entry.body, known, f"below the number of bodies ({count})")
         self._require_few_particles()
 
     @property

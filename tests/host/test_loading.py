@@ -94,3 +94,36 @@ def test_templates_are_offered_with_their_thumbnails(host: Any) -> None:
         served = host.get(f"/api/workflow_templates/PhysAnimator/{name}.json")
         assert served == json.loads((ROOT / "workflows" / f"{name}.json").read_text(encoding="utf-8"))
         assert host.read(f"/api/workflow_templates/PhysAnimator/{name}.jpg")[:3] == b"\xff\xd8\xff"
+
+
+_COUNT_CHECKS = """
+import importlib.util, json, sys
+spec = importlib.util.spec_from_file_location("pack", ROOT + "/__init__.py", submodule_search_locations=[ROOT])
+pack = sys.modules["pack"] = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(pack)
+import numpy as np
+from pack.nodes import scene_editor_nodes, scene_nodes
+from pack.nodes.host.wires import MaskedBody
+from pack.physics.document import checking
+from pack.physics.mesh import TriangleMesh
+from pack.physics.scene import Body
+checked, original = [], checking._check_version
+checking._check_version = lambda data: checked.append(data) or original(data)
+scene_editor_nodes.warm_up = lambda contact: None
+mesh = TriangleMesh(np.array([(0.0, 0.0), (10.0, 0.0), (10.0, 10.0)]), np.array([[0, 1, 2]]), 64, 48)
+bodies = (MaskedBody(Body(mesh), np.zeros((48, 64)), "auto"),)
+counts = []
+for number, node in enumerate((scene_nodes.SceneFromJSON, scene_editor_nodes.SceneEditor)):
+    text = json.dumps({"version": 2, "width": 64 + number, "height": 48})
+    assert node.validate_inputs(scene=text) is True
+    assert node.execute(scene=text, bodies=bodies) is not None
+    counts.append(len(checked))
+print(json.dumps(counts))
+"""
+
+
+def test_nodes_check_a_document_once(host: Any) -> None:
+    code = f"ROOT = {str(ROOT)!r}\n{_COUNT_CHECKS}"
+    done = subprocess.run([host.python, "-c", code], cwd=host.checkout, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout.splitlines()[-1]) == [1, 2]

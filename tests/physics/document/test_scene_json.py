@@ -16,6 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from physanimator.physics import limits
 from physanimator.physics.document import dumps, loads, scene_from_dict, scene_schema, scene_to_dict
+from physanimator.physics.document.quick_check import is_right
 from physanimator.physics.errors import InvalidInputError, SceneError
 from physanimator.physics.forces import STROKE_KINDS, EnergyStroke, Wind
 from physanimator.physics.material import PRESETS, Material
@@ -487,6 +488,22 @@ def test_whatever_stands_anywhere_is_a_scene_or_a_scene_error(place: tuple[str |
     except SceneError:
         return
     assert_same(loads(dumps(scene)), scene)
+
+
+@settings(deadline=None, max_examples=400)
+@given(place=st.sampled_from(places(GOOD)), value=anything)
+def test_the_quick_check_lets_nothing_pass_that_the_schema_does_not(
+    place: tuple[str | int, ...], value: object
+) -> None:
+    data = edited(list(place), value)
+    published = jsonschema.Draft202012Validator(scene_schema())
+    finite = "NaN" not in json.dumps(data) and "Infinity" not in json.dumps(data)
+    assert (published.is_valid(data) and finite) or not is_right(data)
+
+
+@pytest.mark.parametrize("data", [GOOD, ACTING, BARE])
+def test_the_quick_check_knows_right_documents(data: dict[str, Any]) -> None:
+    assert is_right(json.loads(json.dumps(data)))
 
 
 @pytest.mark.parametrize("key", ["version", "width", "height"])
