@@ -91,15 +91,19 @@ def _shown(image: torch.Tensor, width: int, height: int, name: str) -> np.ndarra
     picture = picture_with_alpha(image, name=name)
     got = f"{picture.shape[1]} x {picture.shape[0]} px"
     require(name, got, picture.shape[:2] == (height, width), f"of the bodies' size, {width} x {height} px")
-    return np.rint(picture * 255).astype(np.uint8)
+    from ..rendering.pictures import as_uint8
+
+    return as_uint8(picture)
 
 
 def _kept(bodies: tuple[MaskedBody, ...], picture: np.ndarray | None) -> PreviewBodies:
     physical = tuple(item.body for item in bodies)
     if picture is None:
         return PreviewBodies(physical)
+    from ..rendering.pictures import as_uint8
+
     hole = np.max([item.mask for item in bodies], axis=0)
-    return PreviewBodies(physical, picture, np.rint(hole * 255).astype(np.uint8))
+    return PreviewBodies(physical, picture, as_uint8(hole))
 
 
 def _saved(picture: np.ndarray | None) -> dict[str, Any] | None:

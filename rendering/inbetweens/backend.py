@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...physics.motion import Motion
 
-__all__ = ["Clip", "Interpolator", "ModelFile", "as_float", "like"]
+__all__ = ["Clip", "Interpolator", "ModelFile"]
 
 FloatImage = NDArray[np.float32]
 
@@ -84,18 +84,3 @@ class Interpolator(Protocol):
     def in_betweens(self, clip: Clip, number: int) -> Iterator[NDArray[Any]]:
         """Yield the frames between keyframe ``number`` and the next, both excluded, in the keyframes' type."""
         ...
-
-
-def as_float(image: NDArray[Any]) -> FloatImage:
-    """A picture as float32 in 0..1."""
-    if image.dtype == np.uint8:
-        return image.astype(np.float32) * np.float32(1 / 255)
-    return np.ascontiguousarray(image, dtype=np.float32)
-
-
-def like(image: FloatImage, original: NDArray[Any]) -> NDArray[Any]:
-    """A float picture in the type of another one."""
-    image = np.clip(image, 0, 1)
-    if original.dtype == np.uint8:
-        return np.rint(image * 255).astype(np.uint8)
-    return image.astype(original.dtype, copy=False)

@@ -18,8 +18,8 @@ from ...physics.errors import InvalidInputError, require
 from ...physics.mesh import coverage_of
 from ...physics.motion import Motion
 from ...physics.progress import Progress
-from ..pictures import as_picture, is_transparent, premultiplied, straight
-from .backend import Clip, Interpolator, ModelFile, as_float, like
+from ..pictures import as_dtype, as_float, as_picture, is_transparent, premultiplied, straight
+from .backend import Clip, Interpolator, ModelFile
 from .flow import FlowInterpolator
 from .motion import MotionInterpolator
 
@@ -50,7 +50,7 @@ class BlendInterpolator:
         """Yield the weighted mean of both keyframes for every frame between them."""
         first, last = as_float(clip.keyframes[number]), as_float(clip.keyframes[number + 1])
         for _, place in clip.times(number):
-            yield like(first + np.float32(place) * (last - first), clip.keyframes[number])
+            yield as_dtype(first + np.float32(place) * (last - first), clip.keyframes[number].dtype)
 
 
 BACKENDS: dict[str, Interpolator] = {
@@ -136,7 +136,7 @@ def _frames(
         if number + 1 < len(keyframes):
             between = backend.in_betweens(clip, number)
         if is_transparent(keyframe):
-            between = (like(straight(each), keyframe) for each in between)
+            between = (as_dtype(straight(each), keyframe.dtype) for each in between)
         for frame in _chain(keyframe, between):
             done += 1
             yield frame

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from ...physics.errors import InvalidInputError
 from ...physics.mesh import PixelBox, bounding_box, interpolate, triangle_ids
 from ...physics.motion import Motion, layer_order
-from .backend import Clip, FloatImage, ModelFile, as_float, like
+from ..pictures import as_dtype, as_float
+from .backend import Clip, FloatImage, ModelFile
 
 __all__ = ["MotionInterpolator"]
 
@@ -46,7 +47,7 @@ class MotionInterpolator:
             for rank, body in enumerate(layer_order(first.motion)):
                 mask = masks[body] if masks else None
                 _draw_body(picture, _BodyPose(clip, body, rank, frame), first, last, place, mask)
-            yield like(picture, clip.keyframes[number])
+            yield as_dtype(picture, clip.keyframes[number].dtype)
 
 
 def _motion_of(clip: Clip) -> Motion:

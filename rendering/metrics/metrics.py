@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...physics.errors import InvalidInputError, require
 from ...physics.motion import Motion
 from ...physics.progress import Progress
-from ..pictures import as_float, as_picture
+from ..pictures import as_float, as_picture, as_uint8
 from ..sketch import extract_sketch
 from .flow_warp_error import FlowWarpError, RestMaps
 from .sketch_distance import chamfer_distance
@@ -155,7 +155,7 @@ class DynamicDegree:
         self._degrees: list[float] = []
 
     def add(self, frame: FloatImage) -> None:
-        grey = cv2.cvtColor(np.rint(np.clip(frame, 0, 1) * 255).astype(np.uint8), cv2.COLOR_RGB2GRAY)
+        grey = cv2.cvtColor(as_uint8(frame), cv2.COLOR_RGB2GRAY)
         if self._previous is not None and min(grey.shape) >= _LEAST_SIDE:
             flow = cv2.DISOpticalFlow_create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM).calc(self._previous, grey, None)
             lengths = np.sort(np.hypot(flow[..., 0], flow[..., 1]), axis=None)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...physics.errors import require
 from ...physics.motion import Fit, Tracks
-from ..pictures import as_picture, as_uint8
+from ..pictures import as_float, as_picture, as_uint8
 
 __all__ = ["draw_tracks", "fitted"]
 
@@ -72,7 +72,7 @@ def draw_tracks(image: NDArray[Any], tracks: Tracks, sample: int, *, tail: int =
     for number, colour in enumerate(colours):
         radius = unit * (3.5 if colour == _GREY else 5.5)
         _dot(canvas, path[sample, number], colour, radius, filled=bool(tracks.visibility[sample, number]))
-    return canvas if image.dtype == np.uint8 else (canvas / 255).astype(image.dtype)
+    return canvas if image.dtype == np.uint8 else as_float(canvas)
 
 
 def _colours(path: NDArray[np.float64]) -> list[tuple[int, int, int]]:

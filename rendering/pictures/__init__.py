@@ -8,7 +8,7 @@ from .frame_folder import frames_in, is_frame_name
 from .frame_record import RECORD
 from .images import check_image_output, data_address, load_image, load_mask, save_image
 from .pixel_windows import window_around
-from .pixels import as_dtype, as_float, as_picture, as_uint8, check_picture
+from .pixels import as_dtype, as_float, as_grey, as_picture, as_uint8, check_picture
 from .premultiplication import premultiplied, resized, straight
 from .transparency import WHITE, Colour, is_transparent, over
 from .video import FORMATS, check_output, holds_alpha, write_animation
@@ -20,6 +20,7 @@ __all__ = [
     "Colour",
     "as_dtype",
     "as_float",
+    "as_grey",
     "as_picture",
     "as_uint8",
     "carried_on",

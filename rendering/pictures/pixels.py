@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...physics.arrays import OVERSHOOT, as_array, beyond_one
 from ...physics.errors import InvalidInputError, require
 
-__all__ = ["as_dtype", "as_float", "as_picture", "as_uint8", "check_picture"]
+__all__ = ["as_dtype", "as_float", "as_grey", "as_picture", "as_uint8", "check_picture"]
 
 FloatImage = NDArray[np.float32]
 
@@ -54,6 +54,12 @@ def as_float(image: ArrayLike) -> FloatImage:
     return values.astype(np.float32) / np.float32(255) if values.dtype == np.uint8 else values
 
 
+def as_grey(image: ArrayLike) -> FloatImage:
+    """A grey picture, or the mean of a colour picture's channels, as float32 in 0 to 1, shape [h, w]."""
+    values = as_float(image)
+    return values if values.ndim == 2 else np.ascontiguousarray(values.mean(axis=2))
+
+
 def as_uint8(image: ArrayLike, *, name: str = "image") -> NDArray[np.uint8]:
     """Any picture of :func:`as_picture`, or one plane of it, as 0 to 255, rounded, in its own shape.
 
@@ -67,9 +73,9 @@ def as_uint8(image: ArrayLike, *, name: str = "image") -> NDArray[np.uint8]:
 
 
 def as_dtype(image: FloatImage, dtype: np.dtype[Any]) -> NDArray[Any]:
-    """A float32 picture in 0 to 1 as uint8 or float32."""
+    """A float32 picture in 0 to 1, which may overshoot, as uint8 or in a floating-point type."""
     image = np.clip(image, 0, 1)
-    return np.rint(image * 255).astype(np.uint8) if dtype == np.uint8 else image
+    return np.rint(image * 255).astype(np.uint8) if dtype == np.uint8 else image.astype(dtype, copy=False)
 
 
 def _as_8_bits_or_float(values: NDArray[Any], name: str) -> NDArray[Any]:

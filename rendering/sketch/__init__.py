@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .layered_sketch import LayeredSketch
-from .sketch import cleaned, extract_sketch, picture_of
+from .sketch import cleaned, extract_sketch
 from .sketch_warping import WARP_MODES, WarpMode, warped_sketches
 from .splatting import splat, split_fragments
 from .warp import forward_warp, warp_sketch
@@ -15,7 +15,6 @@ __all__ = [
     "cleaned",
     "extract_sketch",
     "forward_warp",
-    "picture_of",
     "splat",
     "split_fragments",
     "warp_sketch",

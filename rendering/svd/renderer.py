@@ -15,7 +15,7 @@ from ...physics.progress import Progress
 from ..networks import Frame
 from ..networks.memory import autoencoder_bytes, sampling_bytes
 from ..networks.placement import Placement
-from ..pictures import as_float, as_picture
+from ..pictures import as_float, as_grey, as_picture
 from .conditioning import Conditioning, condition_on
 from .decoding import decode, decoding_chunks
 from .frame_layout import CLIP_FRAMES, FrameLayout
@@ -113,7 +113,7 @@ class SketchVideoRenderer:
             placement=self.placement,
             generator=generator,
         )
-        hints = torch.cat([_hint(frame.inward(_grey(sketch))) for sketch in sketches])
+        hints = torch.cat([_hint(frame.inward(as_grey(sketch))) for sketch in sketches])
         latents = self._sampled(conditioning, hints, noise, each_step)
         for number, pictures in enumerate(self._decoded(latents), start=1):
             report(steps + number)
@@ -167,11 +167,6 @@ class SketchVideoRenderer:
 def _as_tensor(picture: FloatImage) -> Tensor:
     """From shape [h, w, 3] to [1, 3, h, w]."""
     return torch.from_numpy(picture).permute(2, 0, 1)[None]
-
-
-def _grey(sketch: NDArray[Any]) -> FloatImage:
-    values = as_float(sketch)
-    return values if values.ndim == 2 else np.ascontiguousarray(values.mean(axis=2))
 
 
 def _hint(sketch: FloatImage) -> Tensor:

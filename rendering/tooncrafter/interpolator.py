@@ -9,9 +9,10 @@ import torch
 from numpy.typing import NDArray
 
 from ...physics.progress import Progress
-from ..inbetweens import Clip, FloatImage, ModelFile, as_float, like
+from ..inbetweens import Clip, FloatImage, ModelFile
 from ..networks.checkpoints import CheckpointError
 from ..networks.placement import Placement
+from ..pictures import as_dtype, as_float
 from .gap_drawing import Gap, GapDrawing
 from .gap_plan import clips_in
 from .models import WANTED_SKETCH, InterpolationModels
@@ -69,7 +70,7 @@ class ToonCrafterInterpolator:
             self._drawn = self._filled(clip, range(number, last))
         drawn = self._drawn.pop(number)
         for frame, _ in clip.times(number):
-            yield like(drawn[frame], clip.keyframes[number])
+            yield as_dtype(drawn[frame], clip.keyframes[number].dtype)
 
     def _filled(self, clip: Clip, numbers: range) -> dict[int, dict[int, FloatImage]]:
         """In-betweens of several pairs of keyframes."""
