@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ...rendering.composite import keep_still_parts, moving_region
 from ...rendering.svd import CLIP_FRAMES, SketchVideoOptions
-from ..host import dtype_of, host_preview, host_progress, pictures_of
+from ..host import dtype_of, pictures_of, watched_sampling
 from .model_files import SKETCH_VIDEO, lvcd_file, svd_file
 from .networks import Networks, kept_networks
 from .sketch_video_inputs import AREAS
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
     from ...rendering.composite import LayeredRenderer
     from ...rendering.svd.models import SketchVideoModels
-    from ...rendering.svd.sampler import SampledStep
 
 __all__ = ["missing_sketch_video_files", "sketch_video_frames"]
 
@@ -60,7 +59,8 @@ def sketch_video_frames(image: FloatImage, layers: LayeredRenderer, choice: dict
     if choice["keep_still_parts"]:
         alphas = (layers.alpha(number) for number in range(len(layers)))
         region = moving_region(alphas, soft_edge=choice["soft_edge"])
-    for frame in renderer.frames(image, list(sketches), **_watched(device)):
+    watched = watched_sampling(device, lambda clean: clean[len(clean) - CLIP_FRAMES // 2 :][:1])
+    for frame in renderer.frames(image, list(sketches), **watched):
         yield frame if region is None else keep_still_parts(frame, image, region)
     seconds, peak = time.perf_counter() - began, peak_memory(device) / 2**30
     logging.info("Render: %d frames in %.0f s, at most %.1f GiB of memory", len(sketches), seconds, peak)
@@ -95,15 +95,3 @@ def _networks(svd: Path, lvcd: Path, dtype: torch.dtype) -> Networks[SketchVideo
 
     key = svd, svd.stat().st_mtime, lvcd, lvcd.stat().st_mtime, dtype
     return kept_networks("sketch video", key, lambda: load_models(svd, lvcd, dtype=dtype))
-
-
-def _watched(device: torch.device) -> dict[str, Any]:
-    """Progress, and a look at the clip's middle after each step."""
-    report, preview = host_progress(), host_preview(device)
-    latest: list[Any] = []
-
-    def watch(now: SampledStep) -> None:
-        middle = len(now.clean) - CLIP_FRAMES // 2
-        latest[:] = [preview(now.clean[middle : middle + 1])]
-
-    return {"watch": watch, "progress": lambda done, total: report(done, total, latest.pop() if latest else None)}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...physics.errors import InvalidInputError, require
 from ...rendering.tooncrafter import InterpolationOptions
-from ..host import dtype_of, host_preview, host_progress
+from ..host import dtype_of, watched_sampling
 from .networks import Networks, kept_networks
 from .tooncrafter_files import TOONCRAFTER, model_file, sketch_model_file
 from .tooncrafter_inputs import AREAS
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from ...rendering.tooncrafter.conditioning import Tokens
     from ...rendering.tooncrafter.interpolator import ToonCrafterInterpolator
     from ...rendering.tooncrafter.models import InterpolationModels
-    from ...rendering.tooncrafter.sampler import SampledStep
 
 __all__ = ["missing_tooncrafter_files", "tooncrafter_backend"]
 
@@ -46,7 +45,7 @@ def tooncrafter_backend(choice: dict[str, Any]) -> ToonCrafterInterpolator:
         placement=networks.placement(device),
         look=_look(choice.get("clip_vision")),
         prompts=_prompts(choice, models),
-        **_watched(device),
+        **watched_sampling(device, lambda clean: clean[:1, :, clean.shape[2] // 2]),
     )
 
 
@@ -137,14 +136,3 @@ def _look(clip_vision: Any) -> Callable[[Any], Tokens] | None:
         return Tokens(tokens[:-1], tokens[-1:])
 
     return look
-
-
-def _watched(device: torch.device) -> dict[str, Any]:
-    """Progress, and a look at a clip's middle after each step."""
-    report, preview = host_progress(), host_preview(device)
-    latest: list[Any] = []
-
-    def watch(now: SampledStep) -> None:
-        latest[:] = [preview(now.clean[:1, :, now.clean.shape[2] // 2])]
-
-    return {"watch": watch, "progress": lambda done, total: report(done, total, latest.pop() if latest else None)}

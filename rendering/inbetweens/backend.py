@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.motion import Motion
+from ..pictures import as_float
 
 __all__ = ["Clip", "Interpolator", "ModelFile"]
 
@@ -61,6 +62,12 @@ class Clip:
         """Width and height of the keyframes [px]."""
         height, width = self.keyframes[0].shape[:2]
         return width, height
+
+    def keyframe(self, number: int) -> FloatImage:
+        """A keyframe as float32 in 0..1."""
+        image = self.keyframes[number]
+        # Not as_float: its quotient may differ in the last bit, which decides to which level a mean of two is rounded.
+        return image.astype(np.float32) * np.float32(1 / 255) if image.dtype == np.uint8 else as_float(image)
 
     def times(self, number: int) -> list[tuple[int, float]]:
         """Frames between keyframe ``number`` and the next, each with its place between them in 0..1."""

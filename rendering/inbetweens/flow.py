@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..pictures import as_dtype, as_float, as_uint8
+from ..pictures import as_dtype, as_uint8
 from ..sketch import forward_warp
 from .backend import Clip, FloatImage, ModelFile
 
@@ -46,7 +46,7 @@ class FlowInterpolator:
 
     def in_betweens(self, clip: Clip, number: int) -> Iterator[NDArray[Any]]:
         """Yield the frames between two keyframes."""
-        first, last = (as_float(clip.keyframes[number + k]) for k in (0, 1))
+        first, last = clip.keyframe(number), clip.keyframe(number + 1)
         times = clip.times(number)
         if len(times) >= _STRAIGHT:
             yield from (as_dtype(_mixed(first, last, place), clip.keyframes[number].dtype) for _, place in times)

@@ -18,7 +18,7 @@ from ...physics.errors import InvalidInputError, require
 from ...physics.mesh import coverage_of
 from ...physics.motion import Motion
 from ...physics.progress import Progress
-from ..pictures import as_dtype, as_float, as_picture, is_transparent, premultiplied, straight
+from ..pictures import as_dtype, as_picture, is_transparent, premultiplied, straight
 from .backend import Clip, Interpolator, ModelFile
 from .flow import FlowInterpolator
 from .motion import MotionInterpolator
@@ -48,7 +48,7 @@ class BlendInterpolator:
 
     def in_betweens(self, clip: Clip, number: int) -> Iterator[NDArray[Any]]:
         """Yield the weighted mean of both keyframes for every frame between them."""
-        first, last = as_float(clip.keyframes[number]), as_float(clip.keyframes[number + 1])
+        first, last = clip.keyframe(number), clip.keyframe(number + 1)
         for _, place in clip.times(number):
             yield as_dtype(first + np.float32(place) * (last - first), clip.keyframes[number].dtype)
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...physics.errors import InvalidInputError
 from ...physics.mesh import PixelBox, bounding_box, interpolate, triangle_ids
 from ...physics.motion import Motion, layer_order
-from ..pictures import as_dtype, as_float
+from ..pictures import as_dtype
 from .backend import Clip, FloatImage, ModelFile
 
 __all__ = ["MotionInterpolator"]
@@ -61,7 +61,7 @@ class _Keyframe:
 
     def __init__(self, clip: Clip, number: int) -> None:
         self.motion = _motion_of(clip)
-        self.picture = as_float(clip.keyframes[number])
+        self.picture = clip.keyframe(number)
         self.frame = clip.indices[number]
         self.rank = _ranks(clip, self.frame)
         self.free = _widened(self.rank >= 0) == 0

@@ -11,7 +11,14 @@ import torch
 from diffusers import AutoencoderKLTemporalDecoder
 from torch import Tensor, nn
 
-from ..networks.checkpoints import CheckpointError, assign, below, build_without_storage, check_names, read_checkpoint
+from ..networks.checkpoints import (
+    CheckpointError,
+    below,
+    build_without_storage,
+    check_names,
+    network_of,
+    read_checkpoint,
+)
 from ..networks.image_encoder import ImageEncoder
 from .autoencoder import build_autoencoder
 from .controlnet import SketchControlNet
@@ -70,7 +77,7 @@ def load_models(
     return SketchVideoModels(
         _loaded(lambda: ImageEncoder(weights.sizes.image_encoder), weights.image_encoder, weights, dtype),
         _loaded(lambda: build_autoencoder(weights.sizes.autoencoder), weights.autoencoder, weights, torch.float32),
-        _made(lambda: SketchControlNet(network), control, dtype, str(lvcd), WANTED_LVCD),
+        network_of(lambda: SketchControlNet(network), control, dtype=dtype, file=str(lvcd), wanted=WANTED_LVCD),
         _loaded(lambda: SpatioTemporalUNet(network), {**weights.unet, **attention}, weights, dtype),
     )
 
@@ -78,17 +85,7 @@ def load_models(
 def _loaded(
     build: Callable[[], Network], tensors: Mapping[str, Tensor], weights: SVDWeights, dtype: torch.dtype
 ) -> Network:
-    return _made(build, tensors, dtype, f"{weights.source}", WANTED_SVD)
-
-
-def _made(
-    build: Callable[[], Network], tensors: Mapping[str, Tensor], dtype: torch.dtype, file: str, wanted: str
-) -> Network:
-    network = build_without_storage(build)
-    shapes = {name: tuple(tensor.shape) for name, tensor in network.state_dict().items()}
-    check_names(shapes, {name: tuple(tensor.shape) for name, tensor in tensors.items()}, file=file, wanted=wanted)
-    assign(network, {name: tensor.to(dtype) for name, tensor in tensors.items()}, file=file, wanted=wanted)
-    return network
+    return network_of(build, tensors, dtype=dtype, file=f"{weights.source}", wanted=WANTED_SVD)
 
 
 def _read_lvcd(path: Path, sizes: ModelSizes) -> tuple[dict[str, Tensor], dict[str, Tensor]]:

@@ -13,6 +13,7 @@ from torch import Tensor
 from ...physics.errors import require
 from ...physics.progress import Progress
 from ..networks import Frame
+from ..networks.half_precision import decoded_in
 from ..networks.memory import autoencoder_bytes, sampling_bytes
 from ..networks.placement import Placement
 from ..pictures import as_float, as_grey, as_picture
@@ -147,14 +148,9 @@ class SketchVideoRenderer:
     def _decoded(self, latents: Tensor) -> Iterator[Tensor]:
         """Pictures, 0..1, on the CPU, a chunk [n, 3, H, W] at a time."""
         autoencoder, dtype, device = self.models.autoencoder, self.models.dtype, self.placement.device
-        halved = dtype != torch.float32 and device.type == "cuda"
 
         def decoder(chunk: Tensor) -> Tensor:
-            with torch.autocast(device.type, dtype if halved else None, enabled=halved):
-                pictures = autoencoder.decode(chunk, num_frames=len(chunk)).sample.float()
-            if halved and not pictures.isfinite().all():  # half precision overflows for some pictures
-                pictures = autoencoder.decode(chunk, num_frames=len(chunk)).sample
-            return pictures
+            return decoded_in(dtype, device, lambda: autoencoder.decode(chunk, num_frames=len(chunk)).sample)
 
         size = self.options.decoded_together
         pixels = size * latents[0, 0].numel() * _PIXELS_PER_LATENT**2

@@ -12,7 +12,7 @@ from ...physics.progress import Progress
 from ..inbetweens import Clip, FloatImage, ModelFile
 from ..networks.checkpoints import CheckpointError
 from ..networks.placement import Placement
-from ..pictures import as_dtype, as_float
+from ..pictures import as_dtype
 from .gap_drawing import Gap, GapDrawing
 from .gap_plan import clips_in
 from .models import WANTED_SKETCH, InterpolationModels
@@ -95,5 +95,5 @@ class ToonCrafterInterpolator:
 
 
 def _gap(clip: Clip, number: int) -> Gap:
-    start, end = (as_float(clip.keyframes[each]) for each in (number, number + 1))
+    start, end = clip.keyframe(number), clip.keyframe(number + 1)
     return Gap(clip.indices[number], clip.indices[number + 1], start, end)
