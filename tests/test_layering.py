@@ -80,8 +80,8 @@ MAY_IMPORT = {
     # nodes: the host
     "nodes/host": "physics physics/mesh physics/motion physics/scene rendering/composite rendering/pictures",
     "nodes/preview": (
-        "physics physics/assembly physics/document physics/forces physics/rig physics/runtime physics/scene "
-        "physics/simulation rendering/composite rendering/pictures rendering/plate"
+        "physics physics/assembly physics/document physics/forces physics/motion physics/rig physics/runtime "
+        "physics/scene physics/simulation rendering/composite rendering/pictures rendering/plate"
     ),
     "nodes/models": (
         "nodes/host physics rendering/composite rendering/inbetweens rendering/networks "

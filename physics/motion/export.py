@@ -78,7 +78,7 @@ def motion_to_svg(motion: Motion, *, background: str | None = None) -> str:
     ]
     if background is not None:
         lines.append(f'<image href={quoteattr(background)} {size} opacity="0.45"/>')
-    for number in layer_order(motion):
+    for number in layer_order(motion.bodies):
         lines += _group(motion, number)
     return "\n".join([*lines, "</svg>", ""])
 

@@ -7,7 +7,7 @@ on time, so one sparse matrix holds them for all frames.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from ..errors import require
 from ..mesh import PixelBox, barycentric, triangle_ids
+from ..scene import Body
 from .motion import Motion
 
 __all__ = ["FlowField", "FlowSequence", "layer_order"]
@@ -36,9 +37,9 @@ class FlowField:
     inside: NDArray[np.bool_]
 
 
-def layer_order(motion: Motion) -> list[int]:
-    """Numbers of the bodies from back to front: by layer, and of equal layers the later body in front."""
-    return sorted(range(len(motion.bodies)), key=lambda k: motion.bodies[k].layer)
+def layer_order(bodies: Sequence[Body]) -> list[int]:
+    """Numbers of bodies from back to front: by layer, and of equal layers the later body in front."""
+    return sorted(range(len(bodies)), key=lambda number: bodies[number].layer)
 
 
 class FlowSequence:
@@ -77,8 +78,8 @@ class FlowSequence:
     @cached_property
     def body(self) -> NDArray[np.int32]:
         """Number of the body that each pixel of the drawing belongs to, -1 for none, int32, shape [h, w]."""
-        sizes = [len(self.motion.bodies[k].mesh.triangles) for k in layer_order(self.motion)]
-        owner = np.repeat(layer_order(self.motion), sizes)
+        sizes = [len(self.motion.bodies[k].mesh.triangles) for k in layer_order(self.motion.bodies)]
+        owner = np.repeat(layer_order(self.motion.bodies), sizes)
         return _frozen(np.where(self._ids >= 0, owner[self._ids], -1).astype(np.int32))
 
     @cached_property
@@ -94,7 +95,9 @@ class FlowSequence:
     def _triangles(self) -> NDArray[np.int64]:
         """Triangles of all bodies from back to front, indexing the vertices of the motion, shape [t, 3]."""
         starts = np.cumsum([0] + [len(body.mesh.vertices) for body in self.motion.bodies])
-        return np.concatenate([self.motion.bodies[k].mesh.triangles + starts[k] for k in layer_order(self.motion)])
+        return np.concatenate(
+            [self.motion.bodies[k].mesh.triangles + starts[k] for k in layer_order(self.motion.bodies)]
+        )
 
     @cached_property
     def _ids(self) -> NDArray[np.int32]:

@@ -154,7 +154,7 @@ def _placed(motion: Motion, size: tuple[int, int], fit: Fit) -> tuple[FloatArray
 
 def _hidden(motion: Motion, followed: BodyPoints, positions: FloatArray, moved: FloatArray) -> NDArray[np.bool_]:
     """Whether each point lies in a triangle of a body in front of its own, shape [n]."""
-    rank = np.argsort(layer_order(motion))
+    rank = np.argsort(layer_order(motion.bodies))
     starts = np.cumsum([0] + [len(body.mesh.vertices) for body in motion.bodies])
     hidden = np.zeros(len(moved), dtype=bool)
     for number, body in enumerate(motion.bodies):

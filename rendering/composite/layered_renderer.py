@@ -68,7 +68,7 @@ class LayeredRenderer:
             if plate.shape[:2] != image.shape[:2]:
                 raise InvalidInputError(f"plate must have the image's size {image.shape[:2]}. Got: {plate.shape[:2]}")
         self.motion = motion
-        self._order = layer_order(motion)
+        self._order = layer_order(motion.bodies)
         background, self._layers = apart(
             take_sprite_apart if is_transparent(image) else take_apart,
             as_float(image),

@@ -67,7 +67,7 @@ class PixelArtRenderer:
         )
         require("masks", len(masks), len(masks) == len(motion.bodies), f"one for each of {len(motion.bodies)} bodies")
         self.motion, self.block = motion, block_size(image)
-        self._order = layer_order(motion)
+        self._order = layer_order(motion.bodies)
         self._image = self._blocks(image)
         wanted = {k: self._blocks(fitted(coverage_of(masks[k]), width, height)) > 0.5 for k in self._order}
         carried = {k: _CarriedPixels(motion.bodies[k].mesh, wanted[k], self.block) for k in self._order}

@@ -44,7 +44,7 @@ class MotionInterpolator:
         masks = [_resized(mask, clip.size) for mask in clip.masks]
         for frame, place in clip.times(number):
             picture = np.where(hidden[..., None], plate, _mixed(first, last, place))
-            for rank, body in enumerate(layer_order(first.motion)):
+            for rank, body in enumerate(layer_order(first.motion.bodies)):
                 mask = masks[body] if masks else None
                 _draw_body(picture, _BodyPose(clip, body, rank, frame), first, last, place, mask)
             yield as_dtype(picture, clip.keyframes[number].dtype)
@@ -78,7 +78,7 @@ def _ranks(clip: Clip, frame: int) -> NDArray[np.int32]:
     """Which body, counted from the back, covers each pixel in front; -1 for none, shape [h, w]."""
     motion, (width, height) = _motion_of(clip), clip.size
     ranks, picture = np.full((height, width), -1, dtype=np.int32), PixelBox(0, 0, width, height)
-    for rank, body in enumerate(layer_order(motion)):
+    for rank, body in enumerate(layer_order(motion.bodies)):
         ids = triangle_ids(_positions(clip, body, frame), motion.bodies[body].mesh.triangles, picture)
         ranks[ids >= 0] = rank
     return ranks

@@ -63,7 +63,7 @@ class LayeredSketch:
         if behind is not None:
             require("behind", f"shape {np.shape(behind)}", np.shape(behind) == size, f"of the sketch's shape {size}")
         self.flow, lines = flow, 1 - sketch
-        order = layer_order(flow.motion)
+        order = layer_order(flow.motion.bodies)
         owner = _owner(flow, lines, order, border)
         self._bared = owner >= 0
         beneath = np.float32(0) if behind is None else 1 - np.asarray(behind, dtype=np.float32)

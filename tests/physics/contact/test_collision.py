@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from physanimator.physics.assembly import assemble
-from physanimator.physics.contact import TouchingBodies, contact_surface, signed_distances
+from physanimator.physics.contact import TouchingBodies, contact_surface
 from physanimator.physics.contact import touching_bodies as contact_stepping
 from physanimator.physics.contact.surface import CONTACTS
 from physanimator.physics.contact.team import LARGE
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.forces import EnergyStroke
 from physanimator.physics.material import Material, energy
-from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask, signed_distances
 from physanimator.physics.motion import Motion
 from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint
 from physanimator.physics.runtime import LANES
