@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...physics.errors import InvalidInputError
 from ...physics.mesh import PixelBox, bounding_box, interpolate, triangle_ids
 from ...physics.motion import Motion, layer_order
-from ..pictures import as_dtype
+from ..pictures import as_dtype, nearest_pixels
 from .backend import Clip, FloatImage, ModelFile
 
 __all__ = ["MotionInterpolator"]
@@ -106,13 +106,9 @@ def _plate(clip: Clip, number: int, first: _Keyframe, last: _Keyframe) -> FloatI
         known |= new
     if not known.any() or known.all():
         return picture
-    _, labels = cv2.distanceTransformWithLabels(
-        (~known).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
-    )
-    colours = np.zeros((labels.max() + 1, picture.shape[2]), np.float32)
-    colours[labels[known]] = picture[known]
+    nearest = picture.reshape(-1, picture.shape[2])[nearest_pixels(known)[1]]
     # Streaks from single pixels are smoothed away.
-    filled = cv2.GaussianBlur(colours[labels], (0, 0), 3)
+    filled = cv2.GaussianBlur(nearest, (0, 0), 3)
     return np.where(known[..., None], picture, filled)
 
 
