@@ -25,7 +25,7 @@ from .controlnet import SketchControlNet
 from .svd_weights import WANTED_SVD, ModelSizes, SVDWeights, read_svd
 from .unet import SpatioTemporalUNet
 
-__all__ = ["WANTED_LVCD", "SketchVideoModels", "load_models"]
+__all__ = ["WANTED_LVCD", "SVDModels", "load_models"]
 
 WANTED_LVCD = (
     "LVCD's lvcd.ckpt from https://huggingface.co/luckyhzt/lvcd_pretrained_models, or lvcd-fp16.safetensors from"
@@ -36,7 +36,7 @@ Network = TypeVar("Network", bound=nn.Module)
 
 
 @dataclass(frozen=True, eq=False)
-class SketchVideoModels:
+class SVDModels:
     """The networks, on the CPU, in the order of their use.
 
     Attributes:
@@ -59,7 +59,7 @@ class SketchVideoModels:
 
 def load_models(
     svd: Path, lvcd: Path, *, dtype: torch.dtype = torch.float32, sizes: ModelSizes | None = None
-) -> SketchVideoModels:
+) -> SVDModels:
     """Load all networks. Tensors already in the wanted precision stay mapped from their files.
 
     Args:
@@ -74,7 +74,7 @@ def load_models(
     weights = read_svd(svd, sizes=sizes)
     control, attention = _read_lvcd(lvcd, weights.sizes)
     network = weights.sizes.network
-    return SketchVideoModels(
+    return SVDModels(
         _loaded(lambda: ImageEncoder(weights.sizes.image_encoder), weights.image_encoder, weights, dtype),
         _loaded(lambda: build_autoencoder(weights.sizes.autoencoder), weights.autoencoder, weights, torch.float32),
         network_of(lambda: SketchControlNet(network), control, dtype=dtype, file=str(lvcd), wanted=WANTED_LVCD),

@@ -8,14 +8,14 @@ from ...physics.number_checks import check_number, check_whole
 from ..networks import LARGEST_AREA, SMALLEST_AREA, TRAINED_HEIGHT, TRAINED_WIDTH
 from .frame_layout import CLIP_FRAMES, LEAST_OVERLAP, OVERLAP
 
-__all__ = ["DECODED_TOGETHER", "SketchVideoOptions"]
+__all__ = ["DECODED_TOGETHER", "SVDOptions"]
 
 DECODED_TOGETHER = 10
 """Frames that LVCD decodes at once."""
 
 
 @dataclass(frozen=True)
-class SketchVideoOptions:
+class SVDOptions:
     """Settings; the defaults are those that LVCD is used with.
 
     Attributes:

@@ -20,27 +20,27 @@ from ..pictures import as_float, as_grey, as_picture
 from .conditioning import Conditioning, condition_on
 from .decoding import decode, decoding_chunks
 from .frame_layout import CLIP_FRAMES, FrameLayout
-from .models import SketchVideoModels
+from .models import SVDModels
 from .noise_schedule import noise_levels
-from .options import SketchVideoOptions
+from .options import SVDOptions
 from .sampler import LATENT_SCALE, SampledStep, sample_clip
 from .segments import plan_segments
 
-__all__ = ["SketchVideoRenderer"]
+__all__ = ["SVDRenderer"]
 
 FloatImage = NDArray[np.float32]
 
 _PIXELS_PER_LATENT = 8
 
 
-class SketchVideoRenderer:
+class SVDRenderer:
     """Draws the frames of a clip that follow given sketches."""
 
     def __init__(
         self,
-        models: SketchVideoModels,
+        models: SVDModels,
         *,
-        options: SketchVideoOptions | None = None,
+        options: SVDOptions | None = None,
         placement: Placement | None = None,
     ) -> None:
         """Prepare.
@@ -51,7 +51,7 @@ class SketchVideoRenderer:
             placement: where the networks compute; on the CPU by default.
         """
         self.models = models
-        self.options = options or SketchVideoOptions()
+        self.options = options or SVDOptions()
         self.placement = placement or Placement(torch.device("cpu"))
 
     def frames(

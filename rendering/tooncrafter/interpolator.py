@@ -15,8 +15,8 @@ from ..networks.placement import Placement
 from ..pictures import as_dtype
 from .gap_drawing import Gap, GapDrawing
 from .gap_plan import clips_in
-from .models import WANTED_SKETCH, InterpolationModels
-from .options import InterpolationOptions
+from .models import WANTED_SKETCH, ToonCrafterModels
+from .options import ToonCrafterOptions
 from .pair_drawing import LookAt, PairDrawing, Prompts
 from .sampler import SampledStep, Watch
 
@@ -32,9 +32,9 @@ class ToonCrafterInterpolator:
 
     def __init__(
         self,
-        models: InterpolationModels,
+        models: ToonCrafterModels,
         *,
-        options: InterpolationOptions | None = None,
+        options: ToonCrafterOptions | None = None,
         placement: Placement | None = None,
         look: LookAt | None = None,
         prompts: Prompts | None = None,
@@ -53,7 +53,7 @@ class ToonCrafterInterpolator:
                 of keyframes; may raise to stop.
             watch: called in each sampling step; may raise to stop.
         """
-        self.options = options or InterpolationOptions()
+        self.options = options or ToonCrafterOptions()
         place = placement or Placement(torch.device("cpu"))
         self._drawing = PairDrawing(models, self.options, place, look=look, prompts=prompts)
         self._progress, self._watch = progress, watch

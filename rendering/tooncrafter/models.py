@@ -26,7 +26,7 @@ from .sketch_encoder import SketchEncoder
 from .text_encoder import TextEncoder, TextEncoderConfiguration, empty_prompt, text_weights
 from .unet import InterpolationUNet
 
-__all__ = ["InterpolationModels", "ModelSizes", "load_models"]
+__all__ = ["ModelSizes", "ToonCrafterModels", "load_models"]
 
 WANTED_MODEL = (
     "ToonCrafter's model.ckpt from https://huggingface.co/Doubiiu/ToonCrafter, or its pruned fp16 safetensors from"
@@ -60,7 +60,7 @@ class ModelSizes:
 
 
 @dataclass(frozen=True, eq=False)
-class InterpolationModels:
+class ToonCrafterModels:
     """The networks, on the CPU.
 
     Attributes:
@@ -93,7 +93,7 @@ def load_models(
     text_encoder: Path | None = None,
     dtype: torch.dtype = torch.float32,
     sizes: ModelSizes | None = None,
-) -> InterpolationModels:
+) -> ToonCrafterModels:
     """Load all networks. Tensors already in the wanted precision stay mapped from their files.
 
     Args:
@@ -119,7 +119,7 @@ def load_models(
     def part(build: Callable[[], Network], prefix: str, kept: torch.dtype) -> Network:
         return network_of(build, tensors, prefix=prefix, dtype=kept, file=str(model), wanted=WANTED_MODEL)
 
-    return InterpolationModels(
+    return ToonCrafterModels(
         part(lambda: InterpolationUNet(sizes.unet), InterpolationUNet.prefix, dtype),
         part(lambda: ImageResampler(sizes.resampler), ImageResampler.prefix, dtype),
         part(lambda: DualReferenceAutoencoder(sizes.autoencoder), DualReferenceAutoencoder.prefix, torch.float32),

@@ -17,8 +17,8 @@ from .clip import guided_velocity, sample_clips
 from .conditioning import LATENT_SCALE, Context, KeyframePair, Tokens, contexts, empty_prompt_of, encode_pair, look_at
 from .decoding import decode_clip
 from .memory import decoding_bytes, encoding_bytes
-from .models import InterpolationModels
-from .options import InterpolationOptions
+from .models import ToonCrafterModels
+from .options import ToonCrafterOptions
 from .sampler import Watch
 
 __all__ = ["LookAt", "Pair", "PairDrawing", "Prompts"]
@@ -50,8 +50,8 @@ class PairDrawing:
 
     def __init__(
         self,
-        models: InterpolationModels,
-        options: InterpolationOptions,
+        models: ToonCrafterModels,
+        options: ToonCrafterOptions,
         placement: Placement,
         *,
         look: LookAt | None = None,
