@@ -15,7 +15,7 @@ from ..physics.errors import require
 from .host import batch_of_pictures, picture_with_alpha, refusal
 from .host.wires import BodiesWire, MaskedBody
 from .preview import STORE, PreviewBodies
-from .preview.server import warm_up
+from .preview.server import start_warm_up
 from .scene_nodes import scene_output, scene_outputs
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ class SceneEditor(io.ComfyNode):
             "plate": _saved(behind),
         }
         # Where several bodies are drawn on, contact may be switched on at any moment.
-        warm_up(contact=len(bodies) > 1 or drawn.contact is not None)
+        start_warm_up(contact=len(bodies) > 1 or drawn.contact is not None)
         return scene_output(drawn, bodies, ui={"physanimator_editor": [info]})
 
 

@@ -1,6 +1,6 @@
 """Clips that lead a video model: warped pictures with what is missing in them, moving lines, first and last frames.
 
-The model's node takes them as they are; see ``VideoFormat`` for their length and size.
+The model's node takes them as they are; see ``ModelFormat`` for their length and size.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ...physics.motion import FlowSequence, Motion
 from ..composite import LayeredRenderer
 from ..pictures import as_float
 from ..sketch import warp_sketch
-from .model_format import VideoFormat
+from .model_format import ModelFormat
 
 __all__ = ["first_and_last", "line_frames", "warped_frames"]
 
@@ -32,7 +32,7 @@ def warped_frames(
     image: NDArray[Any],
     masks: Sequence[ArrayLike],
     motion: Motion,
-    form: VideoFormat,
+    form: ModelFormat,
     *,
     plate: NDArray[Any] | None = None,
     grow: int = 4,
@@ -72,7 +72,7 @@ def warped_frames(
 
 
 def line_frames(
-    sketch: NDArray[Any], motion: Motion, form: VideoFormat, *, bright_lines: bool = True
+    sketch: NDArray[Any], motion: Motion, form: ModelFormat, *, bright_lines: bool = True
 ) -> Iterator[FloatImage]:
     """A line drawing that moves along with the bodies.
 
@@ -97,7 +97,7 @@ def first_and_last(
     image: NDArray[Any],
     masks: Sequence[ArrayLike],
     motion: Motion,
-    form: VideoFormat,
+    form: ModelFormat,
     *,
     first: int = 0,
     last: int = -1,

@@ -13,7 +13,7 @@ from ...physics.errors import require
 from ...physics.motion import Fit, Tracks
 from ..pictures import as_float, as_picture, as_uint8
 
-__all__ = ["draw_tracks", "fitted"]
+__all__ = ["draw_tracks", "reframed"]
 
 _BITS = 4  # cv2 takes coordinates in sixteenths of a pixel
 _DARK = (20, 20, 30)
@@ -21,7 +21,7 @@ _GREY = (200, 205, 215)
 _STILL = 0.5  # [px]: a track that spans less does not move
 
 
-def fitted(image: NDArray[Any], width: int, height: int, fit: Fit) -> NDArray[Any]:
+def reframed(image: NDArray[Any], width: int, height: int, fit: Fit) -> NDArray[Any]:
     """A picture brought to another size as tracks are.
 
     Args:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from .layered_sketch import LayeredSketch
 from .sketch import cleaned, extract_sketch
 from .sketch_warping import WARP_MODES, WarpMode, warped_sketches
-from .splatting import splat, split_fragments
+from .splatting import splat, splats_of
 from .warp import forward_warp, warp_sketch
 
 __all__ = [
@@ -16,7 +16,7 @@ __all__ = [
     "extract_sketch",
     "forward_warp",
     "splat",
-    "split_fragments",
+    "splats_of",
     "warp_sketch",
     "warped_sketches",
 ]

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ...physics.errors import require
 from ...physics.motion import FlowField
 from ..pictures import as_float
-from .splatting import splat, split_fragments
+from .splatting import splat, splats_of
 
 __all__ = ["SPLAT_MODES", "SplatMode", "WarpedSketch", "forward_warp", "warp_sketch"]
 
@@ -73,7 +73,7 @@ def forward_warp(
     weights = np.asarray(weights, dtype=np.float32)
     channels = values.reshape(*shape, -1)
     moved = ((flow[..., 0] != 0) | (flow[..., 1] != 0)) & (weights > 0)
-    pieces = split_fragments(channels, flow, weights, moved)
+    pieces = splats_of(channels, flow, weights, moved)
     importance = (pieces.weight * pieces.area).astype(np.float64)
     amounts = [importance * pieces.values[:, k] for k in range(channels.shape[2])]
     amounts += [importance, pieces.area.astype(np.float64)]

@@ -12,9 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from physanimator.nodes.preview import limits, preview_scene, read_request
 from physanimator.nodes.preview.requests import is_key
-from physanimator.physics.document import checking as scene_checking
-from physanimator.physics.document import overlay as scene_over
-from physanimator.physics.document import scene_json
+from physanimator.physics.document import checking, overlay, scene_json
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import preset
 from physanimator.physics.mesh import TriangleMesh
@@ -176,8 +174,8 @@ def test_a_key_is_64_hexadecimal_digits(key: object) -> None:
 
 def test_a_document_is_checked_once(monkeypatch: pytest.MonkeyPatch) -> None:
     checked: list[object] = []
-    original = scene_checking.check_document
-    for module in (scene_checking, scene_json, scene_over):
+    original = checking.check_document
+    for module in (checking, scene_json, overlay):
         monkeypatch.setattr(module, "check_document", lambda data: checked.append(data) or original(data))
     preview_scene(read_request(of_scene(strokes=[{"path": [[0, 0], [20, 0]]}])), [body()])
     assert len(checked) == 1

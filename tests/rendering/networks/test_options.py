@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.control import VideoFormat
+from physanimator.rendering.control import ModelFormat
 from physanimator.rendering.svd import SVDOptions
 from physanimator.rendering.tooncrafter import ToonCrafterOptions
 
 WRONG = [-1, -(10**400), 10**5000, float("nan"), float("inf"), -0.5, "many", None, True, [1], {}, 3.7j]
-OPTIONS = [(kind, each.name) for kind in (SVDOptions, ToonCrafterOptions, VideoFormat) for each in fields(kind)]
+OPTIONS = [(kind, each.name) for kind in (SVDOptions, ToonCrafterOptions, ModelFormat) for each in fields(kind)]
 # Noise may be any number that fits, and these may be whole.
 FITTING = {"seed": [-1]}
 
