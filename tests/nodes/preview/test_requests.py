@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from physanimator.nodes.preview import limits, preview_scene, read_request
 from physanimator.nodes.preview.requests import is_key
+from physanimator.physics import document
 from physanimator.physics.document import checking, overlay, scene_json
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import preset
@@ -175,7 +176,7 @@ def test_a_key_is_64_hexadecimal_digits(key: object) -> None:
 def test_a_document_is_checked_once(monkeypatch: pytest.MonkeyPatch) -> None:
     checked: list[object] = []
     original = checking.check_document
-    for module in (checking, scene_json, overlay):
+    for module in (document, checking, scene_json, overlay):
         monkeypatch.setattr(module, "check_document", lambda data: checked.append(data) or original(data))
     preview_scene(read_request(of_scene(strokes=[{"path": [[0, 0], [20, 0]]}])), [body()])
     assert len(checked) == 1
