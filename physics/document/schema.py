@@ -60,7 +60,13 @@ _EXAMPLE = {
 
 
 def scene_schema() -> Schema:
-    """The JSON Schema (draft 2020-12) of a scene document."""
+    """The JSON Schema (draft 2020-12) of a scene document.
+
+    Examples:
+        >>> from physanimator.physics.document import scene_schema
+        >>> scene_schema()["type"]
+        'object'
+    """
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": f"urn:physanimator:scene:{SCENE_VERSION}",

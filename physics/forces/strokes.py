@@ -76,6 +76,12 @@ class EnergyStroke:
         repeat: the time from ``start`` to ``end`` begins anew every so many seconds [s]; None means once.
         strength_keys: factors on the strength along the path, as pairs (share of its length from 0 to 1, factor).
         speed_keys: factors above 0 on the speed along the path, in the same form.
+
+    Examples:
+        >>> from physanimator.physics.forces import EnergyStroke
+        >>> stroke = EnergyStroke("wind", path=((0, 30), (80, 30)), radius=40.0, strength=3.0)
+        >>> stroke.kind, stroke.speed
+        ('wind', 600.0)
     """
 
     kind: StrokeKind = "wind"

@@ -42,6 +42,11 @@ class Material:
         damping_scale: factor on the damping for each triangle, shape [t]; None means 1 everywhere.
         density_scale: factor on the density for each triangle, shape [t]; None means 1 everywhere.
         name: the preset it came from, or empty; the automatic scene reads from it how such bodies are attached.
+
+    Examples:
+        >>> from physanimator.physics.material import Material
+        >>> Material(youngs_modulus=800.0, damping=2.0).poisson_ratio
+        0.3
     """
 
     youngs_modulus: float = 500.0
@@ -121,6 +126,11 @@ def preset(preset_name: str, /, **changes: Any) -> Material:
 
     Raises:
         InvalidInputError: there is no such preset.
+
+    Examples:
+        >>> from physanimator.physics.material import preset
+        >>> preset("hair", damping=2.0).damping
+        2.0
     """
     if not isinstance(preset_name, str) or preset_name not in PRESETS:
         raise InvalidInputError(f"preset must be one of {', '.join(PRESETS)}. Got: {preset_name!r:.60}")

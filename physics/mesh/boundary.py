@@ -15,6 +15,12 @@ def boundary_edges(triangles: Int32Array) -> Int32Array:
 
     Args:
         triangles: indices of vertices, shape [t, 3].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import boundary_edges
+        >>> boundary_edges(np.array([[0, 1, 2], [0, 2, 3]], np.int32)).tolist()
+        [[0, 1], [1, 2], [2, 3], [3, 0]]
     """
     half = half_edges(triangles)
     return half[on_boundary(half)]

@@ -24,6 +24,13 @@ def signed_distances(points: FloatArray, starts: FloatArray, ends: FloatArray) -
         points: shape [n, 2].
         starts: of the edges, shape [e, 2].
         ends: of the edges, shape [e, 2].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import signed_distances
+        >>> corners = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]])
+        >>> signed_distances(np.array([[5.0, 4.0], [13.0, 5.0]]), corners, np.roll(corners, -1, axis=0)).tolist()
+        [-4.0, 3.0]
     """
     at_once = max(1, _PAIRS_AT_ONCE // max(len(starts), 1))
     distances = np.empty(len(points))

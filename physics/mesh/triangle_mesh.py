@@ -44,6 +44,12 @@ class TriangleMesh:
         triangles: vertex indices, int32, shape [t, 3].
         width: width of the illustration [px].
         height: height of the illustration [px].
+
+    Examples:
+        >>> from physanimator.physics.mesh import TriangleMesh
+        >>> mesh = TriangleMesh([[1, 1], [9, 1], [9, 9], [1, 9]], [[0, 1, 2], [0, 2, 3]], width=10, height=10)
+        >>> mesh.areas.tolist(), len(mesh.edges), len(mesh.boundary_edges)
+        ([32.0, 32.0], 5, 4)
     """
 
     vertices: FloatArray

@@ -38,7 +38,17 @@ class FlowField:
 
 
 def layer_order(bodies: Sequence[Body]) -> list[int]:
-    """Numbers of bodies from back to front: by layer, and of equal layers the later body in front."""
+    """Numbers of bodies from back to front: by layer, and of equal layers the later body in front.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import layer_order
+        >>> from physanimator.physics.scene import Body
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> layer_order([Body(mesh, layer=2), Body(mesh, layer=1)])
+        [1, 0]
+    """
     return sorted(range(len(bodies)), key=lambda number: bodies[number].layer)
 
 
@@ -49,6 +59,16 @@ class FlowSequence:
 
     Attributes:
         motion: whose flow it is.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import FlowSequence, Motion
+        >>> from physanimator.physics.scene import Body
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> FlowSequence(motion).flow(1).displacement[30, 30].round(3).tolist()
+        [3.0, 0.0]
     """
 
     def __init__(self, motion: Motion) -> None:

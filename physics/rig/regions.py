@@ -67,6 +67,14 @@ def vertices_of(rig_point: RigPoint, mesh: TriangleMesh | Points) -> NDArray[np.
 
     Returns:
         bool, shape [v].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.rig import Circle, RigPoint, vertices_of
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> bool(vertices_of(RigPoint((30, 30), Circle(60)), mesh).all())
+        True
     """
     region = rig_point.region
     if isinstance(region, Circle):
@@ -114,6 +122,14 @@ def leaders_of(rig_points: Sequence[RigPoint], mesh: TriangleMesh, *, body: int 
 
     Returns:
         int32, shape [v].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.rig import Circle, RigPoint, leaders_of
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> np.unique(leaders_of([RigPoint((10, 10), Circle(5))], mesh)).tolist()
+        [-1, 0]
     """
     leaders = np.full(len(mesh.vertices), -1, dtype=np.int32)
     for index, rig_point in enumerate(rig_points):
@@ -133,6 +149,11 @@ def displacement(motion: RigMotion, t: ArrayLike) -> FloatArray:
 
     Returns:
         [px], shape [2] or [n, 2].
+
+    Examples:
+        >>> from physanimator.physics.rig import Wave, displacement
+        >>> displacement(Wave(amplitude=20.0, period=2.0, direction=(1.0, 0.0)), 0.5).round(6).tolist()
+        [20.0, 0.0]
     """
     times = np.asarray(t, dtype=np.float64)
     if isinstance(motion, Combined):

@@ -210,6 +210,12 @@ class RigPoint:
         motion: how they move; several motions at once may be given as a tuple.
         body: number of the body that it acts on; None means every body.
         falloff: how far beyond the region the pull fades out [px]; 0 leaves everything outside free.
+
+    Examples:
+        >>> from physanimator.physics.rig import Circle, KeyedPath, RigPoint
+        >>> hand = RigPoint((40, 20), Circle(12), KeyedPath(times=(0, 1), points=((40, 20), (60, 20))))
+        >>> hand.motion.easing
+        'smooth'
     """
 
     position: Point

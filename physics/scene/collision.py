@@ -24,6 +24,11 @@ class Contact:
         thickness: distance that bodies keep from each other [px]; half of it gives way under pressure.
         self_contact: whether a body also keeps out of itself, such as a curl that folds, and the separate parts of a
             body out of each other.
+
+    Examples:
+        >>> from physanimator.physics.scene import Contact
+        >>> Contact(friction=0.5, self_contact=True).thickness
+        1.5
     """
 
     friction: float = 0.3
@@ -49,6 +54,12 @@ class Collider:
 
     Attributes:
         region: its shape: a polygon, or a painted mask, which is stretched over the illustration.
+
+    Examples:
+        >>> from physanimator.physics.rig import Polygon
+        >>> from physanimator.physics.scene import Collider
+        >>> len(Collider(Polygon(((0, 50), (60, 50), (60, 60), (0, 60)))).region.points)
+        4
     """
 
     region: Polygon | MaskRegion

@@ -30,6 +30,12 @@ class Paint:
         damping: factor on the damping, 0.001 to 1000.
         density: factor on the density, 0.001 to 1000.
         body: number of the only body that it acts on; None for all.
+
+    Examples:
+        >>> from physanimator.physics.rig import Polygon
+        >>> from physanimator.physics.scene import Paint
+        >>> Paint(Polygon(((10, 10), (50, 10), (50, 20))), stiffness=4.0).damping
+        1.0
     """
 
     region: Polygon | MaskRegion

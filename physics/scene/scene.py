@@ -46,6 +46,15 @@ class Body:
         material: what it is made of.
         layer: occlusion order; a higher layer covers a lower one, and of equal layers the later body.
         name: for people; may be empty.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.material import preset
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.scene import Body
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> Body(mesh, preset("cloth"), layer=1, name="skirt").layer
+        1
     """
 
     mesh: TriangleMesh
@@ -88,6 +97,16 @@ class Scene:
         colliders: still shapes that bodies keep out of where there is contact.
         paint: where bodies are stiffer, heavier or more damped than their materials say.
         query_points: where somebody clicked to say which part of the picture is meant; they move nothing.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.forces import EnergyStroke, Wind
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.scene import Body, Scene
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> scene = Scene((Body(mesh),), strokes=(EnergyStroke(path=((0, 30), (60, 30))),), wind=Wind())
+        >>> scene.width, scene.height, scene.frame_rate
+        (60, 60, 24.0)
     """
 
     bodies: tuple[Body, ...]

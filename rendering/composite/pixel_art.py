@@ -42,6 +42,21 @@ class PixelArtRenderer:
         motion: what is drawn.
         plate: the illustration without its bodies, in its dtype and channels, shape [h, w, 3] or [h, w, 4].
         block: width and height of what moves as one pixel [px].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.composite import PixelArtRenderer
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mask = np.pad(np.ones((40, 40)), 10)
+        >>> mesh = mesh_from_mask(mask, spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> frame = PixelArtRenderer(picture, [mask], motion).frame(1)
+        >>> len(np.unique(frame.reshape(-1, 3), axis=0))
+        2
     """
 
     def __init__(

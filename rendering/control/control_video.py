@@ -119,6 +119,21 @@ def first_and_last(
 
     Raises:
         InvalidInputError: there is no such frame, or the inputs do not fit together.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.control import ModelFormat, first_and_last
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mask = np.pad(np.ones((40, 40)), 10)
+        >>> mesh = mesh_from_mask(mask, spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> first, last = first_and_last(picture, [mask], motion, ModelFormat(width=64, height=64))
+        >>> first.shape
+        (64, 64, 3)
     """
     count = len(motion)
     for name, number in (("first_frame", first), ("last_frame", last)):

@@ -30,6 +30,12 @@ class ModelFormat:
         width: a multiple of 16 [px].
         height: a multiple of 16 [px].
         fit: how pictures come to that size: cut to their middle, as the host's nodes do, or stretched.
+
+    Examples:
+        >>> from physanimator.rendering.control import ModelFormat
+        >>> form = ModelFormat(frames=49, width=480, height=832, fit="stretch")
+        >>> form.frames, form.width
+        (49, 480)
     """
 
     frames: int = 81

@@ -66,6 +66,11 @@ def keyframe_indices(count: int, every: int = DEFAULT_GAP, *, at: Sequence[int] 
         count: number of frames of the clip.
         every: frames from one keyframe to the next.
         at: frame numbers of the keyframes, instead.
+
+    Examples:
+        >>> from physanimator.rendering.inbetweens import keyframe_indices
+        >>> keyframe_indices(20, every=8)
+        [0, 8, 16, 19]
     """
     require("count", count, count >= 1, "at least 1 frame")
     require("every", every, every >= 1, "at least 1 frame")
@@ -108,6 +113,13 @@ def interpolate(
     Raises:
         InvalidInputError: keyframes and indices do not belong together, the backend is unknown, or its files are
             missing.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.inbetweens import interpolate
+        >>> keyframes = [np.full((8, 8, 3), level, np.uint8) for level in (0, 200)]
+        >>> [int(frame[0, 0, 0]) for frame in interpolate(keyframes, [0, 4], backend="blend")]
+        [0, 50, 100, 150, 200]
     """
     require("keyframes", f"{len(keyframes)}", len(keyframes) >= 1, "at least one")
     keyframes = [as_picture(keyframe, name=f"keyframes[{k}]", alpha=True) for k, keyframe in enumerate(keyframes)]

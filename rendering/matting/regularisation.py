@@ -79,6 +79,16 @@ def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
 
     Returns:
         The mask in 0 to 1, shape [h, w].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.matting import regular_mask
+        >>> picture = np.ones((60, 60, 3), np.float32)
+        >>> picture[10:50, 10:50] = (0.8, 0.2, 0.1)
+        >>> mask = np.zeros((60, 60), np.float32)
+        >>> mask[12:48, 12:48] = 1
+        >>> regular_mask(picture, mask).shape
+        (60, 60)
     """
     mask = _up_to_white(mask)
     if not (mask > _HALF).any() or (mask > _HALF).all():

@@ -80,6 +80,20 @@ def measure_clip(
 
     Raises:
         InvalidInputError: sizes or numbers do not fit together.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.metrics import measure_clip
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> measured = measure_clip([picture, picture], motion)
+        >>> measured.hole_ratio > 0, measured.as_dict()["dynamic_degree"]
+        (True, 0.0)
     """
     count = len(motion)
     driving = None if sketches is None else iter(sketches)

@@ -57,6 +57,19 @@ def draw_tracks(image: NDArray[Any], tracks: Tracks, sample: int, *, tail: int =
 
     Returns:
         A new picture of the same size and type.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion, tracks
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.overlays import draw_tracks
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> draw_tracks(picture, tracks(motion, points=4, static_points=0), sample=1).dtype
+        dtype('uint8')
     """
     require("sample", sample, 0 <= sample < len(tracks), f"0 to {len(tracks) - 1}")
     image = as_picture(image)

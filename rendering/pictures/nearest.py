@@ -19,6 +19,12 @@ def nearest_pixels(where: NDArray[np.bool_]) -> tuple[NDArray[np.float32], NDArr
 
     Returns:
         Distance [px] and number, counted row by row, each of shape [h, w]; a true pixel is its own nearest.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import nearest_pixels
+        >>> nearest_pixels(np.array([[True, False, False, True]]))[1].tolist()
+        [[0, 0, 3, 3]]
     """
     distance, labels = cv2.distanceTransformWithLabels(
         (~where).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL

@@ -31,6 +31,12 @@ def as_picture(image: ArrayLike, *, name: str = "image", alpha: bool = False) ->
 
     Raises:
         InvalidInputError: it has another shape, or values out of these ranges.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import as_picture
+        >>> as_picture(np.full((4, 6, 3), 65535, np.uint16)).dtype
+        dtype('float32')
     """
     pixels = as_array(image, name)
     wanted = "an RGB or RGBA picture of shape [h, w, 3 or 4]" if alpha else "an RGB picture of shape [h, w, 3]"
@@ -49,7 +55,14 @@ def check_picture(image: ArrayLike, *, name: str = "image", alpha: bool = False)
 
 
 def as_float(image: ArrayLike) -> FloatImage:
-    """Any picture of :func:`as_picture`, or one plane of it, as float32 in 0 to 1, in its own shape."""
+    """Any picture of :func:`as_picture`, or one plane of it, as float32 in 0 to 1, in its own shape.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import as_float
+        >>> as_float(np.array([[0, 255]], np.uint8)).tolist()
+        [[0.0, 1.0]]
+    """
     values = _as_8_bits_or_float(as_array(image, "image"), "image")
     return values.astype(np.float32) / np.float32(255) if values.dtype == np.uint8 else values
 
@@ -67,6 +80,12 @@ def as_uint8(image: ArrayLike, *, name: str = "image") -> NDArray[np.uint8]:
 
     Raises:
         InvalidInputError: values are out of range or not finite.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import as_uint8
+        >>> as_uint8(np.array([[0.0, 0.2, 1.0]])).tolist()
+        [[0, 51, 255]]
     """
     values = _as_8_bits_or_float(as_array(image, name), name)
     return values if values.dtype == np.uint8 else np.rint(values * np.float32(255)).astype(np.uint8)

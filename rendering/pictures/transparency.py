@@ -31,6 +31,12 @@ def over(image: Image, colour: Colour = WHITE) -> Image:
 
     Returns:
         RGB in the image's dtype, shape [h, w, 3].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import over
+        >>> over(np.array([[[255, 0, 0, 0]]], np.uint8)).tolist()
+        [[[255, 255, 255]]]
     """
     if not is_transparent(image):
         return image

@@ -187,6 +187,17 @@ def write_animation(
 
     Raises:
         InvalidInputError: see :func:`check_output`; or there is no frame, or they differ in size.
+
+    Examples:
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import read_clip, write_animation
+        >>> frames = [np.full((16, 16, 3), level, np.uint8) for level in (0, 128, 255)]
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     write_animation(frames, Path(folder, "clip.gif"), 12.0)
+        ...     len(list(read_clip(Path(folder, "clip.gif"))))
+        3
     """
     check_frame_rate(frame_rate)
     iterator = _uniform(frames)

@@ -58,6 +58,15 @@ def extract_sketch(
 
     Raises:
         InvalidInputError: the picture or a parameter is unusable.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.sketch import extract_sketch
+        >>> picture = np.full((40, 40, 3), 255, np.uint8)
+        >>> picture[:, 19:21] = 0
+        >>> sketch = extract_sketch(picture)
+        >>> bool(sketch[20, 20] < 0.2), float(sketch[20, 5])
+        (True, 1.0)
     """
     picture = as_float(as_picture(image))
     require("line_width", line_width, 0.5 <= line_width <= 50, "0.5 to 50 px")

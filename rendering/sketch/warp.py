@@ -111,6 +111,20 @@ def warp_sketch(
 
     Raises:
         InvalidInputError: sizes differ or a parameter is unusable.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import FlowSequence, Motion
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.sketch import warp_sketch
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> sketch = np.ones((60, 60), np.float32)
+        >>> sketch[:, 30] = 0
+        >>> warped = warp_sketch(sketch, FlowSequence(motion).flow(1))
+        >>> int(np.argmin(warped.sketch[30]))
+        33
     """
     sketch = as_float(sketch)
     height, width = sketch.shape[:2]

@@ -27,6 +27,11 @@ class SVDOptions:
         area: of the pictures that the networks work on [px^2].
         decoded_together: frames that are decoded at once; fewer need less memory.
         seed: of the noise.
+
+    Examples:
+        >>> from physanimator.rendering.svd import SVDOptions
+        >>> SVDOptions(steps=20, seed=7).overlap
+        4
     """
 
     steps: int = 25
