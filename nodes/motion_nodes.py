@@ -156,7 +156,9 @@ def _shrunk(pictures: NDArray[np.float32], longest_side: int) -> list[NDArray[np
     """Pictures no larger than wanted, as bytes, which are quicker to draw on."""
     import cv2
 
+    from ..rendering.pictures import as_uint8
+
     scale = min(1.0, longest_side / max(pictures.shape[1:3]))
     size = (max(1, round(pictures.shape[2] * scale)), max(1, round(pictures.shape[1] * scale)))
     small = (cv2.resize(picture, size, interpolation=cv2.INTER_AREA) for picture in pictures)
-    return [np.rint(np.clip(picture, 0, 1) * 255).astype(np.uint8) for picture in small]
+    return [as_uint8(picture) for picture in small]

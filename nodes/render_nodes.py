@@ -27,8 +27,8 @@ from .host import (
 )
 from .host.wires import MaskedMotion, MotionWire
 from .models import find_model_file
-from .models.sketch_video import missing_sketch_video_files, sketch_video_frames
-from .models.sketch_video_inputs import sketch_video_inputs
+from .models.svd import missing_svd_files, svd_frames
+from .models.svd_inputs import svd_inputs
 from .models.tooncrafter import missing_tooncrafter_files, tooncrafter_backend
 from .models.tooncrafter_inputs import tooncrafter_inputs
 
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Interpolate", "Render"]
 
-_COMPOSITE, _SKETCH_VIDEO = "composite", "sketch-guided SVD"
+_COMPOSITE, _SVD = "composite", "sketch-guided SVD"
 _TOONCRAFTER = "tooncrafter"
 _FRAMES, _ALPHA = 0, 1  # numbers of the outputs
 _IMAGES_ARE = ("all frames", "keyframes")
@@ -64,7 +64,7 @@ class Render(io.ComfyNode):
                     "renderer",
                     options=[
                         io.DynamicCombo.Option(_COMPOSITE, []),
-                        io.DynamicCombo.Option(_SKETCH_VIDEO, sketch_video_inputs()),
+                        io.DynamicCombo.Option(_SVD, svd_inputs()),
                     ],
                     optional=True,
                     tooltip="composite: the illustration's own pixels, without any model."
@@ -93,7 +93,7 @@ class Render(io.ComfyNode):
         cls, renderer: dict[str, Any] | None = None, background: dict[str, Any] | None = None, **others: Any
     ) -> bool | str:
         # Before the simulation, not after it. The host hands over what a choice brings only if every input is taken.
-        return missing_sketch_video_files(renderer or {}) or refusal(lambda: background_chosen(background))
+        return missing_svd_files(renderer or {}) or refusal(lambda: background_chosen(background))
 
     @classmethod
     def fingerprint_inputs(cls, **inputs: Any) -> list[bool]:
@@ -113,7 +113,7 @@ class Render(io.ComfyNode):
         from ..rendering.composite import renderer_of
         from ..rendering.pictures import over
 
-        behind, by_model = background_chosen(background), renderer is not None and renderer["renderer"] == _SKETCH_VIDEO
+        behind, by_model = background_chosen(background), renderer is not None and renderer["renderer"] == _SVD
         picture = picture_with_alpha(image, image_alpha)
         plate = None if clean_plate is None else picture_with_alpha(clean_plate, name="clean_plate")
         if by_model:
@@ -130,7 +130,7 @@ class Render(io.ComfyNode):
             told = all_told(told, hint_of_pixel_art(cls, picture))
         layers = renderer_of(picture, motion.masks, motion.motion, plate=plate, pixel_art=pixel_art)
         if by_model and frames is not None:
-            for frame in sketch_video_frames(picture, layers, renderer):
+            for frame in svd_frames(picture, layers, renderer):
                 frames.put(frame)
         _compose(layers, behind, None if by_model else frames, alpha)
         both = (("frames", frames), ("alpha", alpha))

@@ -15,7 +15,7 @@ from ..physics.errors import require
 from .host import batch_of_pictures, checked_document, picture_with_alpha, refusal
 from .host.wires import BodiesWire, MaskedBody
 from .preview import STORE, PreviewBodies
-from .preview.server import warm_up
+from .preview.server import start_warm_up
 from .scene_nodes import scene_output, scene_outputs
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ class SceneEditor(io.ComfyNode):
             "plate": _saved(behind),
         }
         # Where several bodies are drawn on, contact may be switched on at any moment.
-        warm_up(contact=len(bodies) > 1 or drawn.contact is not None)
+        start_warm_up(contact=len(bodies) > 1 or drawn.contact is not None)
         return scene_output(drawn, bodies, ui={"physanimator_editor": [info]})
 
 
@@ -89,15 +89,19 @@ def _shown(image: torch.Tensor, width: int, height: int, name: str) -> np.ndarra
     picture = picture_with_alpha(image, name=name)
     got = f"{picture.shape[1]} x {picture.shape[0]} px"
     require(name, got, picture.shape[:2] == (height, width), f"of the bodies' size, {width} x {height} px")
-    return np.rint(picture * 255).astype(np.uint8)
+    from ..rendering.pictures import as_uint8
+
+    return as_uint8(picture)
 
 
 def _kept(bodies: tuple[MaskedBody, ...], picture: np.ndarray | None) -> PreviewBodies:
     physical = tuple(item.body for item in bodies)
     if picture is None:
         return PreviewBodies(physical)
+    from ..rendering.pictures import as_uint8
+
     hole = np.max([item.mask for item in bodies], axis=0)
-    return PreviewBodies(physical, picture, np.rint(hole * 255).astype(np.uint8))
+    return PreviewBodies(physical, picture, as_uint8(hole))
 
 
 def _saved(picture: np.ndarray | None) -> dict[str, Any] | None:

@@ -139,7 +139,7 @@ def _core_tracks(found: PointTracks) -> dict[str, Any]:
 
 def _preview(found: PointTracks, pictures: NDArray[np.float32] | None, fit: Fit) -> torch.Tensor:
     """Every second sample on its picture, or on a dark ground."""
-    from ..rendering.overlays import draw_tracks, fitted
+    from ..rendering.overlays import draw_tracks, reframed
 
     scale = min(1.0, _LONGEST_PREVIEW / max(found.width, found.height))
     # Even sides: a video of the preview can be saved.
@@ -150,7 +150,7 @@ def _preview(found: PointTracks, pictures: NDArray[np.float32] | None, fit: Fit)
     for number, sample in enumerate(shown, start=1):
         if pictures is not None and (number == 1 or len(pictures) > 1):
             frame = round(sample * (len(pictures) - 1) / max(1, len(found) - 1))
-            ground = fitted(pictures[frame], width, height, fit)
+            ground = reframed(pictures[frame], width, height, fit)
         batch.put(draw_tracks(ground, found, sample))
         report(number, len(shown))
     return batch.tensor

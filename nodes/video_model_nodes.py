@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from comfy_api.latest import io
 
 from ..physics.motion import FITS, Fit
-from ..rendering.control import FRAME_STEP, SIZE_STEP, VideoFormat
+from ..rendering.control import FRAME_STEP, SIZE_STEP, ModelFormat
 from .host import announce_batch, batch_of_pictures, host_progress, mask_batch, picture_batch, picture_of
 from .host.wires import MaskedMotion, MotionWire
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["FirstAndLastFrame", "LineControlVideo", "WarpedVideo"]
 
-_USUAL = VideoFormat()
+_USUAL = ModelFormat()
 _LINES = ("white on black", "black on white")
 
 
@@ -74,7 +74,7 @@ def _given(plate: torch.Tensor | None) -> Any:
     return None if plate is None else picture_of(plate, name="clean_plate")
 
 
-def _form_values(form: VideoFormat, motion: MaskedMotion) -> tuple[int, int, int, float]:
+def _form_values(form: ModelFormat, motion: MaskedMotion) -> tuple[int, int, int, float]:
     rate = motion.motion.frame_rate * (form.frames - 1) / max(1, len(motion.motion) - 1)
     return form.width, form.height, form.frames, rate
 
@@ -123,7 +123,7 @@ class WarpedVideo(io.ComfyNode):
     ) -> io.NodeOutput:
         from ..rendering.control import warped_frames
 
-        form, plate, report = VideoFormat(frames, width, height, fit), _given(clean_plate), host_progress()
+        form, plate, report = ModelFormat(frames, width, height, fit), _given(clean_plate), host_progress()
         told = announce_batch(cls, frames, width, height, channels=4)
         pictures, holes = picture_batch(frames), mask_batch(frames)
         drawn = warped_frames(picture_of(image), motion.masks, motion.motion, form, plate=plate, grow=grow)
@@ -167,7 +167,7 @@ class LineControlVideo(io.ComfyNode):
     ) -> io.NodeOutput:
         from ..rendering.control import line_frames
 
-        form, report = VideoFormat(frames, width, height, fit), host_progress()
+        form, report = ModelFormat(frames, width, height, fit), host_progress()
         told, batch = announce_batch(cls, frames, width, height), picture_batch(frames)
         drawing = picture_of(sketch, name="sketch").mean(axis=2)
         drawn = line_frames(drawing, motion.motion, form, bright_lines=lines == _LINES[0])
@@ -228,7 +228,7 @@ class FirstAndLastFrame(io.ComfyNode):
     ) -> io.NodeOutput:
         from ..rendering.control import first_and_last
 
-        form, plate = VideoFormat(width=width, height=height, fit=fit), _given(clean_plate)
+        form, plate = ModelFormat(width=width, height=height, fit=fit), _given(clean_plate)
         chosen = {"first": first_frame, "last": last_frame, "plate": plate}
         both = first_and_last(picture_of(image), motion.masks, motion.motion, form, **chosen)
         start, end = (batch_of_pictures([picture], 1) for picture in both)

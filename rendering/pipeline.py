@@ -86,6 +86,17 @@ def animate(
 
     Raises:
         InvalidInputError: an input is unusable; the message names it.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.options import Timing
+        >>> from physanimator.rendering.pipeline import animate
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mask = np.pad(np.ones((40, 40)), 10)
+        >>> animation = animate(picture, [mask], preset="hair", timing=Timing(frames=3), spacing=10)
+        >>> [frame.shape for frame in animation.frames()]
+        [(60, 60, 3), (60, 60, 3), (60, 60, 3)]
     """
     seconds: dict[str, float] = {}
     image = as_picture(image, alpha=True)

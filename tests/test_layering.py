@@ -62,14 +62,18 @@ MAY_IMPORT = {
     "rendering/inbetweens": "physics physics/mesh physics/motion rendering/pictures rendering/sketch",
     "rendering/metrics": "physics physics/mesh physics/motion rendering/pictures rendering/sketch",
     "rendering/segmentation": "physics physics/document physics/scene rendering/pictures rendering/sketch",
-    "rendering/sketch/drawings": "physics rendering/networks rendering/sketch",
+    "rendering/sketch/drawings": "physics rendering/networks rendering/pictures rendering/sketch",
     "rendering": (
         "physics physics/assembly physics/document physics/material physics/mesh physics/motion physics/scene "
         "physics/simulation rendering/composite rendering/files rendering/inbetweens rendering/matting "
         "rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
     ),
-    "rendering/segmentation/sam": "physics rendering/files rendering/networks rendering/segmentation",
-    "rendering/tooncrafter": "physics rendering/files rendering/inbetweens rendering/networks rendering/svd",
+    "rendering/segmentation/sam": (
+        "physics rendering/files rendering/networks rendering/pictures rendering/segmentation"
+    ),
+    "rendering/tooncrafter": (
+        "physics rendering/files rendering/inbetweens rendering/networks rendering/pictures rendering/svd"
+    ),
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
         "physics/scene rendering rendering/composite rendering/figures rendering/files rendering/metrics "
@@ -80,8 +84,8 @@ MAY_IMPORT = {
         "physics physics/document physics/mesh physics/motion physics/scene rendering/composite rendering/pictures"
     ),
     "nodes/preview": (
-        "physics physics/assembly physics/document physics/forces physics/rig physics/runtime physics/scene "
-        "physics/simulation rendering/composite rendering/pictures rendering/plate"
+        "physics physics/assembly physics/document physics/forces physics/motion physics/rig physics/runtime "
+        "physics/scene physics/simulation rendering/composite rendering/pictures rendering/plate"
     ),
     "nodes/models": (
         "nodes/host physics rendering/composite rendering/inbetweens rendering/networks "

@@ -9,7 +9,7 @@ from .defaults import default_of
 from .documents import checked_document
 from .literals import PATH_FORMS, boxes_of, chosen, keys_of, numbers_of, refusal, times_of, whole_numbers_of
 from .messages import all_told, hint_of_pixel_art, shown_with, tell_user
-from .progress import host_check, host_preview, host_progress
+from .progress import host_check, host_progress, watched_sampling
 from .running import is_wanted, not_made, sent_inputs, server, watch_prompts
 from .saving import FILE_TYPES, FRAMES, Place, check_prefix, free_place
 from .tensors import (
@@ -46,7 +46,6 @@ __all__ = [
     "free_place",
     "hint_of_pixel_art",
     "host_check",
-    "host_preview",
     "host_progress",
     "is_wanted",
     "keys_of",
@@ -66,5 +65,6 @@ __all__ = [
     "tell_user",
     "times_of",
     "watch_prompts",
+    "watched_sampling",
     "whole_numbers_of",
 ]

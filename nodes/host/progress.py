@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     import torch
 
-__all__ = ["host_check", "host_preview", "host_progress"]
+__all__ = ["host_check", "host_preview", "host_progress", "watched_sampling"]
 
 
 class Report(Protocol):
@@ -42,6 +42,22 @@ def host_check() -> Callable[[], None]:
 
     check: Callable[[], None] = comfy.model_management.throw_exception_if_processing_interrupted
     return check
+
+
+def watched_sampling(device: torch.device, middle: Callable[[Any], torch.Tensor]) -> dict[str, Any]:
+    """The arguments ``progress`` and ``watch`` of a sampler: the bar moves, and each step shows a part of the latents.
+
+    Args:
+        device: of the latents.
+        middle: which of a step's clean latents are shown, shape [1, 4, h, w], such as those amid the clip.
+    """
+    report, preview = host_progress(), host_preview(device)
+    latest: list[Any] = []
+
+    def watch(now: Any) -> None:
+        latest[:] = [preview(middle(now.clean))]
+
+    return {"watch": watch, "progress": lambda done, total: report(done, total, latest.pop() if latest else None)}
 
 
 def host_preview(device: torch.device) -> Callable[[torch.Tensor], Any]:

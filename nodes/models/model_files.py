@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ...rendering.inbetweens import ModelFile
 
-__all__ = ["SKETCH_VIDEO", "find_model_file", "lvcd_choices", "lvcd_file", "svd_choices", "svd_file"]
+__all__ = ["SVD_FILES", "find_model_file", "lvcd_choices", "lvcd_file", "svd_choices", "svd_file"]
 
-SKETCH_VIDEO = {
+SVD_FILES = {
     "svd_model": "put svd.safetensors into models/checkpoints, from"
     " https://huggingface.co/stabilityai/stable-video-diffusion-img2vid (Stability AI Community License).",
     "lvcd_model": "put lvcd.ckpt into models/controlnet, from"

@@ -7,10 +7,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ...physics.errors import InvalidInputError, require
-from ...rendering.tooncrafter import InterpolationOptions
-from ..host import dtype_of, host_preview, host_progress
+from ...rendering.tooncrafter import ToonCrafterOptions
+from ..host import dtype_of, watched_sampling
 from .networks import Networks, kept_networks
-from .tooncrafter_files import TOONCRAFTER, model_file, sketch_model_file
+from .tooncrafter_files import TOONCRAFTER_FILES, model_file, sketch_model_file
 from .tooncrafter_inputs import AREAS
 
 if TYPE_CHECKING:
@@ -18,8 +18,7 @@ if TYPE_CHECKING:
 
     from ...rendering.tooncrafter.conditioning import Tokens
     from ...rendering.tooncrafter.interpolator import ToonCrafterInterpolator
-    from ...rendering.tooncrafter.models import InterpolationModels
-    from ...rendering.tooncrafter.sampler import SampledStep
+    from ...rendering.tooncrafter.models import ToonCrafterModels
 
 __all__ = ["missing_tooncrafter_files", "tooncrafter_backend"]
 
@@ -46,11 +45,11 @@ def tooncrafter_backend(choice: dict[str, Any]) -> ToonCrafterInterpolator:
         placement=networks.placement(device),
         look=_look(choice.get("clip_vision")),
         prompts=_prompts(choice, models),
-        **_watched(device),
+        **watched_sampling(device, lambda clean: clean[:1, :, clean.shape[2] // 2]),
     )
 
 
-def _check_encoders(choice: dict[str, Any], models: InterpolationModels) -> None:
+def _check_encoders(choice: dict[str, Any], models: ToonCrafterModels) -> None:
     """Raise where the model's file holds no encoder and none is connected."""
     held = {"clip": models.empty_prompt, "clip_vision": models.image_encoder}
     loaders = {
@@ -65,17 +64,17 @@ def _check_encoders(choice: dict[str, Any], models: InterpolationModels) -> None
 
 
 def _missing(name: str, file: str) -> str:
-    return f"{file} is missing: {TOONCRAFTER[name]}"
+    return f"{file} is missing: {TOONCRAFTER_FILES[name]}"
 
 
-def _options(choice: dict[str, Any]) -> InterpolationOptions:
+def _options(choice: dict[str, Any]) -> ToonCrafterOptions:
     same = ("steps", "solver", "guidance", "control_scale", "pairs_together", "decoded_together")
     chosen = {name: choice[name] for name in same}
     area, seed = AREAS[choice["working_size"]], choice["noise_from"]
-    return InterpolationOptions(area=area, seed=seed, frame_rate=choice["fs"], **chosen)
+    return ToonCrafterOptions(area=area, seed=seed, frame_rate=choice["fs"], **chosen)
 
 
-def _networks(choice: dict[str, Any], device: torch.device) -> Networks[InterpolationModels]:
+def _networks(choice: dict[str, Any], device: torch.device) -> Networks[ToonCrafterModels]:
     from ...rendering.tooncrafter.models import load_models
 
     model, sketch = model_file(choice["tooncrafter_model"]), None
@@ -87,10 +86,10 @@ def _networks(choice: dict[str, Any], device: torch.device) -> Networks[Interpol
             raise InvalidInputError(_missing("sketch_model", choice["sketch_model"]))
     dtype = dtype_of(choice["precision"], device)
     key = model, sketch, tuple(file.stat().st_mtime for file in (model, sketch) if file), dtype
-    return kept_networks("interpolation", key, lambda: load_models(model, sketch=sketch, dtype=dtype))
+    return kept_networks("tooncrafter", key, lambda: load_models(model, sketch=sketch, dtype=dtype))
 
 
-def _with_kept_prompt(models: InterpolationModels, choice: dict[str, Any]) -> InterpolationModels:
+def _with_kept_prompt(models: ToonCrafterModels, choice: dict[str, Any]) -> ToonCrafterModels:
     """With the empty prompt that an earlier run has kept beside the model's file, where that file has none."""
     from ...rendering.tooncrafter.kept_prompt import kept_prompt
 
@@ -102,7 +101,7 @@ def _with_kept_prompt(models: InterpolationModels, choice: dict[str, Any]) -> In
     return replace(models, empty_prompt=None if kept is None else kept.to(models.dtype))
 
 
-def _prompts(choice: dict[str, Any], models: InterpolationModels) -> tuple[torch.Tensor, torch.Tensor] | None:
+def _prompts(choice: dict[str, Any], models: ToonCrafterModels) -> tuple[torch.Tensor, torch.Tensor] | None:
     """The prompt and the empty one by the host's text encoder, if one is connected."""
     clip, words = choice.get("clip"), choice["prompt"].strip()
     if clip is None:
@@ -137,14 +136,3 @@ def _look(clip_vision: Any) -> Callable[[Any], Tokens] | None:
         return Tokens(tokens[:-1], tokens[-1:])
 
     return look
-
-
-def _watched(device: torch.device) -> dict[str, Any]:
-    """Progress, and a look at a clip's middle after each step."""
-    report, preview = host_progress(), host_preview(device)
-    latest: list[Any] = []
-
-    def watch(now: SampledStep) -> None:
-        latest[:] = [preview(now.clean[:1, :, now.clean.shape[2] // 2])]
-
-    return {"watch": watch, "progress": lambda done, total: report(done, total, latest.pop() if latest else None)}

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-__all__ = ["TOONCRAFTER", "model_choices", "model_file", "sketch_model_choices", "sketch_model_file"]
+__all__ = ["TOONCRAFTER_FILES", "model_choices", "model_file", "sketch_model_choices", "sketch_model_file"]
 
-TOONCRAFTER = {
+TOONCRAFTER_FILES = {
     "tooncrafter_model": "put model.ckpt into models/checkpoints, from https://huggingface.co/Doubiiu/ToonCrafter"
     ", or its pruned fp16 safetensors, from https://huggingface.co/Kijai/DynamiCrafter_pruned.",
     "sketch_model": "put sketch_encoder.ckpt into models/controlnet, from https://huggingface.co/Doubiiu/ToonCrafter"

@@ -6,7 +6,7 @@ from typing import Any
 
 from comfy_api.latest import io
 
-from ...rendering.tooncrafter import SOLVERS, InterpolationOptions
+from ...rendering.tooncrafter import SOLVERS, ToonCrafterOptions
 from ..host import PRECISIONS
 from .tooncrafter_files import model_choices, sketch_model_choices
 
@@ -15,7 +15,7 @@ __all__ = ["AREAS", "tooncrafter_inputs"]
 AREAS = {"512 x 320": 512 * 320, "768 x 512": 768 * 512}
 """Areas that the model can work on [px^2]."""
 
-_USUAL = InterpolationOptions()
+_USUAL = ToonCrafterOptions()
 
 
 def tooncrafter_inputs() -> list[Any]:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.forces import STROKE_KINDS, Particles, all_particles
+from ...physics.motion import layer_order
 from ...physics.rig import lead
 from ...physics.scene import Scene
 from .limits import MAX_SHOWN_PARTICLES
@@ -54,7 +55,7 @@ def encode_mesh(stored: PreviewBodies) -> bytes:
     """The rest shape of all bodies: positions body after body, triangles from back to front."""
     bodies = stored.bodies
     starts = np.cumsum([0] + [len(body.mesh.vertices) for body in bodies])
-    order = sorted(range(len(bodies)), key=lambda number: bodies[number].layer)  # back to front
+    order = layer_order(bodies)
     ends = np.cumsum([len(bodies[number].mesh.triangles) for number in order])
     firsts = np.concatenate([[0], ends[:-1]])
     arrays = {

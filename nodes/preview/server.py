@@ -8,7 +8,7 @@ import threading
 
 from .store import PreviewStore
 
-__all__ = ["STORE", "register_routes", "warm_up"]
+__all__ = ["STORE", "register_routes", "start_warm_up"]
 
 STORE = PreviewStore()
 """The bodies on which the editors of this process draw."""
@@ -26,10 +26,10 @@ def register_routes() -> None:
     _registered.set()
     from .routes import PreviewRoutes
 
-    PreviewRoutes(STORE, warm_up=warm_up).register(server.routes)
+    PreviewRoutes(STORE, warm_up=start_warm_up).register(server.routes)
 
 
-def warm_up(*, contact: bool = False) -> None:
+def start_warm_up(*, contact: bool = False) -> None:
     """Start the solver in the background, so that the first preview need not wait for that.
 
     Args:

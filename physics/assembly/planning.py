@@ -108,6 +108,15 @@ def plan(scene: Scene, *, frames: int) -> SimulationPlan:
     Raises:
         InvalidInputError: ``frames`` is below 1.
         SimulationError: a part is so stiff for its weight and its triangles so small that there is no time step.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.assembly import plan
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.scene import Body, automatic_scene
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> plan(automatic_scene([Body(mesh)]), frames=24).frames
+        24
     """
     return plan_system(scene, assemble(scene), frames=frames)
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from .surface import contact_surface, signed_distances
+from .surface import contact_surface
 from .touching_bodies import TouchingBodies
 
 __all__ = [
     "TouchingBodies",
     "contact_surface",
-    "signed_distances",
 ]

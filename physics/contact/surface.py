@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ..assembly import System, outline_spacing
 from ..interruption import checkpoint
-from ..mesh import boundary_edges
-from ..scene import Contact, Scene, crossed, outlines, segment_distances, window_of, within_reach
+from ..mesh import boundary_edges, within_reach
+from ..scene import Contact, Scene, outlines, window_of
 
 __all__ = [
     "CANDIDATES",
@@ -36,7 +36,6 @@ __all__ = [
     "WALKED",
     "ContactSurface",
     "contact_surface",
-    "signed_distances",
 ]
 
 FloatArray = NDArray[np.float64]
@@ -75,8 +74,6 @@ SPACING, SPEED = range(2)
 
 TOUCHING, STEPS = range(2)
 """Places of the numbers in ``ContactSurface.activity``."""
-
-_PAIRS_AT_ONCE = 1 << 17  # of a point and an edge, each some 100 bytes
 
 
 class ContactSurface(NamedTuple):
@@ -198,21 +195,6 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         memory=np.array([0.0, -1.0, *[0.0] * 12], np.float32),
     )
     return surface, still
-
-
-def signed_distances(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-    """Distance of points from closed outlines, negative inside by the even-odd rule, shape [n]."""
-    at_once = max(1, _PAIRS_AT_ONCE // max(len(starts), 1))
-    pieces = [
-        _signed_distances(points[first : first + at_once], starts, ends) for first in range(0, len(points), at_once)
-    ]
-    return np.concatenate(pieces) if pieces else np.zeros(0)
-
-
-def _signed_distances(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-    """The same with every edge beside every point in memory."""
-    distance = segment_distances(points, starts, ends)
-    return np.where(crossed(points, starts, ends) % 2 == 1, -distance, distance)
 
 
 def _neighbours(edges: Int32Array) -> Int32Array:

@@ -51,6 +51,16 @@ def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
     Args:
         scene: the scene.
         meshes: whether to include the bodies' meshes; without, reading it again needs them.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.document import scene_to_dict
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.scene import Body, Scene
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> document = scene_to_dict(Scene((Body(mesh),)), meshes=False)
+        >>> document["width"], document["frame_rate"]
+        (60, 24.0)
     """
     options = {"loop": encode(scene.loop), "wind": encode(scene.wind), "sag": True if scene.sag else None}
     return {

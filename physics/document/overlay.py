@@ -25,6 +25,16 @@ def scene_over(document: object, bodies: Sequence[Body]) -> Scene:
 
     Raises:
         SceneError: a value is wrong; ``path`` says which.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.document import scene_over, scene_to_dict
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.scene import Body, Scene
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> document = scene_to_dict(Scene((Body(mesh),), frame_rate=12.0), meshes=False)
+        >>> scene_over(document, [Body(mesh)]).frame_rate
+        12.0
     """
     return checked_scene_over(check_document(document), bodies)
 

@@ -28,7 +28,7 @@ _DEEPEST = 8  # lists of one list around the points
 
 
 def parse_points(points: str | Sequence[Any] | Mapping[str, Any], *, width: int, height: int) -> list[QueryPoint]:
-    """Query points from text or from already decoded JSON, in pixels.
+    r"""Query points from text or from already decoded JSON, in pixels.
 
     Understood are, as JSON or as Python writes them:
 
@@ -52,6 +52,11 @@ def parse_points(points: str | Sequence[Any] | Mapping[str, Any], *, width: int,
     Raises:
         InvalidInputError: it is none of these, a point is incomplete or lies outside the picture, or all lie within
             its first pixel, as normalised ones do that do not say so.
+
+    Examples:
+        >>> from physanimator.physics.document import parse_points
+        >>> [(point.x, point.positive) for point in parse_points("10,20\n30,20,0", width=40, height=40)]
+        [(10.0, True), (30.0, False)]
     """
     data = decoded(points, "points")
     if isinstance(data, Mapping) and {"version", "query_points"} & data.keys():
@@ -86,6 +91,11 @@ def parse_polyline(
     Raises:
         InvalidInputError: the text is not a path, holds several, a point is incomplete, or several lie within the first
             pixel, as normalised ones do.
+
+    Examples:
+        >>> from physanimator.physics.document import parse_polyline
+        >>> parse_polyline("0,30; 60,30")
+        [(0.0, 30.0), (60.0, 30.0)]
     """
     items = _one_spline(decoded(path, name), name)
     require(name, "no points", len(items) > 0, "at least one point")

@@ -67,6 +67,15 @@ def loads(text: str | bytes, *, meshes: Sequence[TriangleMesh] | None = None) ->
 
     Raises:
         SceneError: the text is not JSON (with line and column) or not a scene (with the path of the wrong value).
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.document import dumps, loads
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.scene import Body, Scene
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> loads(dumps(Scene((Body(mesh),)))).width
+        60
     """
     return scene_from_dict(read_json(text), meshes=meshes)
 
@@ -82,6 +91,16 @@ def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = Non
 
     Raises:
         SceneError: a value is wrong; ``path`` says which, such as ``strokes[2].radius``.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.document import scene_from_dict, scene_to_dict
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.scene import Body, Scene
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> document = scene_to_dict(Scene((Body(mesh),)))
+        >>> len(scene_from_dict(document).bodies)
+        1
     """
     return scene_from_checked(check_document(data), meshes=meshes)
 

@@ -48,7 +48,13 @@ _EXAMPLE = {
 
 
 def scene_schema() -> Schema:
-    """The JSON Schema (draft 2020-12) of a scene document."""
+    """The JSON Schema (draft 2020-12) of a scene document.
+
+    Examples:
+        >>> from physanimator.physics.document import scene_schema
+        >>> scene_schema()["type"]
+        'object'
+    """
     shape = choice_of(COLLIDER_TYPES)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

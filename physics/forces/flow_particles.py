@@ -55,6 +55,12 @@ def particles(stroke: EnergyStroke, t: float) -> tuple[FloatArray, FloatArray]:
     Returns:
         Positions [px], shape [p, 2], and unit directions of travel, shape [p, 2]. At a corner the direction is that
         of the segment ahead; a resting particle has that of the first segment, and (0, 0) on a path without one.
+
+    Examples:
+        >>> from physanimator.physics.forces import EnergyStroke, particles
+        >>> positions, directions = particles(EnergyStroke("wind", path=((0, 0), (100, 0)), speed=50.0), t=1.0)
+        >>> positions[0].tolist(), directions[0].tolist()
+        ([50.0, 0.0], [1.0, 0.0])
     """
     positions, directions, _ = _placed(stroke, _all_ages(stroke, t))
     return positions, directions
@@ -132,6 +138,14 @@ def acceleration(stroke: EnergyStroke, points: FloatArray, t: float) -> FloatArr
 
     Returns:
         [side/s^2], shape [n, 2].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.forces import EnergyStroke, acceleration
+        >>> stroke = EnergyStroke("wind", path=((0, 0), (100, 0)), radius=20.0, speed=50.0)
+        >>> pushed, free = acceleration(stroke, np.array([[50.0, 5.0], [50.0, 500.0]]), t=1.0)
+        >>> bool(pushed[0] > 0), free.tolist()
+        (True, [0.0, 0.0])
     """
     points = np.asarray(points, dtype=np.float64).reshape(-1, 2)
     total = np.zeros_like(points)

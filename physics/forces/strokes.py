@@ -65,6 +65,12 @@ class EnergyStroke:
 
     With the distance d the effect goes, by ``falloff``, as 1 - d/radius (linear; for repel as d/radius), as
     (1 - (d/radius)^2)^2 (smooth), or stays (constant).
+
+    Examples:
+        >>> from physanimator.physics.forces import EnergyStroke
+        >>> stroke = EnergyStroke("wind", path=((0, 30), (80, 30)), radius=40.0, strength=3.0)
+        >>> stroke.kind, stroke.speed
+        ('wind', 600.0)
     """
 
     kind: Annotated[

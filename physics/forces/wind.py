@@ -32,6 +32,11 @@ class Wind:
     """Wind that blows everywhere.
 
     The eddies are the stated share of the wind as a root mean square.
+
+    Examples:
+        >>> from physanimator.physics.forces import Wind
+        >>> Wind(strength=2.0, angle=180.0).gust
+        0.6
     """
 
     strength: Annotated[
@@ -130,6 +135,12 @@ def uniform(wind: Wind, t: ArrayLike, *, loop: float | None = None) -> FloatArra
 
     Returns:
         [side/s^2], shape [n, 2].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.forces import Wind, uniform
+        >>> uniform(Wind(strength=2.0, gust=0.0), np.array([0.0, 0.5])).shape
+        (2, 2)
     """
     times = np.asarray(t, dtype=np.float64)
     starts = np.random.default_rng(wind.seed).uniform(0, 2 * np.pi, len(_GUSTS))

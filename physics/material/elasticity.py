@@ -86,7 +86,13 @@ def rest_shape(mesh: TriangleMesh) -> RestShape:
 
 
 def lame_parameters(youngs_modulus: ArrayLike, poisson_ratio: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Lame parameters (mu, lambda) in plane strain, elementwise [density side^2 / s^2]."""
+    """Lame parameters (mu, lambda) in plane strain, elementwise [density side^2 / s^2].
+
+    Examples:
+        >>> from physanimator.physics.material import lame_parameters
+        >>> [round(float(each)) for each in lame_parameters(500.0, 0.25)]
+        [200, 200]
+    """
     e, nu = np.asarray(youngs_modulus, dtype=np.float64), np.asarray(poisson_ratio, dtype=np.float64)
     return e / (2 * (1 + nu)), e * nu / ((1 + nu) * (1 - 2 * nu))
 

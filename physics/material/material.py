@@ -49,6 +49,11 @@ class Material:
     follows so that the body's longest connected part sways this often about its pinned points; parts without a pinned
     point keep ``youngs_modulus``, and do not feel the stretch limit. The automatic scene reads from the name how such
     bodies are attached. Scales hold one factor for each triangle, shape [t].
+
+    Examples:
+        >>> from physanimator.physics.material import Material
+        >>> Material(youngs_modulus=800.0, damping=2.0).poisson_ratio
+        0.3
     """
 
     youngs_modulus: Annotated[
@@ -192,6 +197,11 @@ def preset(preset_name: str, /, **changes: Any) -> Material:
 
     Raises:
         InvalidInputError: there is no such preset.
+
+    Examples:
+        >>> from physanimator.physics.material import preset
+        >>> preset("hair", damping=2.0).damping
+        2.0
     """
     if not isinstance(preset_name, str) or preset_name not in PRESETS:
         raise InvalidInputError(f"preset must be one of {', '.join(PRESETS)}. Got: {preset_name!r:.60}")

@@ -51,6 +51,15 @@ def painted(
     Raises:
         InvalidInputError: a mask is unusable, a factor is out of bounds, or the material has been painted for another
             mesh.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.material import painted, preset
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> stiff = painted(preset("hair"), mesh, stiffness=np.ones((60, 60)), high=3.0)
+        >>> float(np.max(stiff.stiffness_scale))
+        3.0
     """
     for name, factor in (("low", low), ("high", high)):
         require(name, factor, within(factor, LEAST_FACTOR, MOST_FACTOR), f"{LEAST_FACTOR} to {MOST_FACTOR:g}")

@@ -6,6 +6,7 @@ from .boundary import boundary_edges
 from .contours import area_of, contours_at_half, resampled
 from .masks import coverage_of, fitted, may_be_inverted
 from .meshing import mesh_from_mask
+from .outline_distances import signed_distances, within_reach
 from .pixel_box import PixelBox, bounding_box
 from .raster import barycentric, interpolate, rasterise, triangle_ids
 from .run_lengths import mask_of, runs_of
@@ -29,5 +30,7 @@ __all__ = [
     "rasterise",
     "resampled",
     "runs_of",
+    "signed_distances",
     "triangle_ids",
+    "within_reach",
 ]

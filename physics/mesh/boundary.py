@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["boundary_edges"]
+__all__ = ["boundary_edges", "half_edges", "on_boundary"]
 
 Int32Array = NDArray[np.int32]
 
@@ -15,8 +15,24 @@ def boundary_edges(triangles: Int32Array) -> Int32Array:
 
     Args:
         triangles: indices of vertices, shape [t, 3].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import boundary_edges
+        >>> boundary_edges(np.array([[0, 1, 2], [0, 2, 3]], np.int32)).tolist()
+        [[0, 1], [1, 2], [2, 3], [3, 0]]
     """
-    half = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    half = half_edges(triangles)
+    return half[on_boundary(half)]
+
+
+def half_edges(triangles: Int32Array) -> Int32Array:
+    """The sides of all triangles, first to second corner, then second to third, then third to first, shape [3 t, 2]."""
+    return np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+
+
+def on_boundary(half: Int32Array) -> NDArray[np.bool_]:
+    """Which half-edges belong to one triangle alone, shape [3 t]."""
     low, high = half.min(axis=1).astype(np.int64), half.max(axis=1)
     _, inverse, counts = np.unique(low << 32 | high, return_inverse=True, return_counts=True)
-    return half[counts[inverse] == 1]
+    return np.asarray(counts[inverse] == 1)

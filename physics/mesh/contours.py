@@ -48,6 +48,12 @@ def contours_at_half(coverage: NDArray[np.float32]) -> list[FloatArray]:
         One array of points [px] a curve, shape [n, 2], without repeating the first point. Pixel centres lie at
         integer + 0.5. Outer curves have negative ``area_of``, those around holes positive, as the
         boundary of a TriangleMesh has.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import area_of, contours_at_half
+        >>> round(abs(area_of(contours_at_half(np.pad(np.ones((8, 8), np.float32), 2))[0])))
+        64
     """
     columns = coverage.shape[1]
     inside = coverage > 0.5

@@ -45,6 +45,12 @@ def coverage_of(mask: ArrayLike, *, name: str = "mask") -> Coverage:
 
     Raises:
         MeshingError: it is none of these, or whole numbers that count labels instead of saying how much is covered.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import coverage_of
+        >>> coverage_of(np.array([[0, 255]], np.uint8)).tolist()
+        [[0.0, 1.0]]
     """
     try:
         values = as_array(mask, name)
@@ -84,6 +90,12 @@ def fitted(coverage: Coverage, width: int, height: int, *, name: str = "mask") -
 
     Raises:
         MeshingError: its proportions differ from the picture's by more than a hundredth, or by more than a pixel.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import fitted
+        >>> fitted(np.ones((30, 40), np.float32), 80, 60).shape
+        (60, 80)
     """
     rows, columns = coverage.shape
     if (rows, columns) == (height, width):

@@ -83,6 +83,15 @@ def mesh_from_mask(
         InvalidInputError: an option is out of range.
         MeshingError: the mask is unusable, holds no white part that is large enough, does not have the picture's
             proportions, or would need too many triangles.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> mask = np.zeros((60, 80))
+        >>> mask[10:50, 20:60] = 1
+        >>> mesh = mesh_from_mask(mask, spacing=10)
+        >>> mesh.width, mesh.height, len(mesh.triangles) > 20
+        (80, 60, True)
     """
     options = _Options(
         spacing, min_angle, elements_across, smallest_spacing, border_margin, smallest_part, smallest_hole, 1.0

@@ -131,6 +131,12 @@ def triangle_ids(points: ArrayLike, triangles: ArrayLike, box: PixelBox) -> NDAr
 
     Returns:
         Triangle numbers, shape [box height, box width].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import PixelBox, triangle_ids
+        >>> triangle_ids(np.array([[0, 0], [4, 0], [0, 4]]), np.array([[0, 1, 2]]), PixelBox(0, 0, 4, 3)).tolist()
+        [[0, 0, 0, -1], [0, 0, -1, -1], [0, -1, -1, -1]]
     """
     ids = np.full(box.height * box.width, -1, dtype=np.int32)
     fragments = rasterise(points, triangles, box)
@@ -194,6 +200,13 @@ def interpolate(
 
     Returns:
         Values, shape [k, box height, box width].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import PixelBox, interpolate
+        >>> corners = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])
+        >>> interpolate(corners, np.array([[0, 1, 2]]), corners[:, :1], PixelBox(0, 0, 3, 1)).tolist()
+        [[[0.5, 1.5, 2.5]]]
     """
     fragments = rasterise(points, triangles, box)
     spread = fragments.spread(*affine_per_triangle(points, triangles, values))

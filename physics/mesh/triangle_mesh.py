@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..checks import is_whole
 from ..errors import InvalidInputError, require
+from .boundary import boundary_edges, half_edges, on_boundary
 
 __all__ = ["UNITS_ACROSS", "TriangleMesh"]
 
@@ -43,6 +44,12 @@ class TriangleMesh:
         triangles: vertex indices, int32, shape [t, 3].
         width: width of the illustration [px].
         height: height of the illustration [px].
+
+    Examples:
+        >>> from physanimator.physics.mesh import TriangleMesh
+        >>> mesh = TriangleMesh([[1, 1], [9, 1], [9, 9], [1, 9]], [[0, 1, 2], [0, 2, 3]], width=10, height=10)
+        >>> mesh.areas.tolist(), len(mesh.edges), len(mesh.boundary_edges)
+        ([32.0, 32.0], 5, 4)
     """
 
     vertices: FloatArray
@@ -95,22 +102,17 @@ class TriangleMesh:
     @cached_property
     def edges(self) -> IndexArray:
         """Every edge once, lower index first, shape [e, 2]."""
-        return np.unique(np.sort(self._half_edges, axis=1), axis=0).astype(np.int32)
+        return np.unique(np.sort(half_edges(self.triangles), axis=1), axis=0).astype(np.int32)
 
     @cached_property
     def boundary_edges(self) -> IndexArray:
         """Edges of exactly one triangle, in that triangle's winding, shape [b, 2]."""
-        half = self._half_edges
-        _, inverse, counts = np.unique(np.sort(half, axis=1), axis=0, return_inverse=True, return_counts=True)
-        return half[counts[inverse.reshape(-1)] == 1]
+        return boundary_edges(self.triangles)
 
     @cached_property
     def boundary_triangles(self) -> IndexArray:
         """The triangle to which each of ``boundary_edges`` belongs, shape [b]."""
-        half = np.sort(self._half_edges, axis=1)
-        _, inverse, counts = np.unique(half, axis=0, return_inverse=True, return_counts=True)
-        owner = np.tile(np.arange(len(self.triangles), dtype=np.int32), 3)
-        return owner[counts[inverse.reshape(-1)] == 1]
+        return np.tile(np.arange(len(self.triangles), dtype=np.int32), 3)[on_boundary(half_edges(self.triangles))]
 
     @cached_property
     def components(self) -> IndexArray:
@@ -135,11 +137,6 @@ class TriangleMesh:
         """The same shape over the illustration at another size."""
         scale = np.array([width / self.width, height / self.height])
         return TriangleMesh(self.vertices * scale, self.triangles, width, height)
-
-    @cached_property
-    def _half_edges(self) -> IndexArray:
-        t = self.triangles
-        return np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]])
 
 
 def _array_of(name: str, values: object, kind: type, shape: str) -> NDArray[Any]:

@@ -57,7 +57,19 @@ def motion_to_dict(motion: Motion, *, decimals: int = 3) -> dict[str, Any]:
 
 
 def motion_to_json(motion: Motion, *, decimals: int = 3) -> str:
-    """:func:`motion_to_dict` as JSON text without blanks."""
+    """:func:`motion_to_dict` as JSON text without blanks.
+
+    Examples:
+        >>> import json
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion, motion_to_json
+        >>> from physanimator.physics.scene import Body
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> sorted(json.loads(motion_to_json(motion)))
+        ['bodies', 'format', 'frame_rate', 'frames', 'height', 'version', 'width']
+    """
     return json.dumps(motion_to_dict(motion, decimals=decimals), separators=(",", ":"), ensure_ascii=False) + "\n"
 
 
@@ -78,7 +90,7 @@ def motion_to_svg(motion: Motion, *, background: str | None = None) -> str:
     ]
     if background is not None:
         lines.append(f'<image href={quoteattr(background)} {size} opacity="0.45"/>')
-    for number in layer_order(motion):
+    for number in layer_order(motion.bodies):
         lines += _group(motion, number)
     return "\n".join([*lines, "</svg>", ""])
 

@@ -7,7 +7,7 @@ on time, so one sparse matrix holds them for all frames.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from ..errors import require
 from ..mesh import PixelBox, barycentric, triangle_ids
+from ..scene import Body
 from .motion import Motion
 
 __all__ = ["FlowField", "FlowSequence", "layer_order"]
@@ -36,9 +37,19 @@ class FlowField:
     inside: NDArray[np.bool_]
 
 
-def layer_order(motion: Motion) -> list[int]:
-    """Numbers of the bodies from back to front: by layer, and of equal layers the later body in front."""
-    return sorted(range(len(motion.bodies)), key=lambda k: motion.bodies[k].layer)
+def layer_order(bodies: Sequence[Body]) -> list[int]:
+    """Numbers of bodies from back to front: by layer, and of equal layers the later body in front.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import layer_order
+        >>> from physanimator.physics.scene import Body
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> layer_order([Body(mesh, layer=2), Body(mesh, layer=1)])
+        [1, 0]
+    """
+    return sorted(range(len(bodies)), key=lambda number: bodies[number].layer)
 
 
 class FlowSequence:
@@ -48,6 +59,16 @@ class FlowSequence:
 
     Attributes:
         motion: whose flow it is.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import FlowSequence, Motion
+        >>> from physanimator.physics.scene import Body
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> FlowSequence(motion).flow(1).displacement[30, 30].round(3).tolist()
+        [3.0, 0.0]
     """
 
     def __init__(self, motion: Motion) -> None:
@@ -77,8 +98,8 @@ class FlowSequence:
     @cached_property
     def body(self) -> NDArray[np.int32]:
         """Number of the body that each pixel of the drawing belongs to, -1 for none, int32, shape [h, w]."""
-        sizes = [len(self.motion.bodies[k].mesh.triangles) for k in layer_order(self.motion)]
-        owner = np.repeat(layer_order(self.motion), sizes)
+        sizes = [len(self.motion.bodies[k].mesh.triangles) for k in layer_order(self.motion.bodies)]
+        owner = np.repeat(layer_order(self.motion.bodies), sizes)
         return _frozen(np.where(self._ids >= 0, owner[self._ids], -1).astype(np.int32))
 
     @cached_property
@@ -94,7 +115,9 @@ class FlowSequence:
     def _triangles(self) -> NDArray[np.int64]:
         """Triangles of all bodies from back to front, indexing the vertices of the motion, shape [t, 3]."""
         starts = np.cumsum([0] + [len(body.mesh.vertices) for body in self.motion.bodies])
-        return np.concatenate([self.motion.bodies[k].mesh.triangles + starts[k] for k in layer_order(self.motion)])
+        return np.concatenate(
+            [self.motion.bodies[k].mesh.triangles + starts[k] for k in layer_order(self.motion.bodies)]
+        )
 
     @cached_property
     def _ids(self) -> NDArray[np.int32]:

@@ -42,6 +42,16 @@ class Motion:
         positions: vertex positions [px], float32, shape [f, v, 2]; frame 0 is the drawing (rest), except in a loop.
         frame_rate: frames a second.
         loop: how well the motion repeats; None where it is no loop.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion
+        >>> from physanimator.physics.scene import Body
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> len(motion), motion.width, motion.of_body(0).shape == (2, len(mesh.vertices), 2)
+        (2, 60, True)
     """
 
     bodies: tuple[Body, ...]

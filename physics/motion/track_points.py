@@ -72,7 +72,7 @@ class BodyPoints:
 def stacked_triangles(motion: Motion) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Triangles of all bodies from back to front, indexing the motion's vertices, [t, 3]; and their bodies, [t]."""
     starts = np.cumsum([0] + [len(body.mesh.vertices) for body in motion.bodies])
-    order = layer_order(motion)
+    order = layer_order(motion.bodies)
     triangles = [motion.bodies[k].mesh.triangles.astype(np.int64) + starts[k] for k in order]
     return np.concatenate(triangles), np.repeat(order, [len(each) for each in triangles])
 

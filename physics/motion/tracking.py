@@ -105,6 +105,17 @@ def tracks(
 
     Raises:
         InvalidInputError: an option is out of its range, or no body can be seen in the first frame.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion, tracks
+        >>> from physanimator.physics.scene import Body
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> found = tracks(motion, points=4, static_points=2)
+        >>> found.path.shape
+        (2, 6, 2)
     """
     frames = len(motion) if frames is None else frames
     size = (motion.width if width is None else width, motion.height if height is None else height)
@@ -154,7 +165,7 @@ def _placed(motion: Motion, size: tuple[int, int], fit: Fit) -> tuple[FloatArray
 
 def _hidden(motion: Motion, followed: BodyPoints, positions: FloatArray, moved: FloatArray) -> NDArray[np.bool_]:
     """Whether each point lies in a triangle of a body in front of its own, shape [n]."""
-    rank = np.argsort(layer_order(motion))
+    rank = np.argsort(layer_order(motion.bodies))
     starts = np.cumsum([0] + [len(body.mesh.vertices) for body in motion.bodies])
     hidden = np.zeros(len(moved), dtype=bool)
     for number, body in enumerate(motion.bodies):

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..interruption import checkpoint
-from ..mesh import TriangleMesh
+from ..mesh import TriangleMesh, signed_distances
 from .easing import eased, eased_rate
 from .rig_point import Circle, Combined, KeyedPath, MaskRegion, Polygon, RigMotion, RigPoint, Wave
 
@@ -36,7 +36,6 @@ EDGE = 1e-6
 """Vertices that rounding puts this far outside a region still lie on its edge [px]."""
 
 
-_CORNERS_AT_ONCE = 64
 _ROWS_AT_ONCE = 64
 _PIXELS_OF_DISTANCES = 2**24  # of a scene's masks: of more, distances are measured on coarser ones
 
@@ -68,6 +67,14 @@ def vertices_of(rig_point: RigPoint, mesh: TriangleMesh | Points) -> NDArray[np.
 
     Returns:
         bool, shape [v].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.rig import Circle, RigPoint, vertices_of
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> bool(vertices_of(RigPoint((30, 30), Circle(60)), mesh).all())
+        True
     """
     region = rig_point.region
     if isinstance(region, Circle):
@@ -115,6 +122,14 @@ def leaders_of(rig_points: Sequence[RigPoint], mesh: TriangleMesh, *, body: int 
 
     Returns:
         int32, shape [v].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.rig import Circle, RigPoint, leaders_of
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> np.unique(leaders_of([RigPoint((10, 10), Circle(5))], mesh)).tolist()
+        [-1, 0]
     """
     leaders = np.full(len(mesh.vertices), -1, dtype=np.int32)
     for index, rig_point in enumerate(rig_points):
@@ -134,6 +149,11 @@ def displacement(motion: RigMotion, t: ArrayLike) -> FloatArray:
 
     Returns:
         [px], shape [2] or [n, 2].
+
+    Examples:
+        >>> from physanimator.physics.rig import Wave, displacement
+        >>> displacement(Wave(amplitude=20.0, period=2.0, direction=(1.0, 0.0)), 0.5).round(6).tolist()
+        [20.0, 0.0]
     """
     times = np.asarray(t, dtype=np.float64)
     if isinstance(motion, Combined):
@@ -178,20 +198,8 @@ def _outside_circle(centre: tuple[float, float], radius: float, points: FloatArr
 
 def _outside_polygon(corners: Sequence[tuple[float, float]], points: FloatArray) -> FloatArray:
     """Distance of each point from a polygon filled by the even-odd rule [px], 0 inside, shape [n]."""
-    x, y = points.T
-    nearest = np.full(len(points), np.inf)
-    inside = np.zeros(len(points), dtype=bool)
-    for number, ((ax, ay), (bx, by)) in enumerate(zip(corners, (*corners[1:], corners[0]), strict=True)):
-        if number % _CORNERS_AT_ONCE == _CORNERS_AT_ONCE - 1:
-            checkpoint()
-        ux, uy = bx - ax, by - ay
-        squared = ux * ux + uy * uy
-        along = np.clip(((x - ax) * ux + (y - ay) * uy) / squared, 0.0, 1.0) if squared > 0 else 0.0
-        nearest = np.minimum(nearest, np.hypot(x - ax - along * ux, y - ay - along * uy))
-        if uy != 0:
-            crosses = (ay > y) != (by > y)
-            inside ^= crosses & (x < ax + (y - ay) * (ux / uy))
-    return np.where(inside, 0.0, nearest)
+    starts = np.array(corners)
+    return np.maximum(signed_distances(points, starts, np.roll(starts, -1, axis=0)), 0.0)
 
 
 def _in_mask(mask: NDArray[np.bool_], mesh: TriangleMesh | Points) -> NDArray[np.bool_]:

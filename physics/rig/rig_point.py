@@ -262,6 +262,12 @@ class RigPoint:
     """A point whose region is held or led.
 
     Several motions at once may be given as a tuple.
+
+    Examples:
+        >>> from physanimator.physics.rig import Circle, KeyedPath, RigPoint
+        >>> hand = RigPoint((40, 20), Circle(12), KeyedPath(times=(0, 1), points=((40, 20), (60, 20))))
+        >>> hand.motion.easing
+        'smooth'
     """
 
     position: Annotated[Point, point_field("Position", "Where the rig point is drawn.")]

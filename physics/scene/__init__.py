@@ -9,12 +9,9 @@ from .collider_outlines import (
     MAX_OUTLINE_CROSSINGS,
     OutlineCounts,
     count_outlines,
-    crossed,
     outlines,
-    segment_distances,
     spacing_of,
     window_of,
-    within_reach,
 )
 from .collision import Collider, Contact
 from .holds import Holds, holds_of, region_work
@@ -40,14 +37,11 @@ __all__ = [
     "automatic_scene",
     "check_scene_rate",
     "count_outlines",
-    "crossed",
     "holds_of",
     "mask_advice",
     "outlines",
     "region_work",
-    "segment_distances",
     "spacing_of",
     "unused_rig_points",
     "window_of",
-    "within_reach",
 ]

@@ -28,6 +28,16 @@ def advice(scene: Scene, *, masks: bool = True) -> list[str]:
     Args:
         scene: the scene.
         masks: whether to speak of its masks, too; false where that was done when they were read.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.rig import Circle, RigPoint
+        >>> from physanimator.physics.scene import Body, Scene, advice
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> for line in advice(Scene((Body(mesh),), rig_points=(RigPoint((58, 58), Circle(1)),))):
+        ...     print(line)
+        rig_points[0] touches no body: its region of radius 1 px lies 10.6 px away; a radius of 12 px would reach it
     """
     return [*(inverted_masks(scene) if masks else ()), *unused_rig_points(scene), *loose_parts(scene)]
 

@@ -89,6 +89,15 @@ def automatic_scene(
 
     Raises:
         InvalidInputError: no body, or a number of sides that fits neither one nor all bodies.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.scene import Body, automatic_scene
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> scene = automatic_scene([Body(mesh)], attach="top", wind_strength=1.5)
+        >>> len(scene.rig_points), len(scene.strokes)
+        (1, 2)
     """
     require("bodies", len(bodies), len(bodies) > 0, "at least one")
     sides = [attach] * len(bodies) if isinstance(attach, str) else list(attach)

@@ -22,6 +22,11 @@ class Contact:
     """How bodies touch. Those that overlap as drawn keep their overlap, until they come apart.
 
     Friction is Coulomb's coefficient. Half of the thickness gives way under pressure.
+
+    Examples:
+        >>> from physanimator.physics.scene import Contact
+        >>> Contact(friction=0.5, self_contact=True).thickness
+        1.5
     """
 
     friction: Annotated[
@@ -61,6 +66,11 @@ class Collider:
 
     It acts where the scene has a ``Contact``.
 
+    Examples:
+        >>> from physanimator.physics.rig import Polygon
+        >>> from physanimator.physics.scene import Collider
+        >>> len(Collider(Polygon(((0, 50), (60, 50), (60, 60), (0, 60)))).region.points)
+        4
     """
 
     region: Annotated[Shape, shape_field("The shape: a polygon or a painted mask.")]

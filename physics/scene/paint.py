@@ -23,7 +23,14 @@ def _factor(title: str, about: str) -> Field:
 @described
 @dataclass(frozen=True)
 class Paint:
-    """Factors on the material of what lies in a region; a triangle that lies in it in part takes a part of them."""
+    """Factors on the material of what lies in a region; a triangle that lies in it in part takes a part of them.
+
+    Examples:
+        >>> from physanimator.physics.rig import Polygon
+        >>> from physanimator.physics.scene import Paint
+        >>> Paint(Polygon(((10, 10), (50, 10), (50, 20))), stiffness=4.0).damping
+        1.0
+    """
 
     region: Annotated[Shape, shape_field("Where: a polygon or a painted mask.")]
     stiffness: Annotated[

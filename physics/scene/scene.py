@@ -69,7 +69,17 @@ def _checked_gravity(name: str, value: object) -> tuple[float, ...]:
 @described
 @dataclass(frozen=True, eq=False)
 class Body:
-    """One deformable thing."""
+    """One deformable thing.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.material import preset
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.scene import Body
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> Body(mesh, preset("cloth"), layer=1, name="skirt").layer
+        1
+    """
 
     mesh: Annotated[TriangleMesh, _one_of(TriangleMesh, "Mesh", "Its shape.", "a TriangleMesh")]
     material: Annotated[Material, _one_of(Material, "Material", "What it is made of.", "a Material")] = field(
@@ -101,6 +111,16 @@ class Scene:
     All bodies lie over an illustration of one size. Under gravity held bodies stay as drawn until something else acts,
     and swing more stiffly (hanging) or softly (standing); where they sag, it acts on the drawing as on an undeformed
     shape. In a loop frame 0 is not the drawing but a state that comes again after it (see ``loop.periodic``).
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.forces import EnergyStroke, Wind
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.scene import Body, Scene
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> scene = Scene((Body(mesh),), strokes=(EnergyStroke(path=((0, 30), (60, 30))),), wind=Wind())
+        >>> scene.width, scene.height, scene.frame_rate
+        (60, 60, 24.0)
     """
 
     bodies: Annotated[

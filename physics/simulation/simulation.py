@@ -84,6 +84,16 @@ def simulate(
         InvalidInputError: ``frames`` is below 1.
         SimulationError: the work would be more than is accepted, a position is no finite number, or a scene that shall
             loop does not.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.scene import Body, automatic_scene
+        >>> from physanimator.physics.simulation import simulate
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = simulate(automatic_scene([Body(mesh)]), frames=3)
+        >>> motion.positions.shape == (3, len(mesh.vertices), 2)
+        True
     """
     if scene.loop is not None:
         cyclic = periodic(scene)

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.mesh import PixelBox, TriangleMesh, barycentric, bounding_box, rasterise, triangle_ids
+from ..pictures import nearest_pixels
 
 __all__ = ["ApronedMesh", "canvas_of"]
 
@@ -161,12 +161,8 @@ class _Boundary:
         column, row = (np.floor(points) - (canvas.left, canvas.top)).astype(np.int64).T
         seeds = np.full((canvas.height, canvas.width), -1, dtype=np.int64)
         seeds[row, column] = edge
-        distance, labels = cv2.distanceTransformWithLabels(
-            (seeds < 0).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
-        )
-        numbers = np.zeros(int(labels.max()) + 1, dtype=np.int64)
-        numbers[labels[seeds >= 0]] = seeds[seeds >= 0]
-        return np.asarray(distance, dtype=np.float32), numbers[labels]
+        distance, nearest = nearest_pixels(seeds >= 0)
+        return distance, seeds.ravel()[nearest]
 
     def _successors(self) -> IndexArray:
         """Number of an edge that starts where each edge ends; every edge follows exactly one."""

@@ -65,6 +65,11 @@ def background_of(text: str) -> Background:
 
     Raises:
         InvalidInputError: it is none of these.
+
+    Examples:
+        >>> from physanimator.rendering.composite import background_of
+        >>> background_of("transparent").kind, background_of("#ff0000").colour
+        ('transparent', (255, 0, 0))
     """
     from PIL import ImageColor
 

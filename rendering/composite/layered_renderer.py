@@ -35,6 +35,22 @@ class LayeredRenderer:
     Attributes:
         motion: what is drawn.
         plate: the illustration without its bodies, uint8 or float32 in its channels, shape [h, w, 3] or [h, w, 4].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.composite import LayeredRenderer
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mask = np.pad(np.ones((40, 40)), 10)
+        >>> mesh = mesh_from_mask(mask, spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> renderer = LayeredRenderer(picture, [mask], motion)
+        >>> frame = renderer.frame(1)
+        >>> len(renderer), frame.shape, frame[30, 51].tolist(), picture[30, 51].tolist()
+        (2, (60, 60, 3), [200, 60, 40], [230, 230, 230])
     """
 
     def __init__(
@@ -68,7 +84,7 @@ class LayeredRenderer:
             if plate.shape[:2] != image.shape[:2]:
                 raise InvalidInputError(f"plate must have the image's size {image.shape[:2]}. Got: {plate.shape[:2]}")
         self.motion = motion
-        self._order = layer_order(motion)
+        self._order = layer_order(motion.bodies)
         background, self._layers = apart(
             take_sprite_apart if is_transparent(image) else take_apart,
             as_float(image),

@@ -9,14 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...physics.errors import InvalidInputError, require
 from ...physics.mesh import PixelBox, TriangleMesh, bounding_box, coverage_of, fitted, interpolate, triangle_ids
 from ...physics.motion import Motion, layer_order
-from ..pictures import check_picture, is_transparent
+from ..pictures import check_picture, is_transparent, nearest_pixels
 from .apron import ApronedMesh, canvas_of
 from .beyond_border import on_canvas
 
@@ -43,6 +42,21 @@ class PixelArtRenderer:
         motion: what is drawn.
         plate: the illustration without its bodies, in its dtype and channels, shape [h, w, 3] or [h, w, 4].
         block: width and height of what moves as one pixel [px].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.composite import PixelArtRenderer
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mask = np.pad(np.ones((40, 40)), 10)
+        >>> mesh = mesh_from_mask(mask, spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> frame = PixelArtRenderer(picture, [mask], motion).frame(1)
+        >>> len(np.unique(frame.reshape(-1, 3), axis=0))
+        2
     """
 
     def __init__(
@@ -67,7 +81,7 @@ class PixelArtRenderer:
         )
         require("masks", len(masks), len(masks) == len(motion.bodies), f"one for each of {len(motion.bodies)} bodies")
         self.motion, self.block = motion, block_size(image)
-        self._order = layer_order(motion)
+        self._order = layer_order(motion.bodies)
         self._image = self._blocks(image)
         wanted = {k: self._blocks(fitted(coverage_of(masks[k]), width, height)) > 0.5 for k in self._order}
         carried = {k: _CarriedPixels(motion.bodies[k].mesh, wanted[k], self.block) for k in self._order}
@@ -75,7 +89,7 @@ class PixelArtRenderer:
         if plate is None:
             self._behind = pixel_plate(self._image, np.logical_or.reduce(inside))
         else:
-            self._behind = self._blocks(_like(plate, image))
+            self._behind = self._blocks(_in_channels_of(plate, image))
         self.plate = self._enlarged(self._behind)
         self._layers = []
         for number, k in enumerate(self._order):
@@ -207,7 +221,7 @@ class _CarriedPixels:
 
 def _own_pixels(inside: Mask, visible: Mask) -> Places:
     """Which pixel stands for each of a body's: itself, or the nearest one that is not hidden; -1 elsewhere."""
-    return np.where(inside, _nearest(visible if visible.any() else inside), np.int32(-1))
+    return np.where(inside, nearest_pixels(visible if visible.any() else inside)[1], np.int32(-1))
 
 
 def block_size(image: NDArray[Any]) -> int:
@@ -262,20 +276,10 @@ def pixel_plate(image: NDArray[Any], hole: Mask) -> NDArray[Any]:
     """
     if hole.all():
         raise InvalidInputError("masks must leave some of the picture as background. Got: they cover all of it")
-    return image.reshape(-1, image.shape[2])[_nearest(~hole)] if hole.any() else image.copy()
+    return image.reshape(-1, image.shape[2])[nearest_pixels(~hole)[1]] if hole.any() else image.copy()
 
 
-def _nearest(where: Mask) -> Places:
-    """Number of the nearest true pixel, counted row by row, shape [h, w]."""
-    _, labels = cv2.distanceTransformWithLabels(
-        (~where).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
-    )
-    numbers = np.zeros(int(labels.max()) + 1, dtype=np.int32)
-    numbers[labels[where]] = np.flatnonzero(where)
-    return numbers[labels]
-
-
-def _like(plate: NDArray[Any], image: NDArray[Any]) -> NDArray[Any]:
+def _in_channels_of(plate: NDArray[Any], image: NDArray[Any]) -> NDArray[Any]:
     """A plate with the image's channels."""
     if is_transparent(image) and not is_transparent(plate) and plate.dtype == image.dtype:
         opaque = 255 if plate.dtype == np.uint8 else 1

@@ -1,6 +1,6 @@
 """Clips that lead a video model: warped pictures with what is missing in them, moving lines, first and last frames.
 
-The model's node takes them as they are; see ``VideoFormat`` for their length and size.
+The model's node takes them as they are; see ``ModelFormat`` for their length and size.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ...physics.motion import FlowSequence, Motion
 from ..composite import LayeredRenderer
 from ..pictures import as_float
 from ..sketch import warp_sketch
-from .model_format import VideoFormat
+from .model_format import ModelFormat
 
 __all__ = ["first_and_last", "line_frames", "warped_frames"]
 
@@ -32,7 +32,7 @@ def warped_frames(
     image: NDArray[Any],
     masks: Sequence[ArrayLike],
     motion: Motion,
-    form: VideoFormat,
+    form: ModelFormat,
     *,
     plate: NDArray[Any] | None = None,
     grow: int = 4,
@@ -72,7 +72,7 @@ def warped_frames(
 
 
 def line_frames(
-    sketch: NDArray[Any], motion: Motion, form: VideoFormat, *, bright_lines: bool = True
+    sketch: NDArray[Any], motion: Motion, form: ModelFormat, *, bright_lines: bool = True
 ) -> Iterator[FloatImage]:
     """A line drawing that moves along with the bodies.
 
@@ -97,7 +97,7 @@ def first_and_last(
     image: NDArray[Any],
     masks: Sequence[ArrayLike],
     motion: Motion,
-    form: VideoFormat,
+    form: ModelFormat,
     *,
     first: int = 0,
     last: int = -1,
@@ -119,6 +119,21 @@ def first_and_last(
 
     Raises:
         InvalidInputError: there is no such frame, or the inputs do not fit together.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.control import ModelFormat, first_and_last
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mask = np.pad(np.ones((40, 40)), 10)
+        >>> mesh = mesh_from_mask(mask, spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> first, last = first_and_last(picture, [mask], motion, ModelFormat(width=64, height=64))
+        >>> first.shape
+        (64, 64, 3)
     """
     count = len(motion)
     for name, number in (("first_frame", first), ("last_frame", last)):

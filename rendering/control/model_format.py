@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from ...physics.errors import require
 from ...physics.motion import FITS, Fit, Motion, frame_at, sample_times
 from ...physics.number_checks import check_whole
-from ..overlays import fitted
+from ..overlays import reframed
 
-__all__ = ["FRAME_STEP", "SIZE_STEP", "VideoFormat"]
+__all__ = ["FRAME_STEP", "SIZE_STEP", "ModelFormat"]
 
 FRAME_STEP = 4
 """Wan makes four frames of each step of its latents, after the first one."""
@@ -22,7 +22,7 @@ SIZE_STEP = 16
 
 
 @dataclass(frozen=True)
-class VideoFormat:
+class ModelFormat:
     """Length and size of a clip for a video model.
 
     Attributes:
@@ -30,6 +30,12 @@ class VideoFormat:
         width: a multiple of 16 [px].
         height: a multiple of 16 [px].
         fit: how pictures come to that size: cut to their middle, as the host's nodes do, or stretched.
+
+    Examples:
+        >>> from physanimator.rendering.control import ModelFormat
+        >>> form = ModelFormat(frames=49, width=480, height=832, fit="stretch")
+        >>> form.frames, form.width
+        (49, 480)
     """
 
     frames: int = 81
@@ -63,4 +69,4 @@ class VideoFormat:
         Args:
             picture: uint8 or float, shape [h, w] or [h, w, 3].
         """
-        return fitted(picture, self.width, self.height, self.fit)
+        return reframed(picture, self.width, self.height, self.fit)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .backend import Clip, FloatImage, ModelFile, as_float, like
+from .backend import Clip, FloatImage, ModelFile
 from .interpolation import BACKENDS, DEFAULT_GAP, interpolate, keyframe_indices
 
 __all__ = [
@@ -11,8 +11,6 @@ __all__ = [
     "Clip",
     "FloatImage",
     "ModelFile",
-    "as_float",
     "interpolate",
     "keyframe_indices",
-    "like",
 ]

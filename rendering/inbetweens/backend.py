@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.motion import Motion
+from ..pictures import as_float
 
-__all__ = ["Clip", "Interpolator", "ModelFile", "as_float", "like"]
+__all__ = ["Clip", "Interpolator", "ModelFile"]
 
 FloatImage = NDArray[np.float32]
 
@@ -62,6 +63,12 @@ class Clip:
         height, width = self.keyframes[0].shape[:2]
         return width, height
 
+    def keyframe(self, number: int) -> FloatImage:
+        """A keyframe as float32 in 0..1."""
+        image = self.keyframes[number]
+        # Not as_float: its quotient may differ in the last bit, which decides to which level a mean of two is rounded.
+        return image.astype(np.float32) * np.float32(1 / 255) if image.dtype == np.uint8 else as_float(image)
+
     def times(self, number: int) -> list[tuple[int, float]]:
         """Frames between keyframe ``number`` and the next, each with its place between them in 0..1."""
         first, last = self.indices[number], self.indices[number + 1]
@@ -84,18 +91,3 @@ class Interpolator(Protocol):
     def in_betweens(self, clip: Clip, number: int) -> Iterator[NDArray[Any]]:
         """Yield the frames between keyframe ``number`` and the next, both excluded, in the keyframes' type."""
         ...
-
-
-def as_float(image: NDArray[Any]) -> FloatImage:
-    """A picture as float32 in 0..1."""
-    if image.dtype == np.uint8:
-        return image.astype(np.float32) * np.float32(1 / 255)
-    return np.ascontiguousarray(image, dtype=np.float32)
-
-
-def like(image: FloatImage, original: NDArray[Any]) -> NDArray[Any]:
-    """A float picture in the type of another one."""
-    image = np.clip(image, 0, 1)
-    if original.dtype == np.uint8:
-        return np.rint(image * 255).astype(np.uint8)
-    return image.astype(original.dtype, copy=False)

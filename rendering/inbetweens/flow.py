@@ -9,8 +9,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pictures import as_dtype, as_uint8
 from ..sketch import forward_warp
-from .backend import Clip, FloatImage, ModelFile, as_float, like
+from .backend import Clip, FloatImage, ModelFile
 
 __all__ = ["FlowInterpolator"]
 
@@ -45,10 +46,10 @@ class FlowInterpolator:
 
     def in_betweens(self, clip: Clip, number: int) -> Iterator[NDArray[Any]]:
         """Yield the frames between two keyframes."""
-        first, last = (as_float(clip.keyframes[number + k]) for k in (0, 1))
+        first, last = clip.keyframe(number), clip.keyframe(number + 1)
         times = clip.times(number)
         if len(times) >= _STRAIGHT:
-            yield from (like(_mixed(first, last, place), clip.keyframes[number]) for _, place in times)
+            yield from (as_dtype(_mixed(first, last, place), clip.keyframes[number].dtype) for _, place in times)
             return
         forth, back = _flow(first, last), _flow(last, first)
         ways = (forth, _consistency(forth, back)), (back, _consistency(back, forth))
@@ -56,7 +57,7 @@ class FlowInterpolator:
             picture = _mixed(first, last, place)
             there = _brought(first, last, place, _flow_at(place, *ways))
             picture += _trust(*there, first, last) * (_mixed(*there, place) - picture)
-            yield like(picture, clip.keyframes[number])
+            yield as_dtype(picture, clip.keyframes[number].dtype)
 
 
 def _mixed(first: FloatImage, last: FloatImage, place: float) -> FloatImage:
@@ -81,7 +82,7 @@ def _trust(one: FloatImage, other: FloatImage, first: FloatImage, last: FloatIma
 
 def _flow(start: FloatImage, end: FloatImage) -> FloatImage:
     """Displacement from one picture to another [px], shape [h, w, 2]."""
-    shown = (np.rint(picture[..., :3] * 255).astype(np.uint8) for picture in (start, end))
+    shown = (as_uint8(picture[..., :3]) for picture in (start, end))
     greys = [cv2.cvtColor(np.ascontiguousarray(picture), cv2.COLOR_RGB2GRAY) for picture in shown]
     if min(greys[0].shape) < 16:
         return np.zeros((*greys[0].shape, 2), np.float32)

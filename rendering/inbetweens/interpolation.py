@@ -18,8 +18,8 @@ from ...physics.errors import InvalidInputError, require
 from ...physics.mesh import coverage_of
 from ...physics.motion import Motion
 from ...physics.progress import Progress
-from ..pictures import as_picture, is_transparent, premultiplied, straight
-from .backend import Clip, Interpolator, ModelFile, as_float, like
+from ..pictures import as_dtype, as_picture, is_transparent, premultiplied, straight
+from .backend import Clip, Interpolator, ModelFile
 from .flow import FlowInterpolator
 from .motion import MotionInterpolator
 
@@ -48,9 +48,9 @@ class BlendInterpolator:
 
     def in_betweens(self, clip: Clip, number: int) -> Iterator[NDArray[Any]]:
         """Yield the weighted mean of both keyframes for every frame between them."""
-        first, last = as_float(clip.keyframes[number]), as_float(clip.keyframes[number + 1])
+        first, last = clip.keyframe(number), clip.keyframe(number + 1)
         for _, place in clip.times(number):
-            yield like(first + np.float32(place) * (last - first), clip.keyframes[number])
+            yield as_dtype(first + np.float32(place) * (last - first), clip.keyframes[number].dtype)
 
 
 BACKENDS: dict[str, Interpolator] = {
@@ -66,6 +66,11 @@ def keyframe_indices(count: int, every: int = DEFAULT_GAP, *, at: Sequence[int] 
         count: number of frames of the clip.
         every: frames from one keyframe to the next.
         at: frame numbers of the keyframes, instead.
+
+    Examples:
+        >>> from physanimator.rendering.inbetweens import keyframe_indices
+        >>> keyframe_indices(20, every=8)
+        [0, 8, 16, 19]
     """
     require("count", count, count >= 1, "at least 1 frame")
     require("every", every, every >= 1, "at least 1 frame")
@@ -108,6 +113,13 @@ def interpolate(
     Raises:
         InvalidInputError: keyframes and indices do not belong together, the backend is unknown, or its files are
             missing.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.inbetweens import interpolate
+        >>> keyframes = [np.full((8, 8, 3), level, np.uint8) for level in (0, 200)]
+        >>> [int(frame[0, 0, 0]) for frame in interpolate(keyframes, [0, 4], backend="blend")]
+        [0, 50, 100, 150, 200]
     """
     require("keyframes", f"{len(keyframes)}", len(keyframes) >= 1, "at least one")
     keyframes = [as_picture(keyframe, name=f"keyframes[{k}]", alpha=True) for k, keyframe in enumerate(keyframes)]
@@ -136,7 +148,7 @@ def _frames(
         if number + 1 < len(keyframes):
             between = backend.in_betweens(clip, number)
         if is_transparent(keyframe):
-            between = (like(straight(each), keyframe) for each in between)
+            between = (as_dtype(straight(each), keyframe.dtype) for each in between)
         for frame in _chain(keyframe, between):
             done += 1
             yield frame

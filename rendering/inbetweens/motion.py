@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from ...physics.errors import InvalidInputError
 from ...physics.mesh import PixelBox, bounding_box, interpolate, triangle_ids
 from ...physics.motion import Motion, layer_order
-from .backend import Clip, FloatImage, ModelFile, as_float, like
+from ..pictures import as_dtype, nearest_pixels
+from .backend import Clip, FloatImage, ModelFile
 
 __all__ = ["MotionInterpolator"]
 
@@ -43,10 +44,10 @@ class MotionInterpolator:
         masks = [_resized(mask, clip.size) for mask in clip.masks]
         for frame, place in clip.times(number):
             picture = np.where(hidden[..., None], plate, _mixed(first, last, place))
-            for rank, body in enumerate(layer_order(first.motion)):
+            for rank, body in enumerate(layer_order(first.motion.bodies)):
                 mask = masks[body] if masks else None
                 _draw_body(picture, _BodyPose(clip, body, rank, frame), first, last, place, mask)
-            yield like(picture, clip.keyframes[number])
+            yield as_dtype(picture, clip.keyframes[number].dtype)
 
 
 def _motion_of(clip: Clip) -> Motion:
@@ -60,7 +61,7 @@ class _Keyframe:
 
     def __init__(self, clip: Clip, number: int) -> None:
         self.motion = _motion_of(clip)
-        self.picture = as_float(clip.keyframes[number])
+        self.picture = clip.keyframe(number)
         self.frame = clip.indices[number]
         self.rank = _ranks(clip, self.frame)
         self.free = _widened(self.rank >= 0) == 0
@@ -77,7 +78,7 @@ def _ranks(clip: Clip, frame: int) -> NDArray[np.int32]:
     """Which body, counted from the back, covers each pixel in front; -1 for none, shape [h, w]."""
     motion, (width, height) = _motion_of(clip), clip.size
     ranks, picture = np.full((height, width), -1, dtype=np.int32), PixelBox(0, 0, width, height)
-    for rank, body in enumerate(layer_order(motion)):
+    for rank, body in enumerate(layer_order(motion.bodies)):
         ids = triangle_ids(_positions(clip, body, frame), motion.bodies[body].mesh.triangles, picture)
         ranks[ids >= 0] = rank
     return ranks
@@ -105,13 +106,9 @@ def _plate(clip: Clip, number: int, first: _Keyframe, last: _Keyframe) -> FloatI
         known |= new
     if not known.any() or known.all():
         return picture
-    _, labels = cv2.distanceTransformWithLabels(
-        (~known).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
-    )
-    colours = np.zeros((labels.max() + 1, picture.shape[2]), np.float32)
-    colours[labels[known]] = picture[known]
+    nearest = picture.reshape(-1, picture.shape[2])[nearest_pixels(known)[1]]
     # Streaks from single pixels are smoothed away.
-    filled = cv2.GaussianBlur(colours[labels], (0, 0), 3)
+    filled = cv2.GaussianBlur(nearest, (0, 0), 3)
     return np.where(known[..., None], picture, filled)
 
 

@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pictures import nearest_pixels
 from .mask_edges import SQUARE
 
 __all__ = ["explained", "found_shape"]
@@ -83,13 +84,7 @@ def _middle(depth: FloatImage) -> Mask:
 def explained(image: FloatImage, band: Mask, side: Mask) -> FloatImage:
     """How well the colours of one side explain each pixel of the band, 0 to 1, shape [n]."""
     height, width = band.shape
-    _, labels = cv2.distanceTransformWithLabels(
-        (~side).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
-    )
-    places = np.zeros(int(labels.max()) + 1, dtype=np.int64)
-    at = np.flatnonzero(side)
-    places[labels.ravel()[at]] = at
-    nearest = places[labels]
+    nearest = nearest_pixels(side)[1]
     row, column = np.divmod(nearest[band], width)
     random = np.random.default_rng(0)
     spans = np.repeat([_NEAR, _FAR], _SAMPLES // 2)[:, None]

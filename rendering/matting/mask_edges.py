@@ -6,6 +6,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pictures import nearest_pixels
+
 __all__ = [
     "CROSS",
     "FAINT",
@@ -85,12 +87,7 @@ def inner_colour(image: FloatImage, support: Mask) -> FloatImage:
     depth = cv2.distanceTransform(support.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     ridge = cv2.dilate(depth, SQUARE) == depth
     core = support & ((depth >= 2) | ridge)
-    _, labels = cv2.distanceTransformWithLabels(
-        (~core).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
-    )
-    colours = np.zeros((int(labels.max()) + 1, 3), dtype=np.float32)
-    colours[labels[core]] = image[core]
-    return colours[labels]
+    return image.reshape(-1, 3)[nearest_pixels(core)[1]]
 
 
 def trusted(given: NDArray[np.float32], share: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -45,6 +45,15 @@ def part_mesh(image: NDArray[Any], mask: NDArray[Any], *, spacing: float | None 
 
     Raises:
         InvalidInputError: the mask gives no mesh.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.matting import part_mesh
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mesh = part_mesh(picture, np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> mesh.width, mesh.height
+        (60, 60)
     """
     shown = shown_part(image, mask)
     if ((shown > _HALF) == (np.asarray(mask) > _HALF)).all():

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..pictures import window_around
+from ..pictures import nearest_pixels, window_around
 from .edge_search import found_shape
 from .lost_strands import lost_strands
 from .mask_edges import CROSS, FAINT, SQUARE, edge_strength, grown, mean_near
@@ -79,6 +79,16 @@ def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
 
     Returns:
         The mask in 0 to 1, shape [h, w].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.matting import regular_mask
+        >>> picture = np.ones((60, 60, 3), np.float32)
+        >>> picture[10:50, 10:50] = (0.8, 0.2, 0.1)
+        >>> mask = np.zeros((60, 60), np.float32)
+        >>> mask[12:48, 12:48] = 1
+        >>> regular_mask(picture, mask).shape
+        (60, 60)
     """
     mask = _up_to_white(mask)
     if not (mask > _HALF).any() or (mask > _HALF).all():
@@ -175,12 +185,7 @@ def _edge_of(mask: FloatImage) -> _Edge:
     # So many soft pixels there are for each of the edge.
     there = cv2.GaussianBlur(line.astype(np.float32), (0, 0), 5.0)
     local = cv2.GaussianBlur(soft, (0, 0), 5.0) / np.maximum(there, np.float32(1e-3))
-    _, labels = cv2.distanceTransformWithLabels(
-        (~line).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
-    )
-    widths = np.zeros(int(labels.max()) + 1, dtype=np.float32)
-    widths[labels[line]] = local[line]
-    return _Edge(inside, line, widths[labels])
+    return _Edge(inside, line, np.where(line, local, np.float32(0)).ravel()[nearest_pixels(line)[1]])
 
 
 def _up_to_white(mask: FloatImage) -> FloatImage:

@@ -37,7 +37,7 @@ class RestMaps:
         self.flow = FlowSequence(motion)
         starts = np.cumsum([0] + [len(body.mesh.vertices) for body in motion.bodies])
         self._rest = np.concatenate([body.mesh.vertices for body in motion.bodies])
-        order = layer_order(motion)
+        order = layer_order(motion.bodies)
         self._triangles = np.concatenate([motion.bodies[k].mesh.triangles + starts[k] for k in order])
         self._box = PixelBox(0, 0, motion.width, motion.height)
 

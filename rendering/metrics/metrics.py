@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...physics.errors import InvalidInputError, require
 from ...physics.motion import Motion
 from ...physics.progress import Progress
-from ..pictures import as_float, as_picture
+from ..pictures import as_float, as_picture, as_uint8
 from ..sketch import extract_sketch
 from .flow_warp_error import FlowWarpError, RestMaps
 from .sketch_distance import chamfer_distance
@@ -80,6 +80,20 @@ def measure_clip(
 
     Raises:
         InvalidInputError: sizes or numbers do not fit together.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.metrics import measure_clip
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> measured = measure_clip([picture, picture], motion)
+        >>> measured.hole_ratio > 0, measured.as_dict()["dynamic_degree"]
+        (True, 0.0)
     """
     count = len(motion)
     driving = None if sketches is None else iter(sketches)
@@ -155,7 +169,7 @@ class DynamicDegree:
         self._degrees: list[float] = []
 
     def add(self, frame: FloatImage) -> None:
-        grey = cv2.cvtColor(np.rint(np.clip(frame, 0, 1) * 255).astype(np.uint8), cv2.COLOR_RGB2GRAY)
+        grey = cv2.cvtColor(as_uint8(frame), cv2.COLOR_RGB2GRAY)
         if self._previous is not None and min(grey.shape) >= _LEAST_SIDE:
             flow = cv2.DISOpticalFlow_create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM).calc(self._previous, grey, None)
             lengths = np.sort(np.hypot(flow[..., 0], flow[..., 1]), axis=None)

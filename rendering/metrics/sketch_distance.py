@@ -25,6 +25,14 @@ def chamfer_distance(first: NDArray[Any], second: NDArray[Any], *, limit: float 
 
     Raises:
         InvalidInputError: the shapes differ.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.metrics import chamfer_distance
+        >>> first, second = np.ones((2, 20, 20), np.float32)
+        >>> first[:, 8], second[:, 10] = 0, 0
+        >>> chamfer_distance(first, second)
+        2.0
     """
     shapes = f"shapes {np.shape(first)} and {np.shape(second)}"
     require("sketches", shapes, np.ndim(first) == 2 and np.shape(first) == np.shape(second), "of one shape [h, w]")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .configuration import FromValues
 from .working_size import LARGEST_AREA, SMALLEST_AREA, TRAINED_HEIGHT, TRAINED_WIDTH, Frame
 
 __all__ = [
@@ -10,4 +11,5 @@ __all__ = [
     "TRAINED_HEIGHT",
     "TRAINED_WIDTH",
     "Frame",
+    "FromValues",
 ]

@@ -19,7 +19,15 @@ from torch import Tensor, nn
 
 from ...physics.errors import InvalidInputError
 
-__all__ = ["CheckpointError", "assign", "below", "build_without_storage", "check_names", "read_checkpoint"]
+__all__ = [
+    "CheckpointError",
+    "assign",
+    "below",
+    "build_without_storage",
+    "check_names",
+    "network_of",
+    "read_checkpoint",
+]
 
 Network = TypeVar("Network", bound=nn.Module)
 
@@ -94,6 +102,34 @@ def assign(network: nn.Module, tensors: Mapping[str, Tensor], *, file: str, want
     network.load_state_dict(dict(tensors), strict=True, assign=True)
     network.requires_grad_(False)
     network.eval()
+
+
+def network_of(
+    build: Callable[[], Network],
+    state_dict: Mapping[str, Any],
+    *,
+    wanted: str,
+    file: str = "the state dict",
+    prefix: str = "",
+    dtype: torch.dtype | None = None,
+) -> Network:
+    """A network with the weights of a state dict; tensors already of the wanted type are not copied.
+
+    Args:
+        build: makes the network, whose parameters and buffers name what is expected.
+        state_dict: tensors or arrays by name.
+        wanted: which file this should be, for messages.
+        file: where they come from, for messages.
+        prefix: only tensors whose names start with it count, by the rest of their names.
+        dtype: of the weights; as they come by default.
+
+    Raises:
+        CheckpointError: a name is missing, too many, or its tensor has another shape.
+    """
+    network = build_without_storage(build)
+    tensors = below({name: torch.as_tensor(value) for name, value in state_dict.items()}, prefix)
+    assign(network, tensors, file=file, wanted=wanted)
+    return network if dtype is None else network.to(dtype)
 
 
 def check_names(

@@ -36,6 +36,12 @@ def flow_to_color(
 
     Returns:
         RGB, uint8, shape [h, w, 3].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.overlays import flow_to_color
+        >>> flow_to_color(np.full((2, 3, 2), (5.0, 0.0))).shape
+        (2, 3, 3)
     """
     shape = displacement.shape
     require("displacement", f"shape {shape}", len(shape) == 3 and shape[2] == 2, "of shape [h, w, 2]")

@@ -59,6 +59,16 @@ def draw_wireframe(image: NDArray[Any], mesh: TriangleMesh, positions: ArrayLike
 
     Returns:
         A new picture of the same size and type.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.rendering.overlays import draw_wireframe
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> bool((draw_wireframe(picture, mesh) != picture).any())
+        True
     """
     canvas = _canvas(image)
     points = mesh.vertices if positions is None else np.asarray(positions, dtype=np.float64)
@@ -108,6 +118,16 @@ def draw_strokes(
         strokes: wind in blue, repel in orange, attract in green.
         t: time at which the particles are shown, each with the disc on which it acts [s].
         scale: picture's size over the illustration's, a number or (x, y).
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.forces import EnergyStroke
+        >>> from physanimator.rendering.overlays import draw_strokes
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> shown = draw_strokes(picture, [EnergyStroke(path=((5, 30), (55, 30)), radius=20.0)], t=0.2)
+        >>> bool((shown != picture).any())
+        True
     """
     canvas, scale = _canvas(image), np.asarray(scale, dtype=np.float64)
     unit = _unit(canvas)
@@ -142,6 +162,19 @@ def preview(
         wireframe: show the meshes.
         rig: show the rig points.
         strokes: show the strokes and their particles.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion
+        >>> from physanimator.physics.scene import Body, Scene
+        >>> from physanimator.rendering.overlays import preview
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> preview(picture, motion, Scene(motion.bodies), frame=1).shape
+        (60, 60, 3)
     """
     require("frame", frame, 0 <= frame < len(motion), f"0 to {len(motion) - 1}")
     picture, t = _canvas(image), frame / motion.frame_rate

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from ...physics.errors import require
 from ...physics.motion import Fit, Tracks
-from ..pictures import as_picture, as_uint8
+from ..pictures import as_float, as_picture, as_uint8
 
-__all__ = ["draw_tracks", "fitted"]
+__all__ = ["draw_tracks", "reframed"]
 
 _BITS = 4  # cv2 takes coordinates in sixteenths of a pixel
 _DARK = (20, 20, 30)
@@ -21,7 +21,7 @@ _GREY = (200, 205, 215)
 _STILL = 0.5  # [px]: a track that spans less does not move
 
 
-def fitted(image: NDArray[Any], width: int, height: int, fit: Fit) -> NDArray[Any]:
+def reframed(image: NDArray[Any], width: int, height: int, fit: Fit) -> NDArray[Any]:
     """A picture brought to another size as tracks are.
 
     Args:
@@ -57,6 +57,19 @@ def draw_tracks(image: NDArray[Any], tracks: Tracks, sample: int, *, tail: int =
 
     Returns:
         A new picture of the same size and type.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import Motion, tracks
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.overlays import draw_tracks
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> draw_tracks(picture, tracks(motion, points=4, static_points=0), sample=1).dtype
+        dtype('uint8')
     """
     require("sample", sample, 0 <= sample < len(tracks), f"0 to {len(tracks) - 1}")
     image = as_picture(image)
@@ -72,7 +85,7 @@ def draw_tracks(image: NDArray[Any], tracks: Tracks, sample: int, *, tail: int =
     for number, colour in enumerate(colours):
         radius = unit * (3.5 if colour == _GREY else 5.5)
         _dot(canvas, path[sample, number], colour, radius, filled=bool(tracks.visibility[sample, number]))
-    return canvas if image.dtype == np.uint8 else (canvas / 255).astype(image.dtype)
+    return canvas if image.dtype == np.uint8 else as_float(canvas)
 
 
 def _colours(path: NDArray[np.float64]) -> list[tuple[int, int, int]]:

@@ -7,8 +7,9 @@ from .clip_reading import read_clip
 from .frame_folder import frames_in, is_frame_name
 from .frame_record import RECORD
 from .images import check_image_output, data_address, load_image, load_mask, save_image
+from .nearest import nearest_pixels
 from .pixel_windows import window_around
-from .pixels import as_dtype, as_float, as_picture, as_uint8, check_picture
+from .pixels import as_dtype, as_float, as_grey, as_picture, as_uint8, check_picture
 from .premultiplication import premultiplied, resized, straight
 from .transparency import WHITE, Colour, is_transparent, over
 from .video import FORMATS, check_output, holds_alpha, write_animation
@@ -20,6 +21,7 @@ __all__ = [
     "Colour",
     "as_dtype",
     "as_float",
+    "as_grey",
     "as_picture",
     "as_uint8",
     "carried_on",
@@ -33,6 +35,7 @@ __all__ = [
     "is_transparent",
     "load_image",
     "load_mask",
+    "nearest_pixels",
     "over",
     "premultiplied",
     "read_clip",

@@ -10,6 +10,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from .pixels import as_float
+
 __all__ = ["bled", "carried_on"]
 
 FloatImage = NDArray[np.float32]
@@ -54,5 +56,5 @@ def bled(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
     alpha = picture[..., 3]
     if alpha.min() > 0:
         return picture
-    colours = carried_on(picture[..., :3].astype(np.float32), alpha / np.float32(255))
+    colours = carried_on(picture[..., :3].astype(np.float32), as_float(alpha))
     return np.dstack([np.rint(colours).astype(np.uint8), alpha])

@@ -41,6 +41,17 @@ def load_image(path: StrPath, *, alpha: bool = False) -> NDArray[np.uint8]:
 
     Raises:
         InvalidInputError: there is no such file, it is no picture, it is damaged or it is too large.
+
+    Examples:
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import load_image, save_image
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     save_image(Path(folder, "red.png"), np.full((4, 6, 3), (255, 0, 0), np.uint8))
+        ...     picture = load_image(Path(folder, "red.png"))
+        >>> picture.shape, picture[0, 0].tolist()
+        ((4, 6, 3), [255, 0, 0])
     """
     from PIL import Image, ImageOps
 
@@ -74,6 +85,19 @@ def load_mask(path: StrPath, *, width: int, height: int) -> NDArray[np.float32]:
     Raises:
         InvalidInputError: the file cannot be read, has other proportions than the illustration, is empty, or shows
             several parts.
+
+    Examples:
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import load_mask, save_image
+        >>> drawn = np.zeros((6, 8, 3), np.uint8)
+        >>> drawn[2:5, 2:6] = 255
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     save_image(Path(folder, "mask.png"), drawn)
+        ...     mask = load_mask(Path(folder, "mask.png"), width=8, height=6)
+        >>> mask.shape, float(mask.sum())
+        ((6, 8), 12.0)
     """
     from .mask_files import read_mask
 
@@ -89,6 +113,16 @@ def save_image(path: StrPath, image: NDArray[Any]) -> None:
 
     Raises:
         InvalidInputError: see :func:`check_image_output`; or the format does not hold so large a picture.
+
+    Examples:
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import save_image
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     save_image(Path(folder, "grey.png"), np.full((4, 6, 3), 0.5))
+        ...     Path(folder, "grey.png").exists()
+        True
     """
     from PIL import Image
 

@@ -9,6 +9,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from .pixels import as_uint8
+
 __all__ = ["Colour", "colours_of", "flat_levels", "named", "share_of_colour"]
 
 FloatPlane = NDArray[np.float32]
@@ -158,7 +160,7 @@ def flat_levels(plane: FloatPlane) -> list[tuple[float, float]]:
     Soft edges and gradients have none: every level of theirs has neighbours that hold as much.
     """
     square = np.ones((3, 3), np.uint8)
-    levels = np.rint(plane * 255).astype(np.uint8)
+    levels = as_uint8(plane)
     flat = ((cv2.dilate(levels, square) - cv2.erode(levels, square)) <= _WINDOWS[1][0]).astype(np.uint8)
     counts = cv2.calcHist([levels], [0], flat, [256], [0, 256]).ravel().astype(np.float64)
     least = max(4.0, 0.001 * levels.size, 0.02 * counts[9:].sum())

@@ -14,6 +14,7 @@ from ...physics.errors import InvalidInputError
 from ...physics.mesh import fitted, may_be_inverted
 from .mask_colours import Colour, colours_of, flat_levels, named, share_of_colour
 from .picture_files import GREY_MODES, grey_numbers, has_transparency, in_srgb, reading, with_opacity
+from .pixels import as_float
 
 __all__ = ["MaskFile", "read_mask"]
 
@@ -93,13 +94,13 @@ def _judged(picture: Image.Image, called: str) -> MaskFile:
     elif picture.mode in GREY_MODES:
         return _by_grey(_raw(picture, called), called)
     elif picture.mode in ("1", "L"):
-        return _by_grey(np.array(picture.convert("L")).astype(np.float32) / np.float32(255), called)
+        return _by_grey(as_float(np.array(picture.convert("L"))), called)
     else:
         rgb = np.array(in_srgb(picture).convert("RGB"))
     if opacity is not None and _tells(opacity):
         return _by_opacity(rgb, opacity, called)
     if _is_grey(rgb):
-        return _by_grey(rgb[..., 1].astype(np.float32) / np.float32(255), called)
+        return _by_grey(as_float(rgb[..., 1]), called)
     return _by_colour(rgb, called)
 
 
@@ -127,10 +128,10 @@ def _is_grey(rgb: NDArray[np.uint8], where: NDArray[np.bool_] | None = None) -> 
 
 def _by_opacity(rgb: NDArray[np.uint8], opacity: NDArray[np.uint8], called: str) -> MaskFile:
     """White among the visible where there are areas of white and of black, otherwise the opacity."""
-    alpha = opacity.astype(np.float32) / np.float32(255)
+    alpha = as_float(opacity)
     visible = opacity >= 128
     if visible.any() and _is_grey(rgb, visible):
-        grey = np.where(visible, rgb[..., 1].astype(np.float32) / np.float32(255), np.float32(0.5))
+        grey = np.where(visible, as_float(rgb[..., 1]), np.float32(0.5))
         area = np.ones((3, 3), np.uint8)
         white, black = (
             np.count_nonzero(cv2.erode(each.astype(np.uint8), area, borderValue=0))
@@ -139,7 +140,7 @@ def _by_opacity(rgb: NDArray[np.uint8], opacity: NDArray[np.uint8], called: str)
         shown = np.count_nonzero(visible)
         if min(white, black) >= 0.01 * shown and white + black >= 0.4 * shown:
             note = f"{called} shows white, black and nothing: white was taken as the part, not all that is opaque"
-            plane = rgb[..., 1].astype(np.float32) / np.float32(255) * alpha
+            plane = as_float(rgb[..., 1]) * alpha
             return replace(_by_grey(plane, called), notes=(note,))
     highest = float(alpha.max())
     return MaskFile(alpha / np.float32(highest) if highest < 0.5 else alpha)

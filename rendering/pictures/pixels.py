@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...physics.arrays import OVERSHOOT, as_array, beyond_one
 from ...physics.errors import InvalidInputError, require
 
-__all__ = ["as_dtype", "as_float", "as_picture", "as_uint8", "check_picture"]
+__all__ = ["as_dtype", "as_float", "as_grey", "as_picture", "as_uint8", "check_picture"]
 
 FloatImage = NDArray[np.float32]
 
@@ -31,6 +31,12 @@ def as_picture(image: ArrayLike, *, name: str = "image", alpha: bool = False) ->
 
     Raises:
         InvalidInputError: it has another shape, or values out of these ranges.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import as_picture
+        >>> as_picture(np.full((4, 6, 3), 65535, np.uint16)).dtype
+        dtype('float32')
     """
     pixels = as_array(image, name)
     wanted = "an RGB or RGBA picture of shape [h, w, 3 or 4]" if alpha else "an RGB picture of shape [h, w, 3]"
@@ -49,9 +55,22 @@ def check_picture(image: ArrayLike, *, name: str = "image", alpha: bool = False)
 
 
 def as_float(image: ArrayLike) -> FloatImage:
-    """Any picture of :func:`as_picture`, or one plane of it, as float32 in 0 to 1, in its own shape."""
+    """Any picture of :func:`as_picture`, or one plane of it, as float32 in 0 to 1, in its own shape.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import as_float
+        >>> as_float(np.array([[0, 255]], np.uint8)).tolist()
+        [[0.0, 1.0]]
+    """
     values = _as_8_bits_or_float(as_array(image, "image"), "image")
     return values.astype(np.float32) / np.float32(255) if values.dtype == np.uint8 else values
+
+
+def as_grey(image: ArrayLike) -> FloatImage:
+    """A grey picture, or the mean of a colour picture's channels, as float32 in 0 to 1, shape [h, w]."""
+    values = as_float(image)
+    return values if values.ndim == 2 else np.ascontiguousarray(values.mean(axis=2))
 
 
 def as_uint8(image: ArrayLike, *, name: str = "image") -> NDArray[np.uint8]:
@@ -61,15 +80,21 @@ def as_uint8(image: ArrayLike, *, name: str = "image") -> NDArray[np.uint8]:
 
     Raises:
         InvalidInputError: values are out of range or not finite.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import as_uint8
+        >>> as_uint8(np.array([[0.0, 0.2, 1.0]])).tolist()
+        [[0, 51, 255]]
     """
     values = _as_8_bits_or_float(as_array(image, name), name)
     return values if values.dtype == np.uint8 else np.rint(values * np.float32(255)).astype(np.uint8)
 
 
 def as_dtype(image: FloatImage, dtype: np.dtype[Any]) -> NDArray[Any]:
-    """A float32 picture in 0 to 1 as uint8 or float32."""
+    """A float32 picture in 0 to 1, which may overshoot, as uint8 or in a floating-point type."""
     image = np.clip(image, 0, 1)
-    return np.rint(image * 255).astype(np.uint8) if dtype == np.uint8 else image
+    return np.rint(image * 255).astype(np.uint8) if dtype == np.uint8 else image.astype(dtype, copy=False)
 
 
 def _as_8_bits_or_float(values: NDArray[Any], name: str) -> NDArray[Any]:

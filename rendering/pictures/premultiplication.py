@@ -41,6 +41,12 @@ def resized(picture: NDArray[Any], width: int, height: int, *, nearest: bool = F
         width: of the result [px].
         height: of the result [px].
         nearest: take pixels as they are, as pixel art needs it, instead of mixing them.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import resized
+        >>> resized(np.zeros((4, 6, 3), np.uint8), 12, 8).shape
+        (8, 12, 3)
     """
     if nearest:
         row, column = (

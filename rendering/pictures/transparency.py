@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .pixels import as_float
+
 __all__ = ["WHITE", "Colour", "is_transparent", "over"]
 
 Image = NDArray[Any]
@@ -29,12 +31,18 @@ def over(image: Image, colour: Colour = WHITE) -> Image:
 
     Returns:
         RGB in the image's dtype, shape [h, w, 3].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import over
+        >>> over(np.array([[[255, 0, 0, 0]]], np.uint8)).tolist()
+        [[[255, 255, 255]]]
     """
     if not is_transparent(image):
         return image
     if image.dtype == np.uint8:
         beneath = np.array(colour, dtype=np.float32)
-        share = image[..., 3:].astype(np.float32) / np.float32(255)
+        share = as_float(image[..., 3:])
         mixed = beneath + share * (image[..., :3].astype(np.float32) - beneath)
         return np.rint(mixed).astype(np.uint8)
     share, below = image[..., 3:], np.array(colour, dtype=image.dtype) / image.dtype.type(255)

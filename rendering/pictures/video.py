@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 __all__ = [
     "FORMATS",
     "FRAME_RATES",
-    "VideoFormat",
+    "ContainerFormat",
     "check_frame_rate",
     "check_output",
     "exact_frame_rate",
@@ -40,7 +40,7 @@ FRAME_RATES = (0.01, 240.0)
 
 
 @dataclass(frozen=True)
-class VideoFormat:
+class ContainerFormat:
     """How FFmpeg's libraries write one kind of file.
 
     Attributes:
@@ -69,7 +69,7 @@ class VideoFormat:
 
 
 FORMATS = {
-    ".mp4": VideoFormat(
+    ".mp4": ContainerFormat(
         "mp4",
         "libx264",
         "yuv420p",
@@ -78,7 +78,7 @@ FORMATS = {
         container_options={"movflags": "+faststart"},
         longest_side=16_384,
     ),
-    ".webm": VideoFormat(
+    ".webm": ContainerFormat(
         "webm",
         "libvpx-vp9",
         "yuv420p",
@@ -88,8 +88,8 @@ FORMATS = {
         # Alternate reference frames and alpha exclude each other in libvpx.
         alpha_options={"auto-alt-ref": "0"},
     ),
-    ".gif": VideoFormat("gif", "gif", "pal8", "pal8", container_options={"loop": "0"}),
-    ".webp": VideoFormat(
+    ".gif": ContainerFormat("gif", "gif", "pal8", "pal8", container_options={"loop": "0"}),
+    ".webp": ContainerFormat(
         "webp",
         "libwebp_anim",
         "bgra",
@@ -100,7 +100,7 @@ FORMATS = {
         container_options={"loop": "0"},
         longest_side=16_383,
     ),
-    ".apng": VideoFormat("apng", "apng", "rgb24", "rgba", container_options={"plays": "0"}),
+    ".apng": ContainerFormat("apng", "apng", "rgb24", "rgba", container_options={"plays": "0"}),
 }
 
 _LOOKAHEAD = 40  # frames that x264 holds to choose between them, with the preset
@@ -187,6 +187,17 @@ def write_animation(
 
     Raises:
         InvalidInputError: see :func:`check_output`; or there is no frame, or they differ in size.
+
+    Examples:
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import numpy as np
+        >>> from physanimator.rendering.pictures import read_clip, write_animation
+        >>> frames = [np.full((16, 16, 3), level, np.uint8) for level in (0, 128, 255)]
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     write_animation(frames, Path(folder, "clip.gif"), 12.0)
+        ...     len(list(read_clip(Path(folder, "clip.gif"))))
+        3
     """
     check_frame_rate(frame_rate)
     iterator = _uniform(frames)
@@ -235,7 +246,7 @@ def exact_frame_rate(frame_rate: float | Fraction) -> Fraction:
     return Fraction(float(frame_rate)).limit_denominator(1000)
 
 
-def _check_encoder(chosen: VideoFormat) -> None:
+def _check_encoder(chosen: ContainerFormat) -> None:
     import av
 
     try:
@@ -265,7 +276,7 @@ def _uniform(frames: Iterable[NDArray[Any]]) -> Iterator[NDArray[np.uint8]]:
 def _encode(
     frames: Iterable[NDArray[np.uint8]],
     path: Path,
-    chosen: VideoFormat,
+    chosen: ContainerFormat,
     shape: tuple[int, ...],
     rate: Fraction,
     *,
@@ -284,7 +295,7 @@ def _encode(
 def _mux(
     frames: Iterable[NDArray[np.uint8]],
     path: Path,
-    chosen: VideoFormat,
+    chosen: ContainerFormat,
     shape: tuple[int, ...],
     rate: Fraction,
     *,

@@ -43,6 +43,15 @@ def clean_plate(image: NDArray[Any], mask: ArrayLike) -> NDArray[Any]:
 
     Raises:
         InvalidInputError: the picture or mask has another form, or the mask leaves too little of the picture.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.plate import clean_plate
+        >>> picture = np.full((60, 60, 3), 230, np.uint8)
+        >>> picture[10:50, 10:50] = (200, 60, 40)
+        >>> plate = clean_plate(picture, np.pad(np.ones((44, 44)), 8))
+        >>> int(plate.min())
+        230
     """
     image = as_picture(image)
     coverage = fitted(coverage_of(mask), image.shape[1], image.shape[0])

@@ -62,6 +62,15 @@ def segment(
 
     Raises:
         InvalidInputError: no positive point and no box, a point outside the picture, or points that contradict.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.segmentation import segment
+        >>> picture = np.full((300, 300, 3), 230, np.uint8)
+        >>> picture[80:220, 90:210] = (200, 60, 40)
+        >>> mask = segment(picture, points=[(150, 150), (20, 20)], labels=[1, 0])
+        >>> mask[150, 150].item(), mask[20, 20].item()
+        (True, False)
     """
     picture = _as_uint8(image)
     height, width = picture.shape[:2]

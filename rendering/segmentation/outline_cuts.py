@@ -12,6 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pictures import nearest_pixels
 from ..sketch import extract_sketch
 
 __all__ = ["cut_by_majority", "grab_cut", "window_of", "without_foreign_lines"]
@@ -109,12 +110,7 @@ def _drawn_lines(lab: Lab) -> Mask:
 
 def _without_lines(lab: Lab, lines: Mask) -> Lab:
     """The picture with every line pixel in the colour of the nearest pixel beside the line."""
-    _, nearest = cv2.distanceTransformWithLabels(
-        lines.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
-    )
-    colours = np.zeros((int(nearest.max()) + 1, 3), np.uint8)
-    colours[nearest[~lines]] = lab[~lines]
-    return colours[nearest]
+    return lab.reshape(-1, 3)[nearest_pixels(~lines)[1]]
 
 
 def _connected_to(mask: Mask, seeds: NDArray[np.int_], lines: Mask) -> Mask:

@@ -48,6 +48,15 @@ def segment_parts(
 
     Raises:
         InvalidInputError: a prompt is empty, contradicts itself, or lies outside the picture.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.document import parse_points
+        >>> from physanimator.rendering.segmentation import prompts_of, segment_parts
+        >>> picture = np.full((300, 300, 3), 230, np.uint8)
+        >>> picture[80:220, 90:210] = (200, 60, 40)
+        >>> len(segment_parts(picture, prompts_of(parse_points("150,150", width=300, height=300))))
+        1
     """
     masks = network.segment(image, prompts)[0] if network else _cut(image, prompts)
     return [

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from .layered_sketch import LayeredSketch
-from .sketch import cleaned, extract_sketch, picture_of
+from .sketch import cleaned, extract_sketch
 from .sketch_warping import WARP_MODES, WarpMode, warped_sketches
-from .splatting import splat, split_fragments
+from .splatting import splat, splats_of
 from .warp import forward_warp, warp_sketch
 
 __all__ = [
@@ -15,9 +15,8 @@ __all__ = [
     "cleaned",
     "extract_sketch",
     "forward_warp",
-    "picture_of",
     "splat",
-    "split_fragments",
+    "splats_of",
     "warp_sketch",
     "warped_sketches",
 ]

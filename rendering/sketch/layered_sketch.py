@@ -38,6 +38,19 @@ class LayeredSketch:
     Attributes:
         flow: of the motion.
         still: the lines that stand still and those behind the bodies, paper 1, lines towards 0, shape [h, w].
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import FlowSequence, Motion
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.sketch import LayeredSketch
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> sketch = np.ones((60, 60), np.float32)
+        >>> sketch[:, 30] = 0
+        >>> int(np.argmin(LayeredSketch(sketch, FlowSequence(motion)).frame(1).sketch[30]))
+        33
     """
 
     def __init__(
@@ -63,7 +76,7 @@ class LayeredSketch:
         if behind is not None:
             require("behind", f"shape {np.shape(behind)}", np.shape(behind) == size, f"of the sketch's shape {size}")
         self.flow, lines = flow, 1 - sketch
-        order = layer_order(flow.motion)
+        order = layer_order(flow.motion.bodies)
         owner = _owner(flow, lines, order, border)
         self._bared = owner >= 0
         beneath = np.float32(0) if behind is None else 1 - np.asarray(behind, dtype=np.float32)

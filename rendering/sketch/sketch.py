@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import require
-from ..pictures import as_picture
+from ..pictures import as_float, as_picture
 
-__all__ = ["cleaned", "extract_sketch", "picture_of"]
+__all__ = ["cleaned", "extract_sketch"]
 
 FloatImage = NDArray[np.float32]
 
@@ -58,8 +58,17 @@ def extract_sketch(
 
     Raises:
         InvalidInputError: the picture or a parameter is unusable.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.rendering.sketch import extract_sketch
+        >>> picture = np.full((40, 40, 3), 255, np.uint8)
+        >>> picture[:, 19:21] = 0
+        >>> sketch = extract_sketch(picture)
+        >>> bool(sketch[20, 20] < 0.2), float(sketch[20, 5])
+        (True, 1.0)
     """
-    picture = picture_of(image)
+    picture = as_float(as_picture(image))
     require("line_width", line_width, 0.5 <= line_width <= 50, "0.5 to 50 px")
     require("threshold", threshold, 0 < threshold < 1, "above 0 and below 1")
     require("sharpness", sharpness, 0 < sharpness < np.inf, "above 0")
@@ -93,18 +102,6 @@ def cleaned(density: FloatImage, *, threshold: float, smallest_speck: int) -> Fl
     faintest = np.float32(_FOLLOWED * threshold)
     ink = np.clip((density - faintest) / (1 - faintest), 0, 1).astype(np.float32)
     return 1 - ink * _lines(density, threshold, smallest_speck)
-
-
-def picture_of(image: NDArray[Any]) -> FloatImage:
-    """An RGB picture, uint8 or float in 0..1, shape [h, w, 3], as float32 in 0..1.
-
-    Raises:
-        InvalidInputError: it is no such picture.
-    """
-    picture = as_picture(image)
-    if picture.dtype == np.uint8:
-        return picture.astype(np.float32) * np.float32(1 / 255)
-    return np.ascontiguousarray(picture, dtype=np.float32)
 
 
 def _evened(picture: FloatImage) -> FloatImage:

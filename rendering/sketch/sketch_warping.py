@@ -40,6 +40,19 @@ def warped_sketches(
 
     Raises:
         InvalidInputError: sizes differ or a parameter is unusable.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import FlowSequence, Motion
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.sketch import warped_sketches
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> sketch = np.ones((60, 60), np.float32)
+        >>> sketch[:, 30] = 0
+        >>> [int(np.argmin(each.sketch[30])) for each in warped_sketches(sketch, FlowSequence(motion))]
+        [30, 33]
     """
     require("mode", mode, mode in WARP_MODES, f"one of {', '.join(WARP_MODES)}")
     wanted = range(len(flow)) if frames is None else frames

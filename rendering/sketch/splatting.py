@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Fragments", "splat", "split_fragments"]
+__all__ = ["Splats", "splat", "splats_of"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -23,8 +23,8 @@ _TEAR = 4.0
 
 
 @dataclass(frozen=True, eq=False)
-class Fragments:
-    """Pieces of moved pixels, ready to be splatted.
+class Splats:
+    """Pieces of moved pixels, ready to be set down.
 
     Attributes:
         x, y: where each lands, pixel [0, 0] having its centre at (0, 0), shape [n].
@@ -40,7 +40,7 @@ class Fragments:
     values: NDArray[np.float32]
 
 
-def split_fragments(channels: FloatImage, flow: FloatImage, weights: FloatImage, moved: Mask) -> Fragments:
+def splats_of(channels: FloatImage, flow: FloatImage, weights: FloatImage, moved: Mask) -> Splats:
     """Every moved pixel, split into parts where the flow stretches it over more than one.
 
     Args:
@@ -64,7 +64,7 @@ def split_fragments(channels: FloatImage, flow: FloatImage, weights: FloatImage,
     row, column = np.nonzero(stretched)
     slopes = [slope[row, column] for slope in (ux, vx, uy, vy)]
     parts = _parts_of(_picked(np.flatnonzero(stretched), x, y, area, weights, channels), row, column, slopes, channels)
-    return Fragments(*(np.concatenate([getattr(whole, k), getattr(parts, k)]) for k in Fragments.__annotations__))
+    return Splats(*(np.concatenate([getattr(whole, k), getattr(parts, k)]) for k in Splats.__annotations__))
 
 
 def splat(
@@ -105,10 +105,10 @@ def splat(
 
 def _picked(
     where: NDArray[np.int64], x: FloatImage, y: FloatImage, area: FloatImage, weights: FloatImage, channels: FloatImage
-) -> Fragments:
+) -> Splats:
     """The whole pixels at flat indices."""
     planes = [plane.reshape(-1)[where] for plane in (x, y, area, weights)]
-    return Fragments(planes[0], planes[1], planes[2], planes[3], channels.reshape(-1, channels.shape[2])[where])
+    return Splats(planes[0], planes[1], planes[2], planes[3], channels.reshape(-1, channels.shape[2])[where])
 
 
 def _slopes(u: FloatImage, v: FloatImage, moved: Mask, axis: int) -> list[NDArray[Any]]:
@@ -133,12 +133,12 @@ def _slopes(u: FloatImage, v: FloatImage, moved: Mask, axis: int) -> list[NDArra
 
 
 def _parts_of(
-    whole: Fragments,
+    whole: Splats,
     row: NDArray[np.int64],
     column: NDArray[np.int64],
     slopes: list[NDArray[Any]],
     channels: FloatImage,
-) -> Fragments:
+) -> Splats:
     """Stretched pixels as the grid of parts that each becomes."""
     ux, vx, uy, vy = slopes
     across, down = _count(1 + ux, vx), _count(uy, 1 + vy)
@@ -147,7 +147,7 @@ def _parts_of(
     part = np.arange(len(parent)) - np.repeat(np.cumsum(count) - count, count)
     dx = ((part % across[parent] + 0.5) / across[parent] - 0.5).astype(np.float32)
     dy = ((part // across[parent] + 0.5) / down[parent] - 0.5).astype(np.float32)
-    return Fragments(
+    return Splats(
         whole.x[parent] + dx + dx * ux[parent] + dy * uy[parent],
         whole.y[parent] + dy + dx * vx[parent] + dy * vy[parent],
         np.divide(whole.area, count, dtype=np.float32)[parent],

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ...physics.errors import require
 from ...physics.motion import FlowField
 from ..pictures import as_float
-from .splatting import splat, split_fragments
+from .splatting import splat, splats_of
 
 __all__ = ["SPLAT_MODES", "SplatMode", "WarpedSketch", "forward_warp", "warp_sketch"]
 
@@ -73,7 +73,7 @@ def forward_warp(
     weights = np.asarray(weights, dtype=np.float32)
     channels = values.reshape(*shape, -1)
     moved = ((flow[..., 0] != 0) | (flow[..., 1] != 0)) & (weights > 0)
-    pieces = split_fragments(channels, flow, weights, moved)
+    pieces = splats_of(channels, flow, weights, moved)
     importance = (pieces.weight * pieces.area).astype(np.float64)
     amounts = [importance * pieces.values[:, k] for k in range(channels.shape[2])]
     amounts += [importance, pieces.area.astype(np.float64)]
@@ -111,6 +111,20 @@ def warp_sketch(
 
     Raises:
         InvalidInputError: sizes differ or a parameter is unusable.
+
+    Examples:
+        >>> import numpy as np
+        >>> from physanimator.physics.mesh import mesh_from_mask
+        >>> from physanimator.physics.motion import FlowSequence, Motion
+        >>> from physanimator.physics.scene import Body
+        >>> from physanimator.rendering.sketch import warp_sketch
+        >>> mesh = mesh_from_mask(np.pad(np.ones((40, 40)), 10), spacing=10)
+        >>> motion = Motion((Body(mesh),), np.float32([mesh.vertices, mesh.vertices + (3, 0)]), frame_rate=24.0)
+        >>> sketch = np.ones((60, 60), np.float32)
+        >>> sketch[:, 30] = 0
+        >>> warped = warp_sketch(sketch, FlowSequence(motion).flow(1))
+        >>> int(np.argmin(warped.sketch[30]))
+        33
     """
     sketch = as_float(sketch)
     height, width = sketch.shape[:2]

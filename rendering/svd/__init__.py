@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from .configuration import NetworkConfiguration
 from .frame_layout import CLIP_FRAMES, FrameLayout
-from .options import SketchVideoOptions
+from .options import SVDOptions
 
 __all__ = [
     "CLIP_FRAMES",
     "FrameLayout",
     "NetworkConfiguration",
-    "SketchVideoOptions",
+    "SVDOptions",
 ]

@@ -10,8 +10,8 @@ from torch import Tensor
 from ..networks.image_encoder import encoder_picture
 from ..networks.memory import autoencoder_bytes
 from ..networks.placement import Placement
-from .models import SketchVideoModels
-from .options import SketchVideoOptions
+from .models import SVDModels
+from .options import SVDOptions
 
 __all__ = ["Conditioning", "condition_on"]
 
@@ -34,9 +34,9 @@ class Conditioning:
 @torch.no_grad()
 def condition_on(
     picture: Tensor,
-    models: SketchVideoModels,
+    models: SVDModels,
     *,
-    options: SketchVideoOptions,
+    options: SVDOptions,
     placement: Placement,
     generator: torch.Generator,
 ) -> Conditioning:

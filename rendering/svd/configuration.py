@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass
 
 from ...physics.errors import require
+from ..networks import FromValues
 
 __all__ = ["NetworkConfiguration"]
 
 
 @dataclass(frozen=True)
-class NetworkConfiguration:
+class NetworkConfiguration(FromValues):
     """What the weights' shapes follow from.
 
     Attributes:
@@ -49,17 +48,6 @@ class NetworkConfiguration:
         require("video_kernel_size", self.video_kernel_size, temporal, "an odd number of frames, 1 and 1")
         width, heads = self.model_channels, self.num_head_channels
         require("model_channels", width, width % 32 == 0 and width % heads == 0, f"a multiple of 32 and of {heads}")
-
-    @classmethod
-    def of(cls, values: NetworkConfiguration | Mapping[str, Any]) -> NetworkConfiguration:
-        """From values by name, such as a JSON document's; lists become tuples."""
-        if isinstance(values, NetworkConfiguration):
-            return values
-        known = {field.name for field in fields(cls)}
-        unknown = sorted(set(values) - known)
-        require("configuration", unknown, not unknown, f"made of {', '.join(sorted(known))}")
-        plain: dict[str, Any] = {name: tuple(each) if isinstance(each, list) else each for name, each in values.items()}
-        return cls(**plain)
 
     @property
     def embedding_channels(self) -> int:

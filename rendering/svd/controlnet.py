@@ -6,10 +6,9 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
-import torch
 from torch import Tensor, nn
 
-from ..networks.checkpoints import assign, below, build_without_storage
+from ..networks.checkpoints import network_of
 from .configuration import NetworkConfiguration
 from .encoder import SpatioTemporalEncoder
 from .frame_layout import FrameLayout
@@ -37,10 +36,12 @@ class SketchControlNet(SpatioTemporalEncoder):
         cls, config: NetworkConfiguration | Mapping[str, Any], state_dict: Mapping[str, Any]
     ) -> SketchControlNet:
         """A network with the weights of a state dict, whose names are the public checkpoint's, prefix included."""
-        network = build_without_storage(lambda: cls(NetworkConfiguration.of(config)))
-        tensors = {name: torch.as_tensor(value) for name, value in state_dict.items()}
-        assign(network, below(tensors, cls.prefix), file="the state dict", wanted="weights of the sketch ControlNet")
-        return network
+        return network_of(
+            lambda: cls(NetworkConfiguration.of(config)),
+            state_dict,
+            wanted="weights of the sketch ControlNet",
+            prefix=cls.prefix,
+        )
 
     def forward(
         self, x: Tensor, hint: Tensor, noise_level: Tensor, context: Tensor, ids: Tensor, layout: FrameLayout

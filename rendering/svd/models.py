@@ -11,14 +11,21 @@ import torch
 from diffusers import AutoencoderKLTemporalDecoder
 from torch import Tensor, nn
 
-from ..networks.checkpoints import CheckpointError, assign, below, build_without_storage, check_names, read_checkpoint
+from ..networks.checkpoints import (
+    CheckpointError,
+    below,
+    build_without_storage,
+    check_names,
+    network_of,
+    read_checkpoint,
+)
 from ..networks.image_encoder import ImageEncoder
 from .autoencoder import build_autoencoder
 from .controlnet import SketchControlNet
 from .svd_weights import WANTED_SVD, ModelSizes, SVDWeights, read_svd
 from .unet import SpatioTemporalUNet
 
-__all__ = ["WANTED_LVCD", "SketchVideoModels", "load_models"]
+__all__ = ["WANTED_LVCD", "SVDModels", "load_models"]
 
 WANTED_LVCD = (
     "LVCD's lvcd.ckpt from https://huggingface.co/luckyhzt/lvcd_pretrained_models, or lvcd-fp16.safetensors from"
@@ -29,7 +36,7 @@ Network = TypeVar("Network", bound=nn.Module)
 
 
 @dataclass(frozen=True, eq=False)
-class SketchVideoModels:
+class SVDModels:
     """The networks, on the CPU, in the order of their use.
 
     Attributes:
@@ -52,7 +59,7 @@ class SketchVideoModels:
 
 def load_models(
     svd: Path, lvcd: Path, *, dtype: torch.dtype = torch.float32, sizes: ModelSizes | None = None
-) -> SketchVideoModels:
+) -> SVDModels:
     """Load all networks. Tensors already in the wanted precision stay mapped from their files.
 
     Args:
@@ -67,10 +74,10 @@ def load_models(
     weights = read_svd(svd, sizes=sizes)
     control, attention = _read_lvcd(lvcd, weights.sizes)
     network = weights.sizes.network
-    return SketchVideoModels(
+    return SVDModels(
         _loaded(lambda: ImageEncoder(weights.sizes.image_encoder), weights.image_encoder, weights, dtype),
         _loaded(lambda: build_autoencoder(weights.sizes.autoencoder), weights.autoencoder, weights, torch.float32),
-        _made(lambda: SketchControlNet(network), control, dtype, str(lvcd), WANTED_LVCD),
+        network_of(lambda: SketchControlNet(network), control, dtype=dtype, file=str(lvcd), wanted=WANTED_LVCD),
         _loaded(lambda: SpatioTemporalUNet(network), {**weights.unet, **attention}, weights, dtype),
     )
 
@@ -78,17 +85,7 @@ def load_models(
 def _loaded(
     build: Callable[[], Network], tensors: Mapping[str, Tensor], weights: SVDWeights, dtype: torch.dtype
 ) -> Network:
-    return _made(build, tensors, dtype, f"{weights.source}", WANTED_SVD)
-
-
-def _made(
-    build: Callable[[], Network], tensors: Mapping[str, Tensor], dtype: torch.dtype, file: str, wanted: str
-) -> Network:
-    network = build_without_storage(build)
-    shapes = {name: tuple(tensor.shape) for name, tensor in network.state_dict().items()}
-    check_names(shapes, {name: tuple(tensor.shape) for name, tensor in tensors.items()}, file=file, wanted=wanted)
-    assign(network, {name: tensor.to(dtype) for name, tensor in tensors.items()}, file=file, wanted=wanted)
-    return network
+    return network_of(build, tensors, dtype=dtype, file=f"{weights.source}", wanted=WANTED_SVD)
 
 
 def _read_lvcd(path: Path, sizes: ModelSizes) -> tuple[dict[str, Tensor], dict[str, Tensor]]:

@@ -8,14 +8,14 @@ from ...physics.number_checks import check_number, check_whole
 from ..networks import LARGEST_AREA, SMALLEST_AREA, TRAINED_HEIGHT, TRAINED_WIDTH
 from .frame_layout import CLIP_FRAMES, LEAST_OVERLAP, OVERLAP
 
-__all__ = ["DECODED_TOGETHER", "SketchVideoOptions"]
+__all__ = ["DECODED_TOGETHER", "SVDOptions"]
 
 DECODED_TOGETHER = 10
 """Frames that LVCD decodes at once."""
 
 
 @dataclass(frozen=True)
-class SketchVideoOptions:
+class SVDOptions:
     """Settings; the defaults are those that LVCD is used with.
 
     Attributes:
@@ -27,6 +27,11 @@ class SketchVideoOptions:
         area: of the pictures that the networks work on [px^2].
         decoded_together: frames that are decoded at once; fewer need less memory.
         seed: of the noise.
+
+    Examples:
+        >>> from physanimator.rendering.svd import SVDOptions
+        >>> SVDOptions(steps=20, seed=7).overlap
+        4
     """
 
     steps: int = 25

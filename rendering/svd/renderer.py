@@ -13,33 +13,34 @@ from torch import Tensor
 from ...physics.errors import require
 from ...physics.progress import Progress
 from ..networks import Frame
+from ..networks.half_precision import decoded_in
 from ..networks.memory import autoencoder_bytes, sampling_bytes
 from ..networks.placement import Placement
-from ..pictures import as_float, as_picture
+from ..pictures import as_float, as_grey, as_picture
 from .conditioning import Conditioning, condition_on
 from .decoding import decode, decoding_chunks
 from .frame_layout import CLIP_FRAMES, FrameLayout
-from .models import SketchVideoModels
+from .models import SVDModels
 from .noise_schedule import noise_levels
-from .options import SketchVideoOptions
+from .options import SVDOptions
 from .sampler import LATENT_SCALE, SampledStep, sample_clip
 from .segments import plan_segments
 
-__all__ = ["SketchVideoRenderer"]
+__all__ = ["SVDRenderer"]
 
 FloatImage = NDArray[np.float32]
 
 _PIXELS_PER_LATENT = 8
 
 
-class SketchVideoRenderer:
+class SVDRenderer:
     """Draws the frames of a clip that follow given sketches."""
 
     def __init__(
         self,
-        models: SketchVideoModels,
+        models: SVDModels,
         *,
-        options: SketchVideoOptions | None = None,
+        options: SVDOptions | None = None,
         placement: Placement | None = None,
     ) -> None:
         """Prepare.
@@ -50,7 +51,7 @@ class SketchVideoRenderer:
             placement: where the networks compute; on the CPU by default.
         """
         self.models = models
-        self.options = options or SketchVideoOptions()
+        self.options = options or SVDOptions()
         self.placement = placement or Placement(torch.device("cpu"))
 
     def frames(
@@ -113,7 +114,7 @@ class SketchVideoRenderer:
             placement=self.placement,
             generator=generator,
         )
-        hints = torch.cat([_hint(frame.inward(_grey(sketch))) for sketch in sketches])
+        hints = torch.cat([_hint(frame.inward(as_grey(sketch))) for sketch in sketches])
         latents = self._sampled(conditioning, hints, noise, each_step)
         for number, pictures in enumerate(self._decoded(latents), start=1):
             report(steps + number)
@@ -147,14 +148,9 @@ class SketchVideoRenderer:
     def _decoded(self, latents: Tensor) -> Iterator[Tensor]:
         """Pictures, 0..1, on the CPU, a chunk [n, 3, H, W] at a time."""
         autoencoder, dtype, device = self.models.autoencoder, self.models.dtype, self.placement.device
-        halved = dtype != torch.float32 and device.type == "cuda"
 
         def decoder(chunk: Tensor) -> Tensor:
-            with torch.autocast(device.type, dtype if halved else None, enabled=halved):
-                pictures = autoencoder.decode(chunk, num_frames=len(chunk)).sample.float()
-            if halved and not pictures.isfinite().all():  # half precision overflows for some pictures
-                pictures = autoencoder.decode(chunk, num_frames=len(chunk)).sample
-            return pictures
+            return decoded_in(dtype, device, lambda: autoencoder.decode(chunk, num_frames=len(chunk)).sample)
 
         size = self.options.decoded_together
         pixels = size * latents[0, 0].numel() * _PIXELS_PER_LATENT**2
@@ -167,11 +163,6 @@ class SketchVideoRenderer:
 def _as_tensor(picture: FloatImage) -> Tensor:
     """From shape [h, w, 3] to [1, 3, h, w]."""
     return torch.from_numpy(picture).permute(2, 0, 1)[None]
-
-
-def _grey(sketch: NDArray[Any]) -> FloatImage:
-    values = as_float(sketch)
-    return values if values.ndim == 2 else np.ascontiguousarray(values.mean(axis=2))
 
 
 def _hint(sketch: FloatImage) -> Tensor:

@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
-from ..networks.checkpoints import assign, below, build_without_storage
+from ..networks.checkpoints import network_of
 from .configuration import NetworkConfiguration
 from .encoder import SpatioTemporalEncoder, Stage, residual_block, transformer
 from .frame_layout import FrameLayout
@@ -46,10 +46,12 @@ class SpatioTemporalUNet(SpatioTemporalEncoder):
         cls, config: NetworkConfiguration | Mapping[str, Any], state_dict: Mapping[str, Any]
     ) -> SpatioTemporalUNet:
         """A network with the weights of a state dict, whose names are the public checkpoint's, prefix included."""
-        network = build_without_storage(lambda: cls(NetworkConfiguration.of(config)))
-        tensors = {name: torch.as_tensor(value) for name, value in state_dict.items()}
-        assign(network, below(tensors, cls.prefix), file="the state dict", wanted="weights of the video UNet")
-        return network
+        return network_of(
+            lambda: cls(NetworkConfiguration.of(config)),
+            state_dict,
+            wanted="weights of the video UNet",
+            prefix=cls.prefix,
+        )
 
     def forward(
         self,

@@ -8,13 +8,13 @@ from .configuration import (
     SketchEncoderConfiguration,
     UNetConfiguration,
 )
-from .options import SOLVERS, InterpolationOptions
+from .options import SOLVERS, ToonCrafterOptions
 
 __all__ = [
     "SOLVERS",
     "AutoencoderConfiguration",
-    "InterpolationOptions",
     "ResamplerConfiguration",
     "SketchEncoderConfiguration",
+    "ToonCrafterOptions",
     "UNetConfiguration",
 ]

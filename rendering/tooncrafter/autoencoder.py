@@ -8,7 +8,7 @@ from typing import Any
 import torch
 from torch import Tensor, nn
 
-from ..networks.checkpoints import assign, below, build_without_storage
+from ..networks.checkpoints import network_of
 from .clip_decoder import ClipDecoder
 from .configuration import AutoencoderConfiguration
 from .picture_encoder import PictureEncoder
@@ -39,12 +39,12 @@ class DualReferenceAutoencoder(nn.Module):
         cls, config: AutoencoderConfiguration | Mapping[str, Any], state_dict: Mapping[str, Any]
     ) -> DualReferenceAutoencoder:
         """A network with the weights of a state dict, whose names are the public checkpoint's, prefix included."""
-        network = build_without_storage(lambda: cls(AutoencoderConfiguration.of(config)))
-        tensors = {name: torch.as_tensor(value) for name, value in state_dict.items()}
-        assign(
-            network, below(tensors, cls.prefix), file="the state dict", wanted="weights of ToonCrafter's autoencoder"
+        return network_of(
+            lambda: cls(AutoencoderConfiguration.of(config)),
+            state_dict,
+            wanted="weights of ToonCrafter's autoencoder",
+            prefix=cls.prefix,
         )
-        return network
 
     def encode(self, frames: Tensor, *, together: int | None = None) -> tuple[Tensor, list[Tensor]]:
         """Encode pictures; the first and the last are the keyframes.

@@ -8,20 +8,20 @@ from torch import Tensor
 from .conditioning import Context
 from .fast_sampler import sample_dpm
 from .guidance import guided
-from .models import InterpolationModels
+from .models import ToonCrafterModels
 from .noise_schedule import sampling_steps
-from .options import InterpolationOptions
+from .options import ToonCrafterOptions
 from .sampler import Noise, Velocity, Watch, sample_ddim
 
 __all__ = ["guided_velocity", "sample_clips"]
 
 
 def guided_velocity(
-    models: InterpolationModels,
+    models: ToonCrafterModels,
     condition: Tensor,
     context: Context,
     hints: Tensor | None,
-    options: InterpolationOptions,
+    options: ToonCrafterOptions,
 ) -> Velocity:
     """The networks as one function of noisy latents and timestep.
 
@@ -60,7 +60,7 @@ def guided_velocity(
 
 @torch.no_grad()
 def sample_clips(
-    velocity: Velocity, start: Tensor, noise: Noise, options: InterpolationOptions, *, watch: Watch | None = None
+    velocity: Velocity, start: Tensor, noise: Noise, options: ToonCrafterOptions, *, watch: Watch | None = None
 ) -> Tensor:
     """Clean, scaled latents of clips, shape [b, 4, t, h, w], from noise of that shape."""
     if options.solver == "dpm++ 2m":

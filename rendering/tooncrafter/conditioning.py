@@ -11,7 +11,7 @@ from torch import Tensor
 from ..networks.checkpoints import CheckpointError
 from ..networks.image_encoder import encoder_picture
 from .autoencoder import DualReferenceAutoencoder
-from .models import WANTED_IMAGE_ENCODER, WANTED_TEXT_ENCODER, InterpolationModels
+from .models import WANTED_IMAGE_ENCODER, WANTED_TEXT_ENCODER, ToonCrafterModels
 from .resampler import ImageResampler
 
 __all__ = ["LATENT_SCALE", "Context", "KeyframePair", "Tokens", "contexts", "empty_prompt_of", "encode_pair", "look_at"]
@@ -85,7 +85,7 @@ def contexts(resampler: ImageResampler, tokens: Tokens, prompt: Tensor, without:
     return Context(told, torch.cat([without, resampler(tokens.nothing)], dim=1).expand(batch, -1, -1))
 
 
-def look_at(models: InterpolationModels, pictures: Sequence[Tensor]) -> Tokens:
+def look_at(models: ToonCrafterModels, pictures: Sequence[Tensor]) -> Tokens:
     """Tokens of each picture and of a plain grey one, by the models' own picture encoder.
 
     Args:
@@ -101,7 +101,7 @@ def look_at(models: InterpolationModels, pictures: Sequence[Tensor]) -> Tokens:
     return Tokens(tokens[:-1], tokens[-1:])
 
 
-def empty_prompt_of(models: InterpolationModels) -> Tensor:
+def empty_prompt_of(models: ToonCrafterModels) -> Tensor:
     """The empty prompt, embedded, shape [1, l, c]."""
     if models.empty_prompt is None:
         raise CheckpointError(f"No text encoder: the model's file holds none. Wanted: {WANTED_TEXT_ENCODER}")

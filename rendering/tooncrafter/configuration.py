@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from typing import Any, TypeVar
+from dataclasses import dataclass
 
-from ...physics.errors import InvalidInputError, require
+from ...physics.errors import require
+from ..networks import FromValues
 
 __all__ = [
     "AutoencoderConfiguration",
@@ -15,27 +14,9 @@ __all__ = [
     "UNetConfiguration",
 ]
 
-Configuration = TypeVar("Configuration", bound="_FromValues")
-
-
-class _FromValues:
-    """Makes configurations from values by name."""
-
-    @classmethod
-    def of(cls: type[Configuration], values: Configuration | Mapping[str, Any]) -> Configuration:
-        """From values by name, such as a JSON document's; lists become tuples."""
-        if isinstance(values, cls):
-            return values
-        if not isinstance(values, Mapping):
-            raise InvalidInputError(f"configuration must hold values by name. Got: {type(values).__name__}")
-        known = {field.name for field in fields(cls)}  # type: ignore[arg-type]
-        unknown = sorted(set(values) - known)
-        require("configuration", unknown, not unknown, f"made of {', '.join(sorted(known))}")
-        return cls(**{name: tuple(each) if isinstance(each, list) else each for name, each in values.items()})
-
 
 @dataclass(frozen=True)
-class _DiffusionConfiguration(_FromValues):
+class _DiffusionConfiguration(FromValues):
     model_channels: int = 320
     channel_mult: tuple[int, ...] = (1, 2, 4, 4)
     num_res_blocks: int = 2
@@ -101,7 +82,7 @@ class SketchEncoderConfiguration(_DiffusionConfiguration):
 
 
 @dataclass(frozen=True)
-class ResamplerConfiguration(_FromValues):
+class ResamplerConfiguration(FromValues):
     """What the shapes of the resampler's weights follow from.
 
     Attributes:
@@ -128,7 +109,7 @@ class ResamplerConfiguration(_FromValues):
 
 
 @dataclass(frozen=True)
-class AutoencoderConfiguration(_FromValues):
+class AutoencoderConfiguration(FromValues):
     """What the shapes of the autoencoder's weights follow from.
 
     Attributes:

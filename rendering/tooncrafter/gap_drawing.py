@@ -12,8 +12,9 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
-from ..inbetweens import FloatImage, as_float
+from ..inbetweens import FloatImage
 from ..networks import Frame
+from ..pictures import as_grey
 from .gap_plan import drawn_in_clip, inner_keyframes, sketched_in_clip
 from .pair_drawing import Pair, PairDrawing
 from .sampler import Watch
@@ -98,7 +99,7 @@ class GapDrawing:
         if not self._sketches:
             return None
         frames = [gap.first + frame for frame in sketched_in_clip(gap.length, self._clip_gap)]
-        framed = [self._frame.inward(_grey(self._sketches[frame])) for frame in frames]
+        framed = [self._frame.inward(as_grey(self._sketches[frame])) for frame in frames]
         return torch.from_numpy(1 - np.stack(framed))[None]
 
     def _inward(self, picture: FloatImage) -> Tensor:
@@ -112,8 +113,3 @@ def _parts(gap: Gap, inner: Sequence[int], drawn: Drawn) -> Sequence[Gap]:
     ends = {gap.first: gap.start, gap.last: gap.end, **drawn}
     frames = [gap.first, *(gap.first + frame for frame in inner), gap.last]
     return [Gap(before, after, ends[before], ends[after]) for before, after in pairwise(frames)]
-
-
-def _grey(sketch: NDArray[Any]) -> FloatImage:
-    values = as_float(sketch)
-    return values if values.ndim == 2 else np.ascontiguousarray(values.mean(axis=2))

@@ -9,13 +9,14 @@ import torch
 from numpy.typing import NDArray
 
 from ...physics.progress import Progress
-from ..inbetweens import Clip, FloatImage, ModelFile, as_float, like
+from ..inbetweens import Clip, FloatImage, ModelFile
 from ..networks.checkpoints import CheckpointError
 from ..networks.placement import Placement
+from ..pictures import as_dtype
 from .gap_drawing import Gap, GapDrawing
 from .gap_plan import clips_in
-from .models import WANTED_SKETCH, InterpolationModels
-from .options import InterpolationOptions
+from .models import WANTED_SKETCH, ToonCrafterModels
+from .options import ToonCrafterOptions
 from .pair_drawing import LookAt, PairDrawing, Prompts
 from .sampler import SampledStep, Watch
 
@@ -31,9 +32,9 @@ class ToonCrafterInterpolator:
 
     def __init__(
         self,
-        models: InterpolationModels,
+        models: ToonCrafterModels,
         *,
-        options: InterpolationOptions | None = None,
+        options: ToonCrafterOptions | None = None,
         placement: Placement | None = None,
         look: LookAt | None = None,
         prompts: Prompts | None = None,
@@ -52,7 +53,7 @@ class ToonCrafterInterpolator:
                 of keyframes; may raise to stop.
             watch: called in each sampling step; may raise to stop.
         """
-        self.options = options or InterpolationOptions()
+        self.options = options or ToonCrafterOptions()
         place = placement or Placement(torch.device("cpu"))
         self._drawing = PairDrawing(models, self.options, place, look=look, prompts=prompts)
         self._progress, self._watch = progress, watch
@@ -69,7 +70,7 @@ class ToonCrafterInterpolator:
             self._drawn = self._filled(clip, range(number, last))
         drawn = self._drawn.pop(number)
         for frame, _ in clip.times(number):
-            yield like(drawn[frame], clip.keyframes[number])
+            yield as_dtype(drawn[frame], clip.keyframes[number].dtype)
 
     def _filled(self, clip: Clip, numbers: range) -> dict[int, dict[int, FloatImage]]:
         """In-betweens of several pairs of keyframes."""
@@ -94,5 +95,5 @@ class ToonCrafterInterpolator:
 
 
 def _gap(clip: Clip, number: int) -> Gap:
-    start, end = (as_float(clip.keyframes[each]) for each in (number, number + 1))
+    start, end = clip.keyframe(number), clip.keyframe(number + 1)
     return Gap(clip.indices[number], clip.indices[number + 1], start, end)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import torch
 
-from .options import InterpolationOptions
+from .options import ToonCrafterOptions
 
 __all__ = ["decoding_bytes", "encoding_bytes"]
 
@@ -31,7 +31,7 @@ def decoding_bytes(
     channels: int,
     frames: int,
     *,
-    together: int = InterpolationOptions.decoded_together,
+    together: int = ToonCrafterOptions.decoded_together,
     dtype: torch.dtype = torch.float32,
 ) -> int:
     """Memory of decoding a clip.

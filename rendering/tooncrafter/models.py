@@ -10,7 +10,7 @@ from typing import TypeVar
 import torch
 from torch import Tensor, nn
 
-from ..networks.checkpoints import CheckpointError, assign, below, build_without_storage, check_names, read_checkpoint
+from ..networks.checkpoints import CheckpointError, below, network_of, read_checkpoint
 from ..networks.image_encoder import ImageEncoder, ImageEncoderConfiguration
 from ..networks.image_encoder_names import from_open_clip
 from .autoencoder import DualReferenceAutoencoder
@@ -26,7 +26,7 @@ from .sketch_encoder import SketchEncoder
 from .text_encoder import TextEncoder, TextEncoderConfiguration, empty_prompt, text_weights
 from .unet import InterpolationUNet
 
-__all__ = ["InterpolationModels", "ModelSizes", "load_models"]
+__all__ = ["ModelSizes", "ToonCrafterModels", "load_models"]
 
 WANTED_MODEL = (
     "ToonCrafter's model.ckpt from https://huggingface.co/Doubiiu/ToonCrafter, or its pruned fp16 safetensors from"
@@ -60,7 +60,7 @@ class ModelSizes:
 
 
 @dataclass(frozen=True, eq=False)
-class InterpolationModels:
+class ToonCrafterModels:
     """The networks, on the CPU.
 
     Attributes:
@@ -93,7 +93,7 @@ def load_models(
     text_encoder: Path | None = None,
     dtype: torch.dtype = torch.float32,
     sizes: ModelSizes | None = None,
-) -> InterpolationModels:
+) -> ToonCrafterModels:
     """Load all networks. Tensors already in the wanted precision stay mapped from their files.
 
     Args:
@@ -117,9 +117,9 @@ def load_models(
             )
 
     def part(build: Callable[[], Network], prefix: str, kept: torch.dtype) -> Network:
-        return _made(build, below(tensors, prefix), kept, model, WANTED_MODEL)
+        return network_of(build, tensors, prefix=prefix, dtype=kept, file=str(model), wanted=WANTED_MODEL)
 
-    return InterpolationModels(
+    return ToonCrafterModels(
         part(lambda: InterpolationUNet(sizes.unet), InterpolationUNet.prefix, dtype),
         part(lambda: ImageResampler(sizes.resampler), ImageResampler.prefix, dtype),
         part(lambda: DualReferenceAutoencoder(sizes.autoencoder), DualReferenceAutoencoder.prefix, torch.float32),
@@ -129,20 +129,12 @@ def load_models(
     )
 
 
-def _made(
-    build: Callable[[], Network], tensors: Mapping[str, Tensor], dtype: torch.dtype, file: Path, wanted: str
-) -> Network:
-    network = build_without_storage(build)
-    shapes = {name: tuple(tensor.shape) for name, tensor in network.state_dict().items()}
-    check_names(shapes, {name: tuple(each.shape) for name, each in tensors.items()}, file=str(file), wanted=wanted)
-    assign(network, {name: each.to(dtype) for name, each in tensors.items()}, file=str(file), wanted=wanted)
-    return network
-
-
 def _sketch_encoder(file: Path, config: SketchEncoderConfiguration, dtype: torch.dtype) -> SketchEncoder:
     tensors = read_checkpoint(file, wanted=WANTED_SKETCH)
     prefix = next(each for each in _SKETCH_PREFIXES if any(name.startswith(each) for name in tensors))
-    return _made(lambda: SketchEncoder(config), below(tensors, prefix), dtype, file, WANTED_SKETCH)
+    return network_of(
+        lambda: SketchEncoder(config), tensors, prefix=prefix, dtype=dtype, file=str(file), wanted=WANTED_SKETCH
+    )
 
 
 def _image_encoder(
@@ -154,14 +146,16 @@ def _image_encoder(
         return None
     if own or file is None:
         named = from_open_clip(own)
-        return _made(lambda: ImageEncoder(config), named, dtype, model, WANTED_IMAGE_ENCODER)
+        return network_of(
+            lambda: ImageEncoder(config), named, dtype=dtype, file=str(model), wanted=WANTED_IMAGE_ENCODER
+        )
     given = read_checkpoint(file, wanted=WANTED_IMAGE_ENCODER)
     named = from_open_clip(below(given, "visual.")) or {
         name: each
         for name, each in given.items()
         if name.startswith(("vision_model.", "visual_projection.")) and not name.endswith("position_ids")
     }
-    return _made(lambda: ImageEncoder(config), named, dtype, file, WANTED_IMAGE_ENCODER)
+    return network_of(lambda: ImageEncoder(config), named, dtype=dtype, file=str(file), wanted=WANTED_IMAGE_ENCODER)
 
 
 def _empty_prompt(
@@ -177,7 +171,9 @@ def _empty_prompt(
             return None
         given, source = read_checkpoint(file, wanted=WANTED_TEXT_ENCODER), file
     weights = text_weights(given, config.layers)
-    encoder = _made(lambda: TextEncoder(config), weights, torch.float32, source, WANTED_TEXT_ENCODER)
+    encoder = network_of(
+        lambda: TextEncoder(config), weights, dtype=torch.float32, file=str(source), wanted=WANTED_TEXT_ENCODER
+    )
     with torch.no_grad():
         embedding = encoder(empty_prompt(config.tokens))
     keep_prompt(model, embedding)

@@ -8,7 +8,7 @@ from ...physics.errors import require
 from ...physics.number_checks import check_number, check_whole
 from ..networks import LARGEST_AREA, SMALLEST_AREA
 
-__all__ = ["CLIP_GAP", "SOLVERS", "TRAINED_HEIGHT", "TRAINED_WIDTH", "InterpolationOptions"]
+__all__ = ["CLIP_GAP", "SOLVERS", "TRAINED_HEIGHT", "TRAINED_WIDTH", "ToonCrafterOptions"]
 
 TRAINED_WIDTH, TRAINED_HEIGHT = 512, 320
 """What ToonCrafter was trained with [px]."""
@@ -21,7 +21,7 @@ SOLVERS = ("ddim", "dpm++ 2m")
 
 
 @dataclass(frozen=True)
-class InterpolationOptions:
+class ToonCrafterOptions:
     """Settings; the defaults are those that ToonCrafter is used with, and the paper's control scale.
 
     Attributes:

@@ -9,6 +9,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from ..networks.half_precision import decoded_in, is_halved
 from ..networks.memory import sampling_bytes
 from ..networks.placement import Placement
 from .autoencoder import PIXELS_PER_LATENT
@@ -16,8 +17,8 @@ from .clip import guided_velocity, sample_clips
 from .conditioning import LATENT_SCALE, Context, KeyframePair, Tokens, contexts, empty_prompt_of, encode_pair, look_at
 from .decoding import decode_clip
 from .memory import decoding_bytes, encoding_bytes
-from .models import InterpolationModels
-from .options import InterpolationOptions
+from .models import ToonCrafterModels
+from .options import ToonCrafterOptions
 from .sampler import Watch
 
 __all__ = ["LookAt", "Pair", "PairDrawing", "Prompts"]
@@ -49,8 +50,8 @@ class PairDrawing:
 
     def __init__(
         self,
-        models: InterpolationModels,
-        options: InterpolationOptions,
+        models: ToonCrafterModels,
+        options: ToonCrafterOptions,
         placement: Placement,
         *,
         look: LookAt | None = None,
@@ -141,20 +142,16 @@ class PairDrawing:
 
     def _decoded(self, latents: Tensor, encoded: Sequence[KeyframePair]) -> list[Tensor]:
         autoencoder, device = self.models.autoencoder, self.placement.device
-        halved = self.models.dtype != torch.float32 and device.type == "cuda"
         frames, pixels = latents.shape[2], latents[0, 0, 0].numel() * PIXELS_PER_LATENT**2
-        together, dtype = self.options.decoded_together, self.models.dtype if halved else torch.float32
+        together = self.options.decoded_together
+        dtype = self.models.dtype if is_halved(self.models.dtype, device) else torch.float32
         needed = decoding_bytes(pixels, autoencoder.config.ch, frames, together=together, dtype=dtype)
         clips = []
         with self.placement.at_work(autoencoder, working_bytes=needed):
             for clip, pair in zip(latents, encoded, strict=True):
 
                 def decoder(part: Tensor, references: list[Tensor] = pair.references) -> Tensor:
-                    with torch.autocast(device.type, dtype if halved else None, enabled=halved):
-                        pictures = autoencoder.decode(part, references, together=together).float()
-                    if halved and not pictures.isfinite().all():  # half precision overflows for some pictures
-                        pictures = autoencoder.decode(part, references, together=together)
-                    return pictures
+                    return decoded_in(dtype, device, lambda: autoencoder.decode(part, references, together=together))
 
                 clips.append(decode_clip(decoder, clip.transpose(0, 1) / LATENT_SCALE).cpu())
         return clips

@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
-from ..networks.checkpoints import assign, below, build_without_storage
+from ..networks.checkpoints import network_of
 from .configuration import ResamplerConfiguration
 
 __all__ = ["ImageResampler"]
@@ -71,10 +71,12 @@ class ImageResampler(nn.Module):
         cls, config: ResamplerConfiguration | Mapping[str, Any], state_dict: Mapping[str, Any]
     ) -> ImageResampler:
         """A network with the weights of a state dict, whose names are the public checkpoint's, prefix included."""
-        network = build_without_storage(lambda: cls(ResamplerConfiguration.of(config)))
-        tensors = {name: torch.as_tensor(value) for name, value in state_dict.items()}
-        assign(network, below(tensors, cls.prefix), file="the state dict", wanted="weights of ToonCrafter's resampler")
-        return network
+        return network_of(
+            lambda: cls(ResamplerConfiguration.of(config)),
+            state_dict,
+            wanted="weights of ToonCrafter's resampler",
+            prefix=cls.prefix,
+        )
 
     def forward(self, tokens: Tensor) -> Tensor:
         """Resample.

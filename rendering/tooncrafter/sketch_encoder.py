@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import torch
 from torch import Tensor, nn
 
-from ..networks.checkpoints import assign, build_without_storage
+from ..networks.checkpoints import network_of
 from ..networks.embeddings import embedding_layers, sinusoid
 from ..svd.controlnet import hint_layers, zero_convolution
 from .configuration import SketchEncoderConfiguration
@@ -36,10 +35,11 @@ class SketchEncoder(nn.Module):
         cls, config: SketchEncoderConfiguration | Mapping[str, Any], state_dict: Mapping[str, Any]
     ) -> SketchEncoder:
         """A network with the weights of a state dict, whose names are the public checkpoint's."""
-        network = build_without_storage(lambda: cls(SketchEncoderConfiguration.of(config)))
-        tensors = {name: torch.as_tensor(value) for name, value in state_dict.items()}
-        assign(network, tensors, file="the state dict", wanted="weights of ToonCrafter's sketch encoder")
-        return network
+        return network_of(
+            lambda: cls(SketchEncoderConfiguration.of(config)),
+            state_dict,
+            wanted="weights of ToonCrafter's sketch encoder",
+        )
 
     def forward(self, x: Tensor, hint: Tensor, timestep: Tensor, context: Tensor) -> list[Tensor]:
         """Read the sketches.

@@ -8,7 +8,7 @@ from typing import Any
 import torch
 from torch import Tensor, nn
 
-from ..networks.checkpoints import assign, below, build_without_storage
+from ..networks.checkpoints import network_of
 from ..networks.embeddings import embedding_layers, sinusoid
 from ..svd.residual_block import normalised
 from .configuration import UNetConfiguration
@@ -42,10 +42,12 @@ class InterpolationUNet(nn.Module):
         cls, config: UNetConfiguration | Mapping[str, Any], state_dict: Mapping[str, Any]
     ) -> InterpolationUNet:
         """A network with the weights of a state dict, whose names are the public checkpoint's, prefix included."""
-        network = build_without_storage(lambda: cls(UNetConfiguration.of(config)))
-        tensors = {name: torch.as_tensor(value) for name, value in state_dict.items()}
-        assign(network, below(tensors, cls.prefix), file="the state dict", wanted="weights of ToonCrafter's UNet")
-        return network
+        return network_of(
+            lambda: cls(UNetConfiguration.of(config)),
+            state_dict,
+            wanted="weights of ToonCrafter's UNet",
+            prefix=cls.prefix,
+        )
 
     def forward(
         self,

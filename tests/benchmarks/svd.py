@@ -24,11 +24,11 @@ import source_tree  # loads this source tree as the package physanimator
 import torch
 from physanimator.rendering.networks.memory import bytes_of, peak_memory
 from physanimator.rendering.networks.placement import Placement
-from physanimator.rendering.svd import FrameLayout, NetworkConfiguration, SketchVideoOptions
+from physanimator.rendering.svd import FrameLayout, NetworkConfiguration, SVDOptions
 from physanimator.rendering.svd.autoencoder import build_autoencoder
 from physanimator.rendering.svd.controlnet import SketchControlNet
-from physanimator.rendering.svd.models import SketchVideoModels, load_models
-from physanimator.rendering.svd.renderer import SketchVideoRenderer
+from physanimator.rendering.svd.models import SVDModels, load_models
+from physanimator.rendering.svd.renderer import SVDRenderer
 from physanimator.rendering.svd.svd_weights import ModelSizes
 from physanimator.rendering.svd.unet import SpatioTemporalUNet
 from torch._subclasses.fake_tensor import FakeTensorMode
@@ -91,11 +91,11 @@ def loading(folder: Path, files: tuple[str, str], dtype: str, sizes: ModelSizes)
     }
 
 
-def drawing(models: SketchVideoModels, frames: int, size: tuple[int, int], steps: int, device: Any) -> dict[str, float]:
+def drawing(models: SVDModels, frames: int, size: tuple[int, int], steps: int, device: Any) -> dict[str, float]:
     """Seconds and peak memory of a clip."""
     width, height = size
-    options = SketchVideoOptions(steps=steps, area=width * height)
-    renderer = SketchVideoRenderer(models, options=options, placement=Placement(device))
+    options = SVDOptions(steps=steps, area=width * height)
+    renderer = SVDRenderer(models, options=options, placement=Placement(device))
     random = np.random.default_rng(0)
     image = random.random((height, width, 3), dtype=np.float32)
     if device.type == "cuda":

@@ -25,10 +25,10 @@ from physanimator.rendering.networks.checkpoints import assign, build_without_st
 from physanimator.rendering.networks.image_encoder import ImageEncoder
 from physanimator.rendering.networks.memory import bytes_of, peak_memory
 from physanimator.rendering.networks.placement import Placement
-from physanimator.rendering.tooncrafter import InterpolationOptions
+from physanimator.rendering.tooncrafter import ToonCrafterOptions
 from physanimator.rendering.tooncrafter.autoencoder import DualReferenceAutoencoder
 from physanimator.rendering.tooncrafter.interpolator import ToonCrafterInterpolator
-from physanimator.rendering.tooncrafter.models import InterpolationModels, ModelSizes
+from physanimator.rendering.tooncrafter.models import ModelSizes, ToonCrafterModels
 from physanimator.rendering.tooncrafter.resampler import ImageResampler
 from physanimator.rendering.tooncrafter.sketch_encoder import SketchEncoder
 from physanimator.rendering.tooncrafter.unet import InterpolationUNet
@@ -40,12 +40,12 @@ LiveTensors = source_tree.helper("live_tensors").LiveTensors
 
 GIB = 2**30
 GAP = 15
-DECODED_TOGETHER = (InterpolationOptions.decoded_together, 8, 16)
+DECODED_TOGETHER = (ToonCrafterOptions.decoded_together, 8, 16)
 STAGES = ("picture encoder", "resampler", "encoding", "sampling", "decoding")
 AREAS = {"512x320": (512, 320), "768x512": (768, 512), "128x64": (128, 64)}
 
 
-def random_models(sizes: ModelSizes, dtype: torch.dtype) -> InterpolationModels:
+def random_models(sizes: ModelSizes, dtype: torch.dtype) -> ToonCrafterModels:
     """All networks with random weights."""
 
     def made(build: Any, seed: int, kept: torch.dtype) -> Any:
@@ -53,7 +53,7 @@ def random_models(sizes: ModelSizes, dtype: torch.dtype) -> InterpolationModels:
         assign(network, random_svd.random_weights(network, seed, dtype=kept), file="random", wanted="random")
         return network
 
-    return InterpolationModels(
+    return ToonCrafterModels(
         made(lambda: InterpolationUNet(sizes.unet), 1, dtype),
         made(lambda: ImageResampler(sizes.resampler), 2, dtype),
         made(lambda: DualReferenceAutoencoder(sizes.autoencoder), 3, torch.float32),
@@ -63,7 +63,7 @@ def random_models(sizes: ModelSizes, dtype: torch.dtype) -> InterpolationModels:
     )
 
 
-def drawing(models: InterpolationModels, size: tuple[int, int], steps: int, device: torch.device) -> dict[str, Any]:
+def drawing(models: ToonCrafterModels, size: tuple[int, int], steps: int, device: torch.device) -> dict[str, Any]:
     """Seconds and peak memory of one pair, led by sketches."""
     width, height = size
     random = np.random.default_rng(0)
@@ -76,14 +76,14 @@ def drawing(models: InterpolationModels, size: tuple[int, int], steps: int, devi
             torch.cuda.synchronize(device)
         ends.append(time.perf_counter())
 
-    options = InterpolationOptions(steps=steps, area=width * height)
+    options = ToonCrafterOptions(steps=steps, area=width * height)
     backend = ToonCrafterInterpolator(models, options=options, placement=Placement(device, left=left))
     if device.type == "cuda":
         torch.cuda.reset_peak_memory_stats(device)
     left()
     assert len(list(backend.in_betweens(clip, 0))) == GAP - 1
     stages = dict(zip(STAGES, np.diff(ends).tolist(), strict=True))
-    step, usual = stages["sampling"] / steps, InterpolationOptions().steps
+    step, usual = stages["sampling"] / steps, ToonCrafterOptions().steps
     found = {"seconds_of": stages, "steps": steps, "seconds_a_step": step}
     if steps != usual:
         found[f"seconds_with_{usual}_steps_extrapolated"] = ends[-1] - ends[0] + (usual - steps) * step
@@ -136,7 +136,7 @@ def counted_memory(size: tuple[int, int], sizes: ModelSizes) -> dict[str, float]
     return {name: size / GIB for name, size in found.items()}
 
 
-def pairs(models: InterpolationModels, device: torch.device, options: Any) -> dict[str, Any]:
+def pairs(models: ToonCrafterModels, device: torch.device, options: Any) -> dict[str, Any]:
     """Figures of a pair in each size, eager and, on a GPU, compiled."""
     found = {}
     for compiled in (False, True)[: 2 if device.type == "cuda" and not options.no_compile else 1]:
@@ -167,7 +167,7 @@ def main() -> None:
     on_gpu = device.type == "cuda"
     usual = ["128x64"] if options.size == "tiny" else ["512x320", "768x512"] if on_gpu else ["512x320"]
     options.areas = options.areas or usual
-    options.steps = options.steps or (InterpolationOptions().steps if on_gpu else 2)
+    options.steps = options.steps or (ToonCrafterOptions().steps if on_gpu else 2)
     dtype = getattr(torch, options.dtype or ("float16" if on_gpu else "float32"))
     sizes = ModelSizes() if options.size == "full" else random_tooncrafter.TINY
     result: dict[str, Any] = {

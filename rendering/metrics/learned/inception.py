@@ -13,7 +13,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
-from ...networks.checkpoints import assign, build_without_storage
+from ...networks.checkpoints import network_of
 from .files import FID_FILE
 
 __all__ = ["FEATURES", "InceptionFeatures"]
@@ -53,13 +53,11 @@ class InceptionFeatures(nn.Module):
             CheckpointError: a name is missing, too many, or its tensor has another shape.
         """
         tensors = {
-            name: torch.as_tensor(value)
+            name: value
             for name, value in state_dict.items()
             if not name.startswith(_NOT_USED) and not name.endswith("num_batches_tracked")
         }
-        network = build_without_storage(cls)
-        assign(network, tensors, file=file, wanted=_WANTED)
-        return network
+        return network_of(cls, tensors, file=file, wanted=_WANTED)
 
     def forward(self, pictures: Tensor) -> Tensor:
         """Describe pictures.

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from torch import Tensor
 from torch.nn import functional
 
+from ...pictures import as_float
 from .families import Family
 
 __all__ = ["Square"]
@@ -57,7 +58,7 @@ class Square:
         from PIL import Image
 
         small = np.asarray(Image.fromarray(image).resize(self.size, Image.Resampling.BILINEAR))
-        colours = torch.from_numpy(small.astype(np.float32) / 255).permute(2, 0, 1)
+        colours = torch.from_numpy(as_float(small)).permute(2, 0, 1)
         mean, std = (torch.tensor(values).view(3, 1, 1) for values in (family.mean, family.std))
         columns, rows = self.size
         # Zero after the colours are evened: what lies beyond the picture is of the mean colour.

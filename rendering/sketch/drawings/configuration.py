@@ -2,35 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from typing import Any, TypeVar
+from dataclasses import dataclass
 
-from ....physics.errors import InvalidInputError, require
+from ....physics.errors import require
+from ...networks import FromValues
 
 __all__ = ["InformativeDrawingsConfiguration", "SketchUNetConfiguration"]
 
-Configuration = TypeVar("Configuration", bound="_FromValues")
-
-
-class _FromValues:
-    """Makes configurations from values by name."""
-
-    @classmethod
-    def of(cls: type[Configuration], values: Configuration | Mapping[str, Any]) -> Configuration:
-        """From values by name, such as a JSON document's."""
-        if isinstance(values, cls):
-            return values
-        if not isinstance(values, Mapping):
-            raise InvalidInputError(f"configuration must hold values by name. Got: {type(values).__name__}")
-        known = {field.name for field in fields(cls)}  # type: ignore[arg-type]
-        unknown = sorted(set(values) - known)
-        require("configuration", unknown, not unknown, f"made of {', '.join(sorted(known))}")
-        return cls(**values)
-
 
 @dataclass(frozen=True)
-class InformativeDrawingsConfiguration(_FromValues):
+class InformativeDrawingsConfiguration(FromValues):
     """What the shapes of the informative drawings generator follow from.
 
     Attributes:
@@ -54,7 +35,7 @@ class InformativeDrawingsConfiguration(_FromValues):
 
 
 @dataclass(frozen=True)
-class SketchUNetConfiguration(_FromValues):
+class SketchUNetConfiguration(FromValues):
     """What the shapes of the sketch U-Net follow from.
 
     Attributes:

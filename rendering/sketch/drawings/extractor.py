@@ -12,7 +12,8 @@ from torch import Tensor
 from torch.nn import functional
 
 from ....physics.errors import require
-from .. import cleaned, picture_of
+from ...pictures import as_float, as_picture
+from .. import cleaned
 from .informative_drawings import InformativeDrawings
 from .models import LineDrawer
 from .strips import draw_in_strips
@@ -53,7 +54,7 @@ def draw_sketch(
     Raises:
         InvalidInputError: the picture or a parameter is unusable.
     """
-    picture = picture_of(image)
+    picture = as_float(as_picture(image))
     require("working_size", working_size, working_size == 0 or 16 <= working_size <= 16384, "0, or 16 to 16384 px")
     height, width = picture.shape[:2]
     given = _resized(picture, working_size / max(height, width) if working_size else 1.0)

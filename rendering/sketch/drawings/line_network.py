@@ -9,7 +9,7 @@ from typing import Any, ClassVar, TypeVar
 import torch
 from torch import nn
 
-from ...networks.checkpoints import assign, build_without_storage
+from ...networks.checkpoints import network_of
 
 __all__ = ["LineNetwork"]
 
@@ -61,6 +61,4 @@ class LineNetwork(nn.Module):
         sizes, first = cls.configuration.of(config), tensors.get(cls.first_convolution)
         if first is not None and first.ndim == 4:
             sizes = replace(sizes, base_channels=len(first))
-        network = build_without_storage(lambda: cls(sizes))
-        assign(network, tensors, file=file, wanted=wanted or cls.wanted)
-        return network
+        return network_of(lambda: cls(sizes), tensors, file=file, wanted=wanted or cls.wanted)

@@ -16,8 +16,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from physanimator.nodes.preview import FRAME, HEADER, split_records
-from physanimator.nodes.preview import guard as preview_guard
+from physanimator.nodes.preview import FRAME, HEADER, guard, split_records
 from physanimator.nodes.preview import routes as preview_routes
 from physanimator.nodes.preview.limits import MAX_EDITORS, MAX_REQUEST_BYTES
 from physanimator.nodes.preview.records import END, ERROR
@@ -170,7 +169,7 @@ def test_a_body_is_read_no_further_than_its_limit(announced: bool) -> None:
 
 
 def test_a_body_that_never_ends_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(preview_guard, "_BODY_SECONDS", 0.1)
+    monkeypatch.setattr(guard, "_BODY_SECONDS", 0.1)
 
     async def parts() -> AsyncIterator[bytes]:
         while True:

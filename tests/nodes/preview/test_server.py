@@ -46,7 +46,7 @@ def test_the_solver_is_readied_once_and_its_contact_only_where_bodies_may_touch(
     monkeypatch.setattr("physanimator.nodes.preview.session.warm_up", lambda *, contact: warmed.append(contact))
     monkeypatch.setattr(preview_server, "_warmed", {kind: threading.Event() for kind in (False, True)})
     for contact in (False, False, True, True, False):
-        preview_server.warm_up(contact=contact)
+        preview_server.start_warm_up(contact=contact)
         for thread in threading.enumerate():
             if thread.name == "physanimator-warm-up":
                 thread.join()

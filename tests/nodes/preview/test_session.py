@@ -13,8 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physanimator.nodes.preview import FRAME, HEADER, PreviewBodies, PreviewStore, split_records
-from physanimator.nodes.preview import session as preview_session
+from physanimator.nodes.preview import FRAME, HEADER, PreviewBodies, PreviewStore, session, split_records
 from physanimator.nodes.preview.queue import RecordQueue
 from physanimator.nodes.preview.records import END, ERROR, record
 from physanimator.nodes.preview.session import PreviewRun, PreviewRuns, stream, warm_up
@@ -27,7 +26,7 @@ from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.rig import Circle, MaskRegion, Polygon, RigPoint, Wave
 from physanimator.physics.scene import Body, Contact, Holds, Paint, Scene
 from physanimator.physics.simulation import sample_simulations, simulate, simulation
-from physanimator.physics.solver import scheduling as schedule
+from physanimator.physics.solver import scheduling
 
 PATIENCE = 60.0
 ORDER = itertools.count()
@@ -265,7 +264,7 @@ def kept(seed: int, *, pixels: int = 0) -> PreviewBodies:
 
 def test_the_kernel_for_shared_parts_is_loaded_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
     warmed: list[Scene] = []
-    monkeypatch.setattr(schedule, "most_threads", lambda: 2)
+    monkeypatch.setattr(scheduling, "most_threads", lambda: 2)
     monkeypatch.setattr(sample_simulations, "simulate", lambda scene, **_: warmed.append(scene))
     monkeypatch.setattr(runtime, "keep_compiled", lambda: False)
     warm_up()
@@ -288,7 +287,7 @@ def test_large_kernels_run_where_they_stop_nobody_in_this_process(
         return launched(thread, False, *rest)
 
     monkeypatch.setattr(runtime.taichi_runtime._TaichiThread, "launched", noted)
-    monkeypatch.setattr(preview_session, "compile_aside", lambda **_: None)
+    monkeypatch.setattr(session, "compile_aside", lambda **_: None)
     runs, acting = PreviewRuns(), scene(contact=Contact() if contact else None)
     run = runs.enter("one", next(ORDER))
     assert run is not None

@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from physanimator.physics.assembly import assemble
-from physanimator.physics.contact import TouchingBodies, contact_surface, signed_distances
-from physanimator.physics.contact import touching_bodies as contact_stepping
+from physanimator.physics.contact import TouchingBodies, contact_surface, touching_bodies
 from physanimator.physics.contact.surface import CONTACTS
 from physanimator.physics.contact.team import LARGE
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.forces import EnergyStroke
 from physanimator.physics.material import Material, energy
-from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask, signed_distances
 from physanimator.physics.motion import Motion
 from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint
 from physanimator.physics.runtime import LANES
@@ -130,7 +129,7 @@ def test_the_motion_is_the_same_with_any_number_of_threads(threads: int, monkeyp
     monkeypatch.setattr(Pace, "share", lambda _: True)
     motions = []
     for count in (1, threads):
-        monkeypatch.setattr(contact_stepping, "most_threads", partial(int, count))
+        monkeypatch.setattr(touching_bodies, "most_threads", partial(int, count))
         motions.append(simulate(scene, frames=24).positions)
     assert max(deepest(Motion(scene.bodies, motions[1], scene.frame_rate), frame) for frame in (12, 23)) == 0
     np.testing.assert_array_equal(motions[0], motions[1])

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from physanimator.physics.contact import signed_distances
 from physanimator.physics.material import Material
-from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
+from physanimator.physics.mesh import TriangleMesh, mesh_from_mask, signed_distances
 from physanimator.physics.motion import Motion
 from physanimator.physics.rig import KeyedPath, Polygon, RigMotion, RigPoint, Rotation
 from physanimator.physics.scene import Body, Contact, Scene

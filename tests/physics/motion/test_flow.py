@@ -61,7 +61,7 @@ def test_the_body_in_front_owns_the_pixel(layers: tuple[int, int], front: int) -
     rest = np.concatenate([mesh.vertices for mesh in meshes])
     moved = rest + np.repeat([[1.0, 0], [0, 2]], [len(mesh.vertices) for mesh in meshes], axis=0)
     sequence = FlowSequence(Motion(bodies, np.stack([rest, moved]).astype(np.float32), 24.0))
-    assert layer_order(sequence.motion)[-1] == front
+    assert layer_order(sequence.motion.bodies)[-1] == front
     assert sequence.body[30, 40] == front
     assert sequence.flow(1).displacement[30, 40] == pytest.approx([(1, 0), (0, 2)][front])
     assert sequence.body[12, 12] == 0

@@ -23,9 +23,9 @@ from physanimator.physics.rig import (
     displacement,
     distances_of,
     leaders_of,
+    regions,
     vertices_of,
 )
-from physanimator.physics.rig import regions as rigging
 from physanimator.physics.rig.regions import velocity
 from physanimator.physics.scene import Body, Scene, holds_of, unused_rig_points
 
@@ -237,7 +237,7 @@ def test_the_masks_of_a_scene_are_measured_on_so_many_pixels_together(monkeypatc
     monkeypatch.setattr(
         cv2, "distanceTransform", lambda mask, *rest: measured.append(mask.size) or transform(mask, *rest)
     )
-    monkeypatch.setattr(rigging, "_PIXELS_OF_DISTANCES", 40_000)
+    monkeypatch.setattr(regions, "_PIXELS_OF_DISTANCES", 40_000)
     rig_points = tuple(RigPoint((9, 9), blots(200, 120), falloff=20.0) for _ in range(12))
     holds_of(Scene((Body(mesh),), rig_points=rig_points))
     assert coarseness_of(rig_points) == 3

@@ -10,11 +10,12 @@ import pytest
 from mutations import patches
 from physanimator.nodes.preview import PreviewRequest, preview_scene
 from physanimator.physics.assembly import assemble, plan
-from physanimator.physics.contact import contact_surface, signed_distances
+from physanimator.physics.contact import contact_surface
 from physanimator.physics.errors import Cancelled, InvalidInputError, SimulationError
 from physanimator.physics.interruption import interruptible
+from physanimator.physics.mesh import signed_distances, within_reach
 from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Polygon, RigPoint
-from physanimator.physics.scene import Collider, Contact, Scene, count_outlines, spacing_of, window_of, within_reach
+from physanimator.physics.scene import Collider, Contact, Scene, count_outlines, spacing_of, window_of
 from physanimator.physics.simulation import simulate
 
 FAR = Polygon(((0, 0), (1e6, 1), (1e6, 60)))

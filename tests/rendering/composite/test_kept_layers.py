@@ -7,8 +7,7 @@ import pytest
 from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
-from physanimator.rendering.composite import LayeredRenderer, kept_layers
-from physanimator.rendering.composite import layered_renderer as composite
+from physanimator.rendering.composite import LayeredRenderer, kept_layers, layered_renderer
 from physanimator.rendering.composite.cutting import take_apart
 from physanimator.rendering.composite.kept_layers import KeptLayers, apart
 
@@ -39,8 +38,8 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
         calls.append(1)
         return take_apart(*given, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(composite, "take_apart", counting)
-    monkeypatch.setattr(composite, "apart", lambda *given, **options: apart(*given, **options, kept=store))
+    monkeypatch.setattr(layered_renderer, "take_apart", counting)
+    monkeypatch.setattr(layered_renderer, "apart", lambda *given, **options: apart(*given, **options, kept=store))
     return calls
 
 

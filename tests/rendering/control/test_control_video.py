@@ -10,13 +10,13 @@ from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
 from physanimator.rendering.composite import Layer
-from physanimator.rendering.control import VideoFormat, first_and_last, line_frames, warped_frames
+from physanimator.rendering.control import ModelFormat, first_and_last, line_frames, warped_frames
 
 WIDTH, HEIGHT = 160, 96
 Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5
 MASK = np.hypot(X - 60, Y - 48) < 20
 SHIFT = 24.0
-FORM = VideoFormat(frames=5, width=160, height=96)
+FORM = ModelFormat(frames=5, width=160, height=96)
 
 
 def image() -> np.ndarray:
@@ -37,7 +37,7 @@ def motion(frames: int = 3) -> Motion:
 )
 def test_forms_that_the_model_cannot_take_are_refused(name: str, value: int | str) -> None:
     with pytest.raises(InvalidInputError, match=name):
-        VideoFormat(**{name: value})
+        ModelFormat(**{name: value})
 
 
 def test_a_motion_is_sampled_from_its_first_frame_to_its_last() -> None:
@@ -46,7 +46,7 @@ def test_a_motion_is_sampled_from_its_first_frame_to_its_last() -> None:
     moved = (sampled.positions - sampled.positions[0])[:, :, 0].mean(axis=1)
     assert moved == pytest.approx(np.linspace(0, SHIFT, 5), abs=0.01)
     assert sampled.duration == pytest.approx(motion().duration)
-    assert len(VideoFormat(frames=1).sampled(motion())) == 1
+    assert len(ModelFormat(frames=1).sampled(motion())) == 1
 
 
 def test_holes_are_what_was_uncovered_and_grey() -> None:
@@ -83,7 +83,7 @@ def test_lines_move_along_and_are_bright_on_request() -> None:
 
 
 def test_first_and_last_frame_come_in_the_wanted_size() -> None:
-    form = VideoFormat(width=80, height=48)
+    form = ModelFormat(width=80, height=48)
     start, end = first_and_last(image(), [MASK], motion(), form)
     assert start.shape == end.shape == (48, 80, 3)
     assert start[24, 22, 0] > 0.8

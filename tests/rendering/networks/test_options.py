@@ -7,14 +7,12 @@ from typing import Any
 
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.control import VideoFormat
-from physanimator.rendering.svd import SketchVideoOptions
-from physanimator.rendering.tooncrafter import InterpolationOptions
+from physanimator.rendering.control import ModelFormat
+from physanimator.rendering.svd import SVDOptions
+from physanimator.rendering.tooncrafter import ToonCrafterOptions
 
 WRONG = [-1, -(10**400), 10**5000, float("nan"), float("inf"), -0.5, "many", None, True, [1], {}, 3.7j]
-OPTIONS = [
-    (kind, each.name) for kind in (SketchVideoOptions, InterpolationOptions, VideoFormat) for each in fields(kind)
-]
+OPTIONS = [(kind, each.name) for kind in (SVDOptions, ToonCrafterOptions, ModelFormat) for each in fields(kind)]
 # Noise may be any number that fits, and these may be whole.
 FITTING = {"seed": [-1]}
 
@@ -39,6 +37,6 @@ def test_what_no_option_can_be_is_refused_in_one_sentence(kind: Any, name: str, 
 )
 def test_ranges_of_the_sketch_guided_renderer(given: dict[str, Any]) -> None:
     with pytest.raises(InvalidInputError, match=next(iter(given))):
-        SketchVideoOptions(**given)
+        SVDOptions(**given)
     with pytest.raises(InvalidInputError, match=r"overlap must be a whole number from 3 to 13 frames\. Got: 99"):
-        SketchVideoOptions(overlap=99, area=0)
+        SVDOptions(overlap=99, area=0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.motion import Tracks
-from physanimator.rendering.overlays import draw_tracks, fitted
+from physanimator.rendering.overlays import draw_tracks, reframed
 
 WIDTH, HEIGHT, FRAMES = 320, 180, 20
 
@@ -77,9 +77,9 @@ def test_cropping_keeps_the_middle_and_stretching_everything(size: tuple[int, in
     picture = np.stack([x, y, x], axis=-1).astype(np.float32)
     scale = max(size[0] / WIDTH, size[1] / HEIGHT)
     columns, rows = np.meshgrid(np.arange(size[0]) + 0.5, np.arange(size[1]) + 0.5)
-    cropped = fitted(picture, *size, "crop")
+    cropped = reframed(picture, *size, "crop")
     assert cropped.shape == (size[1], size[0], 3)
     assert np.abs(cropped[..., 0] - ((columns - size[0] / 2) / scale + WIDTH / 2))[5:-5, 5:-5].max() < 1.1
     assert np.abs(cropped[..., 1] - ((rows - size[1] / 2) / scale + HEIGHT / 2))[5:-5, 5:-5].max() < 1.1
-    stretched = fitted(picture, *size, "stretch")
+    stretched = reframed(picture, *size, "stretch")
     assert np.abs(stretched[..., 0] - columns * WIDTH / size[0])[5:-5, 5:-5].max() < 1.1

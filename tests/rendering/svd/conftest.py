@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import random_svd
 import torch
-from physanimator.rendering.svd.models import SketchVideoModels, load_models
+from physanimator.rendering.svd.models import SVDModels, load_models
 
 
 @pytest.fixture(scope="session")
@@ -31,5 +31,5 @@ def lvcd(weights: dict[str, dict[str, torch.Tensor]], tmp_path_factory: pytest.T
 
 
 @pytest.fixture(scope="session")
-def models(single_file: Path, lvcd: Path) -> SketchVideoModels:
+def models(single_file: Path, lvcd: Path) -> SVDModels:
     return load_models(single_file, lvcd, sizes=random_svd.TINY)

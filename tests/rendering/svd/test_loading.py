@@ -10,13 +10,13 @@ import pytest
 import random_svd
 import torch
 from physanimator.rendering.networks.checkpoints import CheckpointError
-from physanimator.rendering.svd.models import SketchVideoModels, load_models
+from physanimator.rendering.svd.models import SVDModels, load_models
 from safetensors.torch import load_file, save_file
 
 Weights = dict[str, dict[str, torch.Tensor]]
 
 
-def assert_holds(models: SketchVideoModels, weights: Weights, *, dtype: torch.dtype = torch.float32) -> None:
+def assert_holds(models: SVDModels, weights: Weights, *, dtype: torch.dtype = torch.float32) -> None:
     """The networks have exactly these weights; LVCD's attention replaces the UNet's own."""
     expected = {**weights, "unet": {**weights["unet"], **weights["attention"]}}
     for part in ("unet", "control", "autoencoder", "image_encoder"):
@@ -27,7 +27,7 @@ def assert_holds(models: SketchVideoModels, weights: Weights, *, dtype: torch.dt
             torch.testing.assert_close(tensor, expected[part][name].to(kept), rtol=0, atol=0)
 
 
-def test_single_file_and_training_checkpoint(models: SketchVideoModels, weights: Weights) -> None:
+def test_single_file_and_training_checkpoint(models: SVDModels, weights: Weights) -> None:
     assert_holds(models, weights)
     assert not any(network.training for network in (models.unet, models.control, models.image_encoder))
 
@@ -70,7 +70,7 @@ def test_an_encoder_with_the_quantisation_folded_in(weights: Weights, tmp_path: 
 
 
 @pytest.mark.skipif(not Path("/proc/self/maps").exists(), reason="tells of mapped files on Linux only")
-def test_weights_in_the_right_precision_stay_in_the_file(models: SketchVideoModels, lvcd: Path) -> None:
+def test_weights_in_the_right_precision_stay_in_the_file(models: SVDModels, lvcd: Path) -> None:
     lines = [line for line in Path("/proc/self/maps").read_text().splitlines() if line.endswith(str(lvcd))]
     ranges = [[int(end, 16) for end in line.split()[0].split("-")] for line in lines]
     for tensor in models.control.parameters():

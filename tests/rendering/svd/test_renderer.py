@@ -12,13 +12,13 @@ import torch
 from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.networks.placement import Placement
-from physanimator.rendering.svd import SketchVideoOptions
-from physanimator.rendering.svd.models import SketchVideoModels, load_models
-from physanimator.rendering.svd.renderer import SketchVideoRenderer
+from physanimator.rendering.svd import SVDOptions
+from physanimator.rendering.svd.models import SVDModels, load_models
+from physanimator.rendering.svd.renderer import SVDRenderer
 
 Image = NDArray[np.float32]
 
-OPTIONS = SketchVideoOptions(steps=2, area=64 * 64, seed=3)
+OPTIONS = SVDOptions(steps=2, area=64 * 64, seed=3)
 STEPS_AND_CHUNKS = {2: 2 + 1, 12: 2 + 2, 16: 4 + 2}
 
 
@@ -37,19 +37,19 @@ def sketches(count: int, width: int = 70, height: int = 60) -> list[Image]:
     return drawn
 
 
-def clip(models: SketchVideoModels, count: int = 3, options: SketchVideoOptions = OPTIONS) -> Image:
-    return np.stack(list(SketchVideoRenderer(models, options=options).frames(illustration(), sketches(count))))
+def clip(models: SVDModels, count: int = 3, options: SVDOptions = OPTIONS) -> Image:
+    return np.stack(list(SVDRenderer(models, options=options).frames(illustration(), sketches(count))))
 
 
 @pytest.fixture(scope="module")
-def short(models: SketchVideoModels) -> Image:
+def short(models: SVDModels) -> Image:
     return clip(models)
 
 
 @pytest.mark.parametrize("count", STEPS_AND_CHUNKS)
-def test_one_frame_for_each_sketch(models: SketchVideoModels, count: int) -> None:
+def test_one_frame_for_each_sketch(models: SVDModels, count: int) -> None:
     done: list[tuple[int, int]] = []
-    renderer = SketchVideoRenderer(models, options=OPTIONS)
+    renderer = SVDRenderer(models, options=OPTIONS)
     frames = list(renderer.frames(illustration(), sketches(count), progress=lambda *now: done.append(now)))
     assert [frame.shape for frame in frames] == [(60, 70, 3)] * count
     assert all(frame.dtype == np.float32 and 0 <= frame.min() < frame.max() <= 1 for frame in frames)
@@ -64,14 +64,14 @@ def test_every_format_gives_the_same_clip(
     np.testing.assert_allclose(clip(load_models(folder, lvcd)), short, atol=1e-3)
 
 
-def test_the_seed_decides(models: SketchVideoModels, short: Image) -> None:
+def test_the_seed_decides(models: SVDModels, short: Image) -> None:
     np.testing.assert_array_equal(clip(models), short)
     other = clip(models, options=replace(OPTIONS, seed=4))
     assert np.abs(other[1:] - short[1:]).max() > 0.02
 
 
-def test_sketches_and_settings_matter(models: SketchVideoModels, short: Image) -> None:
-    renderer = SketchVideoRenderer(models, options=OPTIONS)
+def test_sketches_and_settings_matter(models: SVDModels, short: Image) -> None:
+    renderer = SVDRenderer(models, options=OPTIONS)
     still = np.stack(list(renderer.frames(illustration(), sketches(1) * 3)))
     assert np.abs(still[2] - short[2]).max() > 1e-3
     for change in ({"motion_bucket": 20}, {"frames_per_second": 24}, {"picture_noise": 0.3}, {"steps": 3}):
@@ -85,30 +85,30 @@ def test_half_precision_gives_nearly_the_same(short: Image, single_file: Path, l
     assert np.abs(half - short).mean() < 0.02
 
 
-def test_bytes_and_colour_sketches_are_accepted(models: SketchVideoModels, short: Image) -> None:
-    renderer = SketchVideoRenderer(models, options=OPTIONS)
+def test_bytes_and_colour_sketches_are_accepted(models: SVDModels, short: Image) -> None:
+    renderer = SVDRenderer(models, options=OPTIONS)
     coloured = [np.repeat((255 * sketch).astype(np.uint8)[..., None], 3, axis=2) for sketch in sketches(3)]
     frames = np.stack(list(renderer.frames(illustration(), coloured)))
     np.testing.assert_allclose(frames, short, atol=1e-5)
 
 
-def test_progress_and_steps_can_stop(models: SketchVideoModels) -> None:
+def test_progress_and_steps_can_stop(models: SVDModels) -> None:
     def stop(*_: object) -> None:
         raise InterruptedError
 
-    renderer = SketchVideoRenderer(models, options=OPTIONS)
+    renderer = SVDRenderer(models, options=OPTIONS)
     with pytest.raises(InterruptedError):
         next(renderer.frames(illustration(), sketches(3), progress=stop))
     with pytest.raises(InterruptedError):
         next(renderer.frames(illustration(), sketches(3), watch=stop))
 
 
-def test_room_is_asked_for_before_and_given_back_after(models: SketchVideoModels) -> None:
+def test_room_is_asked_for_before_and_given_back_after(models: SVDModels) -> None:
     before = {name: each.data_ptr() for name, each in models.unet.named_parameters()}
     asked: list[int] = []
     left: list[int] = []
     placement = Placement(torch.device("cpu"), make_room=asked.append, left=lambda: left.append(len(asked)))
-    list(SketchVideoRenderer(models, options=OPTIONS, placement=placement).frames(illustration(), sketches(3)))
+    list(SVDRenderer(models, options=OPTIONS, placement=placement).frames(illustration(), sketches(3)))
     both = sum(4 * each.numel() for network in (models.unet, models.control) for each in network.parameters())
     assert len(asked) == 4  # picture encoder, autoencoder, ControlNet with UNet, autoencoder
     assert left == [1, 2, 3, 4]
@@ -116,7 +116,7 @@ def test_room_is_asked_for_before_and_given_back_after(models: SketchVideoModels
     assert {name: each.data_ptr() for name, each in models.unet.named_parameters()} == before
 
 
-def test_networks_leave_the_device_even_after_an_error(models: SketchVideoModels) -> None:
+def test_networks_leave_the_device_even_after_an_error(models: SVDModels) -> None:
     placement = Placement(torch.device("meta"))
 
     def fail() -> None:
@@ -136,9 +136,9 @@ def test_networks_leave_the_device_even_after_an_error(models: SketchVideoModels
         (sketches(3, width=64), r"sketches must be of the illustration's size, 70 x 60 px. Got: \[\(60, 64\)\]"),
     ],
 )
-def test_sketches_that_do_not_fit_are_refused(models: SketchVideoModels, given: list[Image], fault: str) -> None:
+def test_sketches_that_do_not_fit_are_refused(models: SVDModels, given: list[Image], fault: str) -> None:
     with pytest.raises(InvalidInputError, match=fault):
-        SketchVideoRenderer(models, options=OPTIONS).frames(illustration(), given)
+        SVDRenderer(models, options=OPTIONS).frames(illustration(), given)
 
 
 @pytest.mark.parametrize(

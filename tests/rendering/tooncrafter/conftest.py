@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import random_tooncrafter
 import torch
-from physanimator.rendering.tooncrafter.models import InterpolationModels, load_models
+from physanimator.rendering.tooncrafter.models import ToonCrafterModels, load_models
 
 Weights = dict[str, dict[str, torch.Tensor]]
 
@@ -34,5 +34,5 @@ def sketch_file(weights: Weights, tmp_path_factory: pytest.TempPathFactory) -> P
 
 
 @pytest.fixture(scope="session")
-def models(full_file: Path, sketch_file: Path) -> InterpolationModels:
+def models(full_file: Path, sketch_file: Path) -> ToonCrafterModels:
     return load_models(full_file, sketch=sketch_file, sizes=random_tooncrafter.TINY)

@@ -10,7 +10,7 @@ from physanimator.rendering.tooncrafter.autoencoder import DualReferenceAutoenco
 from physanimator.rendering.tooncrafter.clip_features import ClipFeatures
 from physanimator.rendering.tooncrafter.clip_statistics import ClipStatistics
 from physanimator.rendering.tooncrafter.memory import decoding_bytes, encoding_bytes
-from physanimator.rendering.tooncrafter.models import InterpolationModels
+from physanimator.rendering.tooncrafter.models import ToonCrafterModels
 from torch import Tensor, nn
 from torch._subclasses.fake_tensor import FakeTensorMode
 
@@ -18,7 +18,7 @@ FRAMES, HEIGHT, WIDTH = 16, 40, 56
 
 
 @pytest.fixture(scope="module")
-def encoded(models: InterpolationModels) -> tuple[Tensor, list[Tensor]]:
+def encoded(models: ToonCrafterModels) -> tuple[Tensor, list[Tensor]]:
     """Latents of a clip, and its keyframes' features."""
     random = torch.Generator().manual_seed(5)
     with torch.no_grad():
@@ -28,7 +28,7 @@ def encoded(models: InterpolationModels) -> tuple[Tensor, list[Tensor]]:
 
 @pytest.mark.parametrize("together", [1, 2, 3, 5, 15])
 def test_parts_give_the_pictures_of_the_whole(
-    models: InterpolationModels, encoded: tuple[Tensor, list[Tensor]], together: int
+    models: ToonCrafterModels, encoded: tuple[Tensor, list[Tensor]], together: int
 ) -> None:
     latents, references = encoded
     before = latents.clone(), [each.clone() for each in references]
@@ -42,7 +42,7 @@ def test_parts_give_the_pictures_of_the_whole(
     assert all(torch.equal(*each) for each in zip(references, before[1], strict=True))
 
 
-def test_frames_cut_apart_would_differ(models: InterpolationModels, encoded: tuple[Tensor, list[Tensor]]) -> None:
+def test_frames_cut_apart_would_differ(models: ToonCrafterModels, encoded: tuple[Tensor, list[Tensor]]) -> None:
     """Why the parts are not simply clips of their own."""
     latents, references = encoded
     with torch.no_grad():
@@ -51,7 +51,7 @@ def test_frames_cut_apart_would_differ(models: InterpolationModels, encoded: tup
     assert (apart - whole).abs().max() > 0.01 * whole.abs().max()
 
 
-def test_pictures_are_encoded_one_by_one_as_together(models: InterpolationModels) -> None:
+def test_pictures_are_encoded_one_by_one_as_together(models: ToonCrafterModels) -> None:
     frames = torch.randn(3, 3, HEIGHT, WIDTH, generator=torch.Generator().manual_seed(6))
     with torch.no_grad():
         moments, references = models.autoencoder.encode(frames)

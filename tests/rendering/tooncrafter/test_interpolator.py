@@ -16,11 +16,11 @@ from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.inbetweens import interpolate, keyframe_indices
 from physanimator.rendering.networks.checkpoints import CheckpointError
 from physanimator.rendering.networks.placement import Placement
-from physanimator.rendering.tooncrafter import InterpolationOptions
+from physanimator.rendering.tooncrafter import ToonCrafterOptions
 from physanimator.rendering.tooncrafter.conditioning import Tokens
 from physanimator.rendering.tooncrafter.gap_plan import clips_in, drawn_in_clip, inner_keyframes, sketched_in_clip
 from physanimator.rendering.tooncrafter.interpolator import ToonCrafterInterpolator
-from physanimator.rendering.tooncrafter.models import InterpolationModels, load_models
+from physanimator.rendering.tooncrafter.models import ToonCrafterModels, load_models
 
 WIDTH, HEIGHT = 90, 70
 QUICK: dict[str, Any] = {"steps": 1, "area": 64 * 64}
@@ -37,14 +37,14 @@ def sketches(count: int, *, seed: int = 4) -> list[NDArray[Any]]:
     return list((random.random((count, HEIGHT, WIDTH)) < 0.8).astype(np.float32))
 
 
-def drawn(models: InterpolationModels, indices: list[int], **options: Any) -> list[NDArray[Any]]:
+def drawn(models: ToonCrafterModels, indices: list[int], **options: Any) -> list[NDArray[Any]]:
     given = options.pop("sketches", ())
-    backend = ToonCrafterInterpolator(models, options=InterpolationOptions(**{**QUICK, **options}))
+    backend = ToonCrafterInterpolator(models, options=ToonCrafterOptions(**{**QUICK, **options}))
     return list(interpolate(pictures(len(indices)), indices, backend=backend, sketches=given))
 
 
 @pytest.mark.parametrize("every", range(2, 17))
-def test_every_gap_fills_and_keeps_its_keyframes(models: InterpolationModels, every: int) -> None:
+def test_every_gap_fills_and_keeps_its_keyframes(models: ToonCrafterModels, every: int) -> None:
     indices, keyframes = [0, every], pictures(2)
     frames = drawn(models, indices, guidance=1.0)
     assert len(frames) == every + 1
@@ -55,7 +55,7 @@ def test_every_gap_fills_and_keeps_its_keyframes(models: InterpolationModels, ev
     assert all(np.abs(a.astype(int) - b).max() > 0 for a, b in pairwise(between))
 
 
-def test_irregular_keyframes_and_a_remainder(models: InterpolationModels) -> None:
+def test_irregular_keyframes_and_a_remainder(models: ToonCrafterModels) -> None:
     indices = [0, 3, 4, 11]
     for index, frame in zip(indices, pictures(4), strict=True):
         np.testing.assert_array_equal(drawn(models, indices, guidance=1.0)[index], frame)
@@ -63,7 +63,7 @@ def test_irregular_keyframes_and_a_remainder(models: InterpolationModels) -> Non
     assert len(drawn(models, keyframe_indices(12, 5), guidance=1.0)) == 12
 
 
-def test_one_and_two_frames_need_no_networks(models: InterpolationModels) -> None:
+def test_one_and_two_frames_need_no_networks(models: ToonCrafterModels) -> None:
     backend = ToonCrafterInterpolator(models, watch=never)
     for count in (1, 2):
         given = pictures(count, dtype=np.float32)
@@ -75,20 +75,20 @@ def never(_: Any) -> None:
     raise AssertionError("sampled")
 
 
-def test_seeds(models: InterpolationModels) -> None:
+def test_seeds(models: ToonCrafterModels) -> None:
     first, again, other = (np.stack(drawn(models, [0, 4, 8], seed=seed)) for seed in (1, 1, 2))
     np.testing.assert_array_equal(first, again)
     assert np.abs(first[1].astype(int) - other[1]).mean() > 1
     assert np.abs(first[1].astype(int) - first[5]).mean() > 1
 
 
-def test_pairs_together_draw_what_they_draw_alone(models: InterpolationModels) -> None:
+def test_pairs_together_draw_what_they_draw_alone(models: ToonCrafterModels) -> None:
     given = sketches(13)
     alone, together = (np.stack(drawn(models, [0, 4, 8, 12], pairs_together=n, sketches=given)) for n in (1, 2))
     assert np.abs(alone.astype(int) - together).max() <= 1
 
 
-def test_sketches_lead_as_far_as_the_scale_says(models: InterpolationModels) -> None:
+def test_sketches_lead_as_far_as_the_scale_says(models: ToonCrafterModels) -> None:
     def change(scale: float) -> float:
         one, other = (drawn(models, [0, 4], control_scale=scale, sketches=sketches(5, seed=seed)) for seed in (4, 5))
         return float(np.abs(np.stack(one).astype(int) - np.stack(other)).mean())
@@ -97,7 +97,7 @@ def test_sketches_lead_as_far_as_the_scale_says(models: InterpolationModels) -> 
     assert 0 < change(0.1) < change(2)
 
 
-def test_pictures_stay_in_their_place(models: InterpolationModels) -> None:
+def test_pictures_stay_in_their_place(models: ToonCrafterModels) -> None:
     """The frame that the networks work in adds margins; they are cut off, and nothing is turned or mirrored."""
     seen: list[torch.Tensor] = []
 
@@ -106,7 +106,7 @@ def test_pictures_stay_in_their_place(models: InterpolationModels) -> None:
         width = tiny.TINY.image_encoder.width
         return Tokens(torch.zeros(len(given), 5, width), torch.zeros(1, 5, width))
 
-    backend = ToonCrafterInterpolator(models, options=InterpolationOptions(**QUICK), look=look)
+    backend = ToonCrafterInterpolator(models, options=ToonCrafterOptions(**QUICK), look=look)
     gradient = np.linspace(0, 1, WIDTH, dtype=np.float32)[None, :, None].repeat(HEIGHT, 0).repeat(3, 2)
     list(interpolate([gradient, gradient], [0, 2], backend=backend))
     row = seen[0][0, 32]
@@ -116,11 +116,11 @@ def test_pictures_stay_in_their_place(models: InterpolationModels) -> None:
     assert (row.diff() > -1e-3).all()
 
 
-def test_progress_ends_at_its_total_and_cancels(models: InterpolationModels) -> None:
+def test_progress_ends_at_its_total_and_cancels(models: ToonCrafterModels) -> None:
     reports: list[tuple[int, int]] = []
 
     def backend(progress: Callable[[int, int], None]) -> ToonCrafterInterpolator:
-        options = InterpolationOptions(**{**QUICK, "steps": 2})
+        options = ToonCrafterOptions(**{**QUICK, "steps": 2})
         return ToonCrafterInterpolator(models, options=options, progress=progress)
 
     list(interpolate(pictures(3), [0, 17, 19], backend=backend(lambda *now: reports.append(now))))
@@ -135,7 +135,7 @@ def test_progress_ends_at_its_total_and_cancels(models: InterpolationModels) -> 
         list(frames)
 
 
-def test_networks_leave_the_device_when_cancelled(models: InterpolationModels) -> None:
+def test_networks_leave_the_device_when_cancelled(models: ToonCrafterModels) -> None:
     asked: list[int] = []
     gone: list[bool] = []
     placement = Placement(torch.device("cpu"), make_room=asked.append, left=lambda: gone.append(True))
@@ -143,7 +143,7 @@ def test_networks_leave_the_device_when_cancelled(models: InterpolationModels) -
     def cancel(_: Any) -> None:
         raise KeyboardInterrupt
 
-    options = InterpolationOptions(**QUICK)
+    options = ToonCrafterOptions(**QUICK)
     backend = ToonCrafterInterpolator(models, options=options, placement=placement, watch=cancel)
     with pytest.raises(KeyboardInterrupt):
         list(interpolate(pictures(2), [0, 4], backend=backend))
@@ -173,7 +173,7 @@ def test_missing_encoders_and_sketch_models_are_named(pruned_file: Path, weights
         drawn(models, [0, 4], sketches=sketches(5))
 
 
-def test_sketches_must_fit(models: InterpolationModels) -> None:
+def test_sketches_must_fit(models: ToonCrafterModels) -> None:
     with pytest.raises(InvalidInputError, match=r"sketches must be one for each of the 5 frames"):
         drawn(models, [0, 4], sketches=sketches(4))
     with pytest.raises(InvalidInputError, match=r"sketches must be of the keyframes' size, 90 x 70 px"):

@@ -11,13 +11,13 @@ import random_tooncrafter as tiny
 import torch
 from physanimator.rendering.networks.checkpoints import CheckpointError
 from physanimator.rendering.tooncrafter.kept_prompt import keep_prompt, kept_prompt_file
-from physanimator.rendering.tooncrafter.models import InterpolationModels, load_models
+from physanimator.rendering.tooncrafter.models import ToonCrafterModels, load_models
 from physanimator.rendering.tooncrafter.text_encoder import TextEncoder, empty_prompt
 
 Weights = dict[str, dict[str, torch.Tensor]]
 
 
-def assert_holds(models: InterpolationModels, weights: Weights, *, through: torch.dtype = torch.float32) -> None:
+def assert_holds(models: ToonCrafterModels, weights: Weights, *, through: torch.dtype = torch.float32) -> None:
     for part in ("unet", "resampler", "autoencoder", "sketch", "image_encoder"):
         network = getattr(models, part)
         if network is None:
@@ -34,7 +34,7 @@ def empty_prompt_by(weights: Weights) -> torch.Tensor:
         return encoder(empty_prompt(tiny.TINY.text_encoder.tokens))
 
 
-def test_the_full_file_holds_everything_but_the_sketch_encoder(models: InterpolationModels, weights: Weights) -> None:
+def test_the_full_file_holds_everything_but_the_sketch_encoder(models: ToonCrafterModels, weights: Weights) -> None:
     assert_holds(models, weights)
     assert models.sketch is not None
     assert models.image_encoder is not None

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 import reference_nets as reference
 import torch
-from physanimator.rendering.tooncrafter import InterpolationOptions
+from physanimator.rendering.tooncrafter import ToonCrafterOptions
 from physanimator.rendering.tooncrafter.autoencoder import DualReferenceAutoencoder
 from physanimator.rendering.tooncrafter.clip import guided_velocity, sample_clips
 from physanimator.rendering.tooncrafter.conditioning import Tokens, contexts, encode_pair
 from physanimator.rendering.tooncrafter.decoding import decode_clip
-from physanimator.rendering.tooncrafter.models import InterpolationModels
+from physanimator.rendering.tooncrafter.models import ToonCrafterModels
 from physanimator.rendering.tooncrafter.resampler import ImageResampler
 from physanimator.rendering.tooncrafter.sketch_encoder import SketchEncoder
 from physanimator.rendering.tooncrafter.unet import InterpolationUNet
@@ -26,21 +26,21 @@ PIPELINES = [name for name in reference.cases("tooncrafter_ddim") if "/pipeline"
 ROUNDTRIPS = [name for name in reference.cases("tooncrafter_vae") if "/roundtrip" in name]
 
 
-def models_of(case: str) -> InterpolationModels:
+def models_of(case: str) -> ToonCrafterModels:
     described = reference.fixtures().cases[case]
     networks = [
         NETWORKS[net].from_reference(reference.fixtures().nets[net]["config"], reference.state_dict(case, net))
         for net in NETWORKS
         if net in described["nets"]
     ]
-    return InterpolationModels(*networks)
+    return ToonCrafterModels(*networks)
 
 
 @pytest.mark.parametrize("case", PIPELINES)
 def test_from_keyframes_to_frames(case: str) -> None:
     settings, given = reference.fixtures().cases[case]["config"], reference.inputs(case)
     models = models_of(case)
-    options = InterpolationOptions(
+    options = ToonCrafterOptions(
         steps=settings["steps"],
         eta=settings["eta"],
         guidance=settings["cfg"],

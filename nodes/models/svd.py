@@ -12,25 +12,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...rendering.composite import keep_still_parts, moving_region
-from ...rendering.svd import CLIP_FRAMES, SketchVideoOptions
-from ..host import dtype_of, host_preview, host_progress, pictures_of
-from .model_files import SKETCH_VIDEO, lvcd_file, svd_file
+from ...rendering.svd import CLIP_FRAMES, SVDOptions
+from ..host import dtype_of, pictures_of, watched_sampling
+from .model_files import SVD_FILES, lvcd_file, svd_file
 from .networks import Networks, kept_networks
-from .sketch_video_inputs import AREAS
+from .svd_inputs import AREAS
 
 if TYPE_CHECKING:
     import torch
 
     from ...rendering.composite import LayeredRenderer
-    from ...rendering.svd.models import SketchVideoModels
-    from ...rendering.svd.sampler import SampledStep
+    from ...rendering.svd.models import SVDModels
 
-__all__ = ["missing_sketch_video_files", "sketch_video_frames"]
+__all__ = ["missing_svd_files", "svd_frames"]
 
 FloatImage = NDArray[np.float32]
 
 
-def sketch_video_frames(image: FloatImage, layers: LayeredRenderer, choice: dict[str, Any]) -> Iterator[FloatImage]:
+def svd_frames(image: FloatImage, layers: LayeredRenderer, choice: dict[str, Any]) -> Iterator[FloatImage]:
     """The frames.
 
     Args:
@@ -43,7 +42,7 @@ def sketch_video_frames(image: FloatImage, layers: LayeredRenderer, choice: dict
 
     from ...physics.errors import require
     from ...rendering.networks.memory import peak_memory
-    from ...rendering.svd.renderer import SketchVideoRenderer
+    from ...rendering.svd.renderer import SVDRenderer
 
     files = _files(choice)
     sketches = pictures_of(choice["sketches"], name="sketches")
@@ -55,28 +54,29 @@ def sketch_video_frames(image: FloatImage, layers: LayeredRenderer, choice: dict
         torch.cuda.reset_peak_memory_stats(device)
     began = time.perf_counter()
     networks = _networks(*files, dtype_of(choice["precision"], device))
-    renderer = SketchVideoRenderer(networks.held, options=_options(choice), placement=networks.placement(device))
+    renderer = SVDRenderer(networks.held, options=_options(choice), placement=networks.placement(device))
     region = None
     if choice["keep_still_parts"]:
         alphas = (layers.alpha(number) for number in range(len(layers)))
         region = moving_region(alphas, soft_edge=choice["soft_edge"])
-    for frame in renderer.frames(image, list(sketches), **_watched(device)):
+    watched = watched_sampling(device, lambda clean: clean[len(clean) - CLIP_FRAMES // 2 :][:1])
+    for frame in renderer.frames(image, list(sketches), **watched):
         yield frame if region is None else keep_still_parts(frame, image, region)
     seconds, peak = time.perf_counter() - began, peak_memory(device) / 2**30
     logging.info("Render: %d frames in %.0f s, at most %.1f GiB of memory", len(sketches), seconds, peak)
 
 
-def _options(choice: dict[str, Any]) -> SketchVideoOptions:
+def _options(choice: dict[str, Any]) -> SVDOptions:
     same = ("steps", "motion_bucket", "overlap", "frames_per_second", "picture_noise", "decoded_together")
     chosen = {name: choice[name] for name in same}
-    return SketchVideoOptions(area=AREAS[choice["working_size"]], seed=choice["noise_from"], **chosen)
+    return SVDOptions(area=AREAS[choice["working_size"]], seed=choice["noise_from"], **chosen)
 
 
-def missing_sketch_video_files(choice: dict[str, Any]) -> str:
+def missing_svd_files(choice: dict[str, Any]) -> str:
     """What to tell about the chosen model files that are not there, with where to get them; empty if none."""
     find = {"svd_model": svd_file, "lvcd_model": lvcd_file}
     missing = [name for name, file in find.items() if choice.get(name) and file(choice[name]) is None]
-    told = " ".join(f"{choice[name]} is missing: {SKETCH_VIDEO[name]}" for name in missing)
+    told = " ".join(f"{choice[name]} is missing: {SVD_FILES[name]}" for name in missing)
     return f"{told} Or set renderer to composite, which needs no model." if told else ""
 
 
@@ -86,24 +86,12 @@ def _files(choice: dict[str, Any]) -> tuple[Path, Path]:
 
     svd, lvcd = svd_file(choice["svd_model"]), lvcd_file(choice["lvcd_model"])
     if svd is None or lvcd is None:
-        raise InvalidInputError(missing_sketch_video_files(choice))
+        raise InvalidInputError(missing_svd_files(choice))
     return svd, lvcd
 
 
-def _networks(svd: Path, lvcd: Path, dtype: torch.dtype) -> Networks[SketchVideoModels]:
+def _networks(svd: Path, lvcd: Path, dtype: torch.dtype) -> Networks[SVDModels]:
     from ...rendering.svd.models import load_models
 
     key = svd, svd.stat().st_mtime, lvcd, lvcd.stat().st_mtime, dtype
-    return kept_networks("sketch video", key, lambda: load_models(svd, lvcd, dtype=dtype))
-
-
-def _watched(device: torch.device) -> dict[str, Any]:
-    """Progress, and a look at the clip's middle after each step."""
-    report, preview = host_progress(), host_preview(device)
-    latest: list[Any] = []
-
-    def watch(now: SampledStep) -> None:
-        middle = len(now.clean) - CLIP_FRAMES // 2
-        latest[:] = [preview(now.clean[middle : middle + 1])]
-
-    return {"watch": watch, "progress": lambda done, total: report(done, total, latest.pop() if latest else None)}
+    return kept_networks("svd", key, lambda: load_models(svd, lvcd, dtype=dtype))

@@ -6,17 +6,17 @@ from typing import Any
 
 from comfy_api.latest import io
 
-from ...rendering.svd import CLIP_FRAMES, SketchVideoOptions
+from ...rendering.svd import CLIP_FRAMES, SVDOptions
 from ..host import PRECISIONS
 from .model_files import lvcd_choices, svd_choices
 
-__all__ = ["AREAS", "sketch_video_inputs"]
+__all__ = ["AREAS", "svd_inputs"]
 
 AREAS = {"448 x 256": 448 * 256, "576 x 320": 576 * 320, "768 x 448": 768 * 448, "1024 x 576": 1024 * 576}
-_USUAL = SketchVideoOptions()
+_USUAL = SVDOptions()
 
 
-def sketch_video_inputs() -> list[Any]:
+def svd_inputs() -> list[Any]:
     """The inputs that this choice brings."""
     return [
         io.Image.Input("sketches", tooltip="From Warp Sketch: dark lines on white, one for each frame of the motion."),
