@@ -9,7 +9,7 @@ Edges go into a spatial hash by their middles; vertices that are near no box aro
 from types import SimpleNamespace
 from typing import Any
 
-from .surface import CANDIDATES, FORESEEN, LONGEST, REACH, SPACING
+from .surface import FORESEEN, LONGEST, REACH, SPACING
 
 __all__ = ["INSIDE", "SLACK", "build_contact_listing"]
 
@@ -152,13 +152,13 @@ def build_contact_listing(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
         fill_hash(surface, cell_size(surface))
 
     @ti.func
-    def list_candidates(surface: any_value, solid: any_value, options: any_value, low: ti.i32, high: ti.i32):
-        """For each point of a piece the edges within the reach of a contact and what the list foresees."""
+    def list_candidates(surface: any_value, solid: any_value, options: any_value):
+        """For each point the edges within the reach of a contact and what the list foresees."""
         heads, memory, candidates = ti.static(surface.heads, surface.memory, surface.candidates)
         size, buckets = cell_size(surface), heads.shape[0] - 1
         inner, outer = reaches(surface, options)
-        count, room = CANDIDATES * low, CANDIDATES * high
-        for n in range(low, high):
+        count, room = 0, candidates.shape[0]
+        for n in range(surface.points.shape[0]):
             first = count
             i, own, p = surface.points[n], surface.point_parts[n], surface.places[n]
             reach = ti.select(outside(surface, n), outer, inner) + memory[FORESEEN]
