@@ -14,12 +14,12 @@ example's four bodies then took 1.1 times as long, and four blobs that pile up a
 
 from typing import Any, NamedTuple
 
-from ..solver import TICK, Drive, Solid, State, WindTable, array_types, build_functions
-from .functions import ContactOptions, build_contact_functions
+from ..solver import TICK, PackedArguments, argument_packs, array_types, build_functions
+from .functions import build_contact_functions
 from .search import build_contact_search
-from .surface import CONTACTS, GOOD_FOR, LEFT, NEXT_STEPS, STEPPING, STEPS, TOUCHING, ContactSurface
+from .surface import CONTACTS, GOOD_FOR, LEFT, NEXT_STEPS, STEPPING, STEPS, TOUCHING
 
-__all__ = ["build_contact_kernel"]
+__all__ = ["ContactKernel", "build_contact_kernel"]
 
 _LAST_PASSES = 4  # over all contacts at the end of a tick; within it one after each step is enough
 _LEAST_INTERVALS = 4  # from one search to the next within a tick
@@ -34,14 +34,22 @@ class _Scene(NamedTuple):
     solid: Any
     state: Any
     drive: Any
-    pairs: Any
     surface: Any
     options: Any
 
 
-def build_contact_kernel(ti: Any) -> Any:
+class ContactKernel(NamedTuple):
+    """What ``build_contact_kernel`` makes."""
+
+    advance: Any
+    packed: PackedArguments
+
+
+def build_contact_kernel(ti: Any) -> ContactKernel:
     """The kernel, compiled for Taichi's present program when first launched."""
-    types, functions, contact = array_types(ti), build_functions(ti), build_contact_functions(ti)
+    packs, surface_pack = argument_packs(ti), _surface_pack(ti)
+    options_pack = ti.types.argpack(friction=ti.f32, thickness=ti.f32, self_contact=ti.i32)
+    functions, contact = build_functions(ti), build_contact_functions(ti)
     find_contacts = build_contact_search(ti, contact)
     resolve_contacts, steps_in = contact.put_apart, contact.steps_in
     planned_steps, begin_tick = functions.planned_steps, functions.begin_tick
@@ -60,7 +68,7 @@ def build_contact_kernel(ti: Any) -> Any:
         Parts that touch take as many as the stiffest of them: one that stood still in many steps of a stiffer one would
         be pushed into it by each of them, and give back more than it got.
         """
-        activity, memory, starts = ti.static(scene.surface.activity, scene.surface.memory, scene.solid.starts)
+        activity, memory, starts = ti.static((scene.surface.activity, scene.surface.memory, scene.solid.starts))
         intervals, most = 0, 0
         for part in range(scene.solid.substeps.shape[0]):
             activity[part][STEPS] = activity[part][NEXT_STEPS]
@@ -80,23 +88,23 @@ def build_contact_kernel(ti: Any) -> Any:
     @ti.func
     def advance_free(tick: ti.i32, scene: ti.template()):
         """Begin the tick of all parts, and take those that touch nothing through it."""
-        solid, state, drive, activity = ti.static(scene.solid, scene.state, scene.drive, scene.surface.activity)
+        solid, state, drive, activity = ti.static((scene.solid, scene.state, scene.drive, scene.surface.activity))
         for part in range(solid.substeps.shape[0]):
             count = activity[part][STEPS]
             begin_tick(part, tick, count, solid, state, drive)
             if activity[part][STEPPING] == 0:
                 for step in range(count):
-                    take_step(part, tick, step, count, solid, state, drive, scene.pairs)
+                    take_step(part, tick, step, count, solid, state, drive)
 
     @ti.func
     def advance_interval(tick: ti.i32, interval: ti.i32, intervals: ti.i32, scene: ti.template()):
         """At most one step of every part that steps, after which contacts are resolved, and searched for if due."""
-        solid, state, surface, options = ti.static(scene.solid, scene.state, scene.surface, scene.options)
+        solid, state, surface, options = ti.static((scene.solid, scene.state, scene.surface, scene.options))
         for part in range(solid.substeps.shape[0]):
             count = surface.activity[part][STEPS]
             if surface.activity[part][STEPPING] > 0 and steps_in(interval, intervals, count) > 0:
                 step = interval * count // intervals
-                take_step(part, tick, step, count, solid, state, scene.drive, scene.pairs)
+                take_step(part, tick, step, count, solid, state, scene.drive)
         dt = TICK / intervals
         if intervals > 1:
             resolve_contacts(surface, solid, state, options, interval, intervals, 1)
@@ -109,7 +117,7 @@ def build_contact_kernel(ti: Any) -> Any:
     @ti.func
     def end_tick(scene: ti.template()):
         """Find out which parts touch in the next tick, and leave nothing inside anything: a frame may follow."""
-        surface, solid, state, options = ti.static(scene.surface, scene.solid, scene.state, scene.options)
+        surface, solid, state, options = ti.static((scene.surface, scene.solid, scene.state, scene.options))
         for part in range(surface.activity.shape[0]):
             surface.activity[part][TOUCHING] = 0
         find_contacts(surface, solid, state, options, TICK)
@@ -133,122 +141,42 @@ def build_contact_kernel(ti: Any) -> Any:
 
     @ti.kernel
     def advance_touching(
-        starts: types.pairs,
-        planned: types.integers,
-        vertices: types.vectors4,
-        reach: types.scalars,
-        leaders: types.integers,
-        grips: types.scalars,
-        corners: types.index_blocks,
-        elements: types.blocks,
-        first_slots: types.integers,
-        slots: types.integers,
-        anchors: types.integers,
-        tethers: types.scalars,
-        wind_response: types.scalars,
-        u: types.vectors,
-        v: types.vectors,
-        push: types.vectors,
-        decay: types.scalars,
-        corner_forces: types.pair_blocks,
-        records: types.vectors2,
-        pairs: types.vectors,
-        rig_leads: types.scalars3,
-        rig_rates: types.scalars3,
-        first_particles: types.integers,
-        particles: types.scalars2,
-        kinds: types.integers,
-        gravity_x: ti.f32,
-        gravity_y: ti.f32,
-        wind: types.vectors,
-        waves: types.vectors4,
-        phases: types.scalars2,
-        points: types.integers,
-        point_parts: types.integers,
-        edges: types.pairs,
-        neighbours: types.pairs,
-        edge_parts: types.integers,
-        bodies: types.integers,
-        measures: types.vectors,
-        boxes: types.vectors4,
-        first_overlaps: types.integers,
-        overlap_parts: types.integers,
-        overlaps: types.scalars,
-        heads: types.integers,
-        order: types.pairs,
-        middles: types.vectors4,
-        candidate_ranges: types.pairs,
-        candidates: types.integers,
-        places: types.vectors,
-        marks: types.vectors4,
-        found: types.integers,
-        contacts: types.pairs,
-        contact_data: types.vectors4,
-        activity: types.integers4,
-        memory: types.scalars,
-        friction: ti.f32,
-        thickness: ti.f32,
-        within: ti.i32,
+        solid: packs.solid, state: packs.state, drive: packs.drive, surface: surface_pack, options: options_pack
     ):
         ti.loop_config(block_dim=1)
         for _ in range(1):  # the outermost loop would be spread over threads
-            advance(
-                ti.static(
-                    _Scene(
-                        Solid(
-                            starts,
-                            planned,
-                            vertices,
-                            reach,
-                            leaders,
-                            grips,
-                            corners,
-                            elements,
-                            first_slots,
-                            slots,
-                            anchors,
-                            tethers,
-                            wind_response,
-                        ),
-                        State(u, v, push, decay, corner_forces, records),
-                        Drive(
-                            rig_leads,
-                            rig_rates,
-                            first_particles,
-                            particles,
-                            kinds,
-                            (gravity_x, gravity_y),
-                            WindTable(wind, waves, phases),
-                        ),
-                        pairs,
-                        ContactSurface(
-                            points,
-                            point_parts,
-                            edges,
-                            neighbours,
-                            edge_parts,
-                            bodies,
-                            measures,
-                            boxes,
-                            first_overlaps,
-                            overlap_parts,
-                            overlaps,
-                            heads,
-                            order,
-                            middles,
-                            candidate_ranges,
-                            candidates,
-                            places,
-                            marks,
-                            found,
-                            contacts,
-                            contact_data,
-                            activity,
-                            memory,
-                        ),
-                        ContactOptions(friction, thickness, within),
-                    )
-                )
-            )
+            advance(ti.static(_Scene(solid, state, drive, surface, options)))
 
-    return advance_touching
+    return ContactKernel(
+        advance_touching, PackedArguments(packs.solid, packs.state, packs.drive, surface_pack, options_pack)
+    )
+
+
+def _surface_pack(ti: Any) -> Any:
+    """The type of the pack of ``ContactSurface``."""
+    types = array_types(ti)
+    return ti.types.argpack(
+        points=types.integers,
+        point_parts=types.integers,
+        edges=types.pairs,
+        neighbours=types.pairs,
+        edge_parts=types.integers,
+        bodies=types.integers,
+        measures=types.vectors,
+        boxes=types.vectors4,
+        first_overlaps=types.integers,
+        overlap_parts=types.integers,
+        overlaps=types.scalars,
+        heads=types.integers,
+        order=types.pairs,
+        middles=types.vectors4,
+        candidate_ranges=types.pairs,
+        candidates=types.integers,
+        places=types.vectors,
+        marks=types.vectors4,
+        found=types.integers,
+        contacts=types.pairs,
+        contact_data=types.vectors4,
+        activity=types.integers4,
+        memory=types.scalars,
+    )

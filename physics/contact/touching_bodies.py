@@ -18,11 +18,19 @@ from ..assembly import System, drive
 from ..material import RestShape
 from ..runtime import taichi_runtime
 from ..scene import Contact, Scene
-from ..solver import Drive, Solid, State
+from ..solver import Drive, Solid, State, drive_group, solid_group, state_group
 from .kernels import build_contact_kernel
 from .surface import ContactSurface, contact_surface
 
 __all__ = ["TouchingBodies"]
+
+
+class ContactOptions(NamedTuple):
+    """A scene's ``Contact`` in the kernel's units: the thickness in sides."""
+
+    friction: float
+    thickness: float
+    self_contact: int
 
 
 class _Touching(NamedTuple):
@@ -30,7 +38,7 @@ class _Touching(NamedTuple):
 
     solid: Solid
     surface: ContactSurface
-    options: tuple[float, float, int]
+    options: ContactOptions
 
 
 class TouchingBodies:
@@ -59,7 +67,7 @@ class TouchingBodies:
         added[:, :2] = still
         self._solid = solid._replace(vertices=np.concatenate([solid.vertices, added]))
         thickness = contact.thickness / scene.bodies[0].mesh.longest_side
-        options = (contact.friction, thickness, int(contact.self_contact))
+        options = ContactOptions(contact.friction, thickness, int(contact.self_contact))
         self._touching = _Touching(self._solid, surface, options)
         self.count = len(solid.vertices)
         self.state = State.at_rest(self._solid)
@@ -82,5 +90,5 @@ class TouchingBodies:
 def _advance(touching: _Touching, state: State, acting: Drive) -> None:
     kernel = taichi_runtime.compiled(build_contact_kernel)
     solid, surface, options = touching
-    *arrays, gravity, wind = acting
-    kernel(*solid, *state, state.corner_forces.reshape(-1, 2), *arrays, *gravity, *wind, *surface, *options)
+    groups = solid_group(solid), state_group(state), drive_group(acting), surface._asdict(), options._asdict()
+    kernel.advance(*kernel.packed(*groups))

@@ -145,11 +145,11 @@ def build_functions(ti: Any) -> SimpleNamespace:
     def wind_push(q: vec2, tick: ti.i32, drive: any_value):
         """Acceleration at q by the wind field in a tick."""
         total = vec2(0.0, 0.0)
-        if drive.wind.uniform.shape[0] > 0:
-            total = drive.wind.uniform[tick]
-            for m in range(drive.wind.waves.shape[0]):
-                wave = drive.wind.waves[m]
-                turned = ti.sin(wave[0] * q[0] + wave[1] * q[1] + drive.wind.phases[tick, m])
+        if drive.uniform.shape[0] > 0:
+            total = drive.uniform[tick]
+            for m in range(drive.waves.shape[0]):
+                wave = drive.waves[m]
+                turned = ti.sin(wave[0] * q[0] + wave[1] * q[1] + drive.phases[tick, m])
                 total = total + turned * vec2(wave[2], wave[3])
         return total
 
@@ -238,7 +238,6 @@ def build_functions(ti: Any) -> SimpleNamespace:
         solid: any_value,
         state: any_value,
         drive: any_value,
-        pairs_of_forces: any_value,
     ):
         """One of the substeps of a vertex in a tick: v' = exp(-alpha dt) (v + dt (f / m + a)), u' = u + dt v'."""
         u, v = ti.static(state.displacement, state.velocity)
@@ -247,7 +246,7 @@ def build_functions(ti: Any) -> SimpleNamespace:
         if leader < 0 or grip > 0.0:
             force = vec2(0.0, 0.0)
             for slot in range(solid.first_slots[i], solid.first_slots[i + 1]):
-                force = force + pairs_of_forces[solid.slots[slot]]
+                force = force + state.force_pairs[solid.slots[slot]]
             speed = state.decay[i] * (v[i] + dt * (vertex[2] * force + state.push[i]))
             if grip > 0.0:
                 before = goal(place(vertex), tick, leader, begin, drive)
@@ -272,7 +271,6 @@ def build_functions(ti: Any) -> SimpleNamespace:
         solid: any_value,
         state: any_value,
         drive: any_value,
-        pairs_of_forces: any_value,
     ):
         """One of the substeps of a part in a tick.
 
@@ -282,7 +280,7 @@ def build_functions(ti: Any) -> SimpleNamespace:
         for n in range(first[1] & SMALL, end[1] & SMALL):
             add_forces(solid, state, n)
         for i in range(first[0], end[0]):
-            move(i, tick, step, count, solid, state, drive, pairs_of_forces)
+            move(i, tick, step, count, solid, state, drive)
         if solid.anchors.shape[0] > 0:
             for i in range(first[0], end[0]):
                 tether(i, tick, step, count, solid, state, drive)

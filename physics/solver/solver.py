@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..runtime import LANES, aligned, check_aligned, taichi_runtime
+from .arguments import drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
 from .kernels import build_kernels
 
@@ -45,11 +46,10 @@ def internal_forces(solid: Solid, displacement: NDArray[np.float32]) -> NDArray[
 
 
 def _advance(solid: Solid, state: State, drive: Drive) -> None:
-    *arrays, gravity, wind = drive
+    kernels = taichi_runtime.compiled(build_kernels)
     work = np.diff(solid.starts[:, 1]) * solid.substeps
     parts = np.argsort(-work, kind="stable").astype(np.int32)  # the most work first, so that threads end together
-    arguments = (*solid, *state, state.corner_forces.reshape(-1, 2), *arrays, *gravity, *wind)
-    taichi_runtime.compiled(build_kernels).advance(parts, *arguments)
+    kernels.advance(parts, *kernels.packed(solid_group(solid), state_group(state), drive_group(drive)))
 
 
 def _internal_forces(solid: Solid, arrays: tuple[NDArray[Any], ...]) -> None:
