@@ -11,7 +11,7 @@ from ..errors import SimulationError, require
 from ..forces import most_alive
 from ..limits import DEFAULT_MINUTES, MAX_OUTLINE_POINTS, MOST_MINUTES
 from ..scene import MAX_OUTLINE_CROSSINGS, OutlineCounts, Scene, count_outlines
-from ..solver import TICK, schedule
+from ..solver import TICK
 from .outlines import outline_spacing
 from .sway import SwayPart
 from .system import System, assemble
@@ -68,8 +68,7 @@ class SimulationPlan:
         estimated_seconds: of computing, on one core of an ordinary machine.
         costliest_body: number of the body with the connected part that takes the most work.
         sway: what became of the sway frequencies that materials ask for.
-        alone: connected parts that a thread computes by itself, side by side with others.
-        shared: for each connected part that several threads compute together, how many.
+        parts: connected parts; without contact they are computed side by side, a thread for each.
     """
 
     frames: int
@@ -84,8 +83,7 @@ class SimulationPlan:
     estimated_seconds: float
     costliest_body: int
     sway: tuple[SwayPart, ...]
-    alone: int
-    shared: tuple[int, ...]
+    parts: int
 
     @property
     def step(self) -> float:
@@ -129,7 +127,6 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
     triangles = np.diff(system.starts[:, 1])
     factor = 1.0 if scene.contact is None else CONTACT_WORK
     elastic = factor * system.substeps * triangles
-    chosen = schedule(triangles, system.substeps, threads=None if scene.contact is None else 1)
     counts = NO_OUTLINES if scene.contact is None else count_outlines(scene, outline_spacing(scene, system))
     outline_work = OUTLINE_WORK * counts.points + CROWDING_WORK * counts.crowding
     free, ticks = int(system.free.sum()), math.ceil(duration / TICK)
@@ -149,8 +146,7 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
         estimated_seconds=(work + CROSSING_WORK * counts.crossings) / UPDATES_PER_SECOND,
         costliest_body=int(system.bodies[system.starts[elastic.argmax(), 0]]),
         sway=system.sway,
-        alone=len(chosen.alone),
-        shared=tuple(threads for _, threads in chosen.shared),
+        parts=len(triangles),
     )
 
 

@@ -4,12 +4,12 @@
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
 
 from types import SimpleNamespace
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..solver import TICK
 from .surface import CONTACTS, STEPS
 
-__all__ = ["ContactOptions", "build_contact_functions"]
+__all__ = ["build_contact_functions"]
 
 _YIELDING = 0.5  # part of the thickness that gives way at first, so that pushes do not set light vertices ringing
 _RETURN = 0.01  # part of it that comes back in a step
@@ -19,14 +19,6 @@ _PUSHED_AT_ONCE = 36
 _THIN = 1e-3  # [side], of contacts that are thinner
 _LEAST_PUSH = 1e-6  # [side]; what is less makes no difference that could be seen
 _LEAST_SPEED = 1e-4  # [side/s]
-
-
-class ContactOptions(NamedTuple):
-    """Values of ``collision.Contact`` in the kernel's units: the thickness in sides."""
-
-    friction: Any
-    thickness: Any
-    within: Any
 
 
 def build_contact_functions(ti: Any) -> SimpleNamespace:

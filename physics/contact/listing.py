@@ -9,7 +9,7 @@ Edges go into a spatial hash by their middles; vertices that are near no box aro
 from types import SimpleNamespace
 from typing import Any
 
-from .surface import CANDIDATES, FORESEEN, LONGEST, REACH, SPACING
+from .surface import FORESEEN, LONGEST, REACH, SPACING
 
 __all__ = ["INSIDE", "SLACK", "build_contact_listing"]
 
@@ -64,7 +64,7 @@ def build_contact_listing(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
         part, edge = surface.edge_parts[e], surface.edges[e]
         a, b = surface.points[edge[0]], surface.points[edge[1]]
         allowed = surface.bodies[part] != surface.bodies[own]
-        if (not allowed) and options.within == 1 and surface.bodies[own] >= 0 and a != i and b != i:
+        if (not allowed) and options.self_contact == 1 and surface.bodies[own] >= 0 and a != i and b != i:
             allowed = True
             if part == own:
                 apart = offset(rest_place(solid, i), rest_place(solid, a), rest_place(solid, b)).norm()
@@ -127,7 +127,7 @@ def build_contact_listing(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
     @ti.func
     def near_a_box(surface: any_value, options: any_value, n: ti.i32, reach: ti.f32):
         """Whether a point is within reach of the box around a part whose edges it may come near to."""
-        p, own, found = surface.places[n], surface.point_parts[n], options.within == 1
+        p, own, found = surface.places[n], surface.point_parts[n], options.self_contact == 1
         for part in range(surface.boxes.shape[0]):
             if surface.bodies[part] != surface.bodies[own]:
                 box = surface.boxes[part]
@@ -152,18 +152,18 @@ def build_contact_listing(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
         fill_hash(surface, cell_size(surface))
 
     @ti.func
-    def list_candidates(surface: any_value, solid: any_value, options: any_value, low: ti.i32, high: ti.i32):
-        """For each point of a piece the edges within the reach of a contact and what the list foresees."""
+    def list_candidates(surface: any_value, solid: any_value, options: any_value):
+        """For each point the edges within the reach of a contact and what the list foresees."""
         heads, memory, candidates = ti.static(surface.heads, surface.memory, surface.candidates)
         size, buckets = cell_size(surface), heads.shape[0] - 1
         inner, outer = reaches(surface, options)
-        count, room = CANDIDATES * low, CANDIDATES * high
-        for n in range(low, high):
+        count, room = 0, candidates.shape[0]
+        for n in range(surface.points.shape[0]):
             first = count
             i, own, p = surface.points[n], surface.point_parts[n], surface.places[n]
             reach = ti.select(outside(surface, n), outer, inner) + memory[FORESEEN]
             other_than = ti.cast(surface.bodies[own], ti.f32)
-            if options.within == 1:
+            if options.self_contact == 1:
                 other_than = -2.0
             x, y = cell_of(p, size)
             for c in range(ti.select(near_a_box(surface, options, n, reach), 6, 0)):
@@ -186,7 +186,7 @@ def build_contact_listing(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
                 a, b = edge_ends(surface, e)
                 square = offset(p, a, b).norm_sqr()
                 near = square < reach * reach
-                if near and options.within == 1:
+                if near and options.self_contact == 1:
                     near = may_touch(surface, solid, i, own, e, options)
                 if near:
                     nearest_square = ti.min(nearest_square, square)

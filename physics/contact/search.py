@@ -3,8 +3,6 @@
 
 Every vertex has a list of edges that it may come near to, which is good until the fastest vertices could have come
 farther than it foresees. Of these edges, the nearest one of each part is a contact.
-
-A search has a beginning and an end that one thread sees to, and pieces of points between them that several may share.
 """
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
@@ -24,7 +22,6 @@ from .surface import (
     LIST_LENGTH,
     MOVED,
     NEAREST,
-    POINTS_AT_ONCE,
     SEARCH,
     SPACING,
     SPEED,
@@ -42,8 +39,8 @@ _STALE = 0.25  # of a mean edge, that vertices may move until the nearest edges 
 _NOTHING, _LOOK, _LIST = 0.0, 1.0, 2.0  # what a search has to do
 
 
-def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
-    """The functions of a search, by name, on those that ``build_contact_functions`` made."""
+def build_contact_search(ti: Any, contact: SimpleNamespace) -> Any:
+    """The function that searches, made of those that ``build_contact_functions`` made."""
     vec4, int2 = ti.types.vector(4, ti.f32), ti.types.vector(2, ti.i32)
     slots_i, slots_f = ti.types.vector(LIST_LENGTH, ti.i32), ti.types.vector(LIST_LENGTH, ti.f32)
     any_value = ti.template()
@@ -109,8 +106,8 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
         return signed
 
     @ti.func
-    def look_around(surface: any_value, options: any_value, low: ti.i32, high: ti.i32):
-        """List the contacts of a piece's points; returns the square of the distance to the nearest candidate."""
+    def look_around(surface: any_value, options: any_value):
+        """List the contacts of all points; returns the square of the distance to the nearest candidate."""
         memory = ti.static(surface.memory)
         time, nearest_square = memory[TIME], 1e6
         ahead = 2.0 * memory[FASTEST] * time
@@ -118,7 +115,7 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
         inner = ti.max(inner, options.thickness + ahead)
         # Found is what was in front of an edge when last looked at, wherever it is now, and what may get near soon.
         outer = outer + ti.max(2.0 * memory[FASTEST] * ti.max(time, TICK), 2.0 * memory[WALKED])
-        for n in range(low, high):
+        for n in range(surface.points.shape[0]):
             surface.found[n] = 0
             span, p, in_front = surface.candidate_ranges[n], surface.places[n], outside(surface, n)
             reach = ti.select(in_front, outer, inner)
@@ -149,7 +146,7 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
                                 within = True
                 if within and in_front:
                     surface.marks[n][3] = 0.0
-                    ti.atomic_max(memory[ENTERED], 1.0)
+                    memory[ENTERED] = 1.0
                 if near and not within and not in_front and free(surface, n):
                     surface.marks[n][3] = 1.0
         return nearest_square
@@ -198,18 +195,7 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
                 left = ti.max(least, ti.min(_FORESIGHT * soon, _FARTHEST * widest(surface)))
                 memory[SEARCH], memory[FORESEEN], memory[MOVED] = _LIST, left, 0.0
                 begin_listing(surface, options)
-            memory[GAP], memory[NEAREST] = left, 1e6
-
-    @ti.func
-    def search(surface: any_value, solid: any_value, options: any_value, piece: ti.i32):
-        """Do it for one piece of the points."""
-        memory = ti.static(surface.memory)
-        if memory[SEARCH] > _NOTHING:
-            low = piece * POINTS_AT_ONCE
-            high = ti.min(low + POINTS_AT_ONCE, surface.points.shape[0])
-            if memory[SEARCH] == _LIST:
-                list_candidates(surface, solid, options, low, high)
-            ti.atomic_min(memory[NEAREST], look_around(surface, options, low, high))
+            memory[GAP] = left
 
     @ti.func
     def end_search(surface: any_value, options: any_value):
@@ -224,9 +210,9 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
                     count = count + 1
             memory[CONTACTS] = ti.cast(count, ti.f32)
             inner, _ = reaches(surface, options)
-            gap = ti.sqrt(ti.atomic_min(memory[NEAREST], 1e6)) - inner
+            gap = ti.sqrt(memory[NEAREST]) - inner
             memory[GAP] = ti.min(gap, memory[GAP])
-            if ti.atomic_max(memory[ENTERED], 0.0) > 0.0:
+            if memory[ENTERED] > 0.0:
                 memory[FORESEEN], memory[ENTERED] = 0.0, 0.0  # which lists candidates anew, farther around it
         memory[GAP] = memory[GAP] - 2.0 * memory[FASTEST] * memory[TIME]
         narrowest = 1e6
@@ -235,18 +221,14 @@ def build_contact_search(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
         memory[GOOD_FOR] = _STALE * narrowest / ti.max(memory[FASTEST], 1e-6)
 
     @ti.func
-    def pieces(surface: any_value):
-        """How many pieces a search has."""
-        return (surface.points.shape[0] + POINTS_AT_ONCE - 1) // POINTS_AT_ONCE
-
-    @ti.func
     def find_contacts(surface: any_value, solid: any_value, state: any_value, options: any_value, time: ti.f32):
-        """A whole search."""
+        """List the contacts that may come about in the time ahead [s]."""
+        memory = ti.static(surface.memory)
         begin_search(surface, solid, state, options, time)
-        for piece in range(pieces(surface)):
-            search(surface, solid, options, piece)
+        if memory[SEARCH] == _LIST:
+            list_candidates(surface, solid, options)
+        if memory[SEARCH] > _NOTHING:
+            memory[NEAREST] = look_around(surface, options)
         end_search(surface, options)
 
-    return SimpleNamespace(
-        begin_search=begin_search, search=search, end_search=end_search, pieces=pieces, find_contacts=find_contacts
-    )
+    return find_contacts

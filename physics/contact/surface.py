@@ -25,11 +25,12 @@ __all__ = [
     "LONGEST",
     "MOVED",
     "NEAREST",
-    "POINTS_AT_ONCE",
+    "NEXT_STEPS",
     "REACH",
     "SEARCH",
     "SPACING",
     "SPEED",
+    "STEPPING",
     "STEPS",
     "TIME",
     "TOUCHING",
@@ -46,10 +47,7 @@ LIST_LENGTH = 4
 """Contacts of one vertex, each with another part."""
 
 CANDIDATES = 96
-"""Edges around a vertex, on average over a piece of a search, that are remembered at most."""
-
-POINTS_AT_ONCE = 32
-"""Boundary vertices that a thread takes from a search."""
+"""Edges around a vertex, on average over all, that are remembered at most."""
 
 (
     FORESEEN,
@@ -72,7 +70,7 @@ POINTS_AT_ONCE = 32
 SPACING, SPEED = range(2)
 """Places of the numbers in ``ContactSurface.measures``."""
 
-TOUCHING, STEPS = range(2)
+TOUCHING, STEPPING, STEPS, NEXT_STEPS = range(4)
 """Places of the numbers in ``ContactSurface.activity``."""
 
 
@@ -106,8 +104,9 @@ class ContactSurface(NamedTuple):
         found: contacts of each point in the present search, int32, shape [n].
         contacts: a point and the edge that it may touch, int32, shape [c, 2].
         contact_data: the normal, where on the edge, and the distance to keep, float32, shape [c, 4].
-        activity: 1 for parts that may touch another in a tick, and how many substeps each takes in it, 0 for colliders,
-            int32, shape [p, 2].
+        activity: for each part 1 if the latest search has found that it may touch another in a tick, 1 if it steps with
+            others in the present tick, the substeps that it takes in it (0 for colliders), and those that it needs in
+            the next one, int32, shape [p, 4].
         memory: numbers that the kernel keeps, float32, shape [14]: how far the candidates foresee [side], the number of
             contacts (-1: not yet found), how far everything is from any [side], how long the list of contacts is good
             when it is made [s], and for how long it still has to do [s]; then of the present search what has to be
@@ -191,7 +190,7 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         found=np.zeros(len(points), np.int32),
         contacts=np.zeros((room, 2), np.int32),
         contact_data=np.zeros((room, 4), np.float32),
-        activity=np.tile(np.array([1, 0], np.int32), (len(bodies), 1)),
+        activity=np.tile(np.array([1, 0, 0, 0], np.int32), (len(bodies), 1)),
         memory=np.array([0.0, -1.0, *[0.0] * 12], np.float32),
     )
     return surface, still

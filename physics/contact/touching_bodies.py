@@ -4,13 +4,10 @@ Every part takes its own steps through a tick as without contact, but parts that
 them and are put apart after each: pushed out of each other more rarely, or while one stands still, they would gain
 energy. Two that have only come near are put apart in every step of the stiffer one, and the softer one is foreseen to
 move at the end of its own step.
-
-All parts are advanced by several threads together, or by one where that is faster.
 """
 
 from __future__ import annotations
 
-import time
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -19,16 +16,21 @@ from numpy.typing import NDArray
 
 from ..assembly import System, drive
 from ..material import RestShape
-from ..runtime import LANES, taichi_runtime
+from ..runtime import taichi_runtime
 from ..scene import Contact, Scene
-from ..solver import Drive, Pace, Solid, State, most_threads
+from ..solver import Drive, Solid, State, drive_group, solid_group, state_group
 from .kernels import build_contact_kernel
 from .surface import ContactSurface, contact_surface
-from .team import Pieces, pieces_of, team_for
 
 __all__ = ["TouchingBodies"]
 
-_paces: dict[tuple[int, int], Pace] = {}  # by threads and work in a tick; used on the Taichi thread only
+
+class ContactOptions(NamedTuple):
+    """A scene's ``Contact`` in the kernel's units: the thickness in sides."""
+
+    friction: float
+    thickness: float
+    self_contact: int
 
 
 class _Touching(NamedTuple):
@@ -36,9 +38,7 @@ class _Touching(NamedTuple):
 
     solid: Solid
     surface: ContactSurface
-    pieces: Pieces
-    threads: int
-    options: tuple[float, float, int]
+    options: ContactOptions
 
 
 class TouchingBodies:
@@ -66,11 +66,9 @@ class TouchingBodies:
         added = np.zeros((len(still), 4), np.float32)
         added[:, :2] = still
         self._solid = solid._replace(vertices=np.concatenate([solid.vertices, added]))
-        pieces = pieces_of(solid, most_threads())
-        threads = min(most_threads(), len(pieces.blocks))  # of one piece, no two can work at once
         thickness = contact.thickness / scene.bodies[0].mesh.longest_side
-        options = (contact.friction, thickness, int(contact.self_contact))
-        self._touching = _Touching(self._solid, surface, pieces, threads, options)
+        options = ContactOptions(contact.friction, thickness, int(contact.self_contact))
+        self._touching = _Touching(self._solid, surface, options)
         self.count = len(solid.vertices)
         self.state = State.at_rest(self._solid)
         if start is not None:
@@ -91,14 +89,6 @@ class TouchingBodies:
 
 def _advance(touching: _Touching, state: State, acting: Drive) -> None:
     kernel = taichi_runtime.compiled(build_contact_kernel)
-    solid, surface, pieces, threads, options = touching
-    *arrays, gravity, wind = acting
-    pairs = state.corner_forces.reshape(-1, 2)
-    ticks = len(acting.first_particles) - 1
-    team = team_for(pieces, solid, len(surface.points), ticks)
-    work = float(LANES * (np.diff(solid.starts[:, 1]) * solid.substeps).sum())
-    pace = _paces.setdefault((threads, int(work).bit_length()), Pace())
-    shared, start = pace.share(), time.perf_counter()
-    now = threads if shared else 1
-    kernel(now, *team, *solid, *state, pairs, *arrays, *gravity, *wind, *surface, *options)
-    pace.learn(shared=shared, work=work * ticks, seconds=time.perf_counter() - start)
+    solid, surface, options = touching
+    groups = solid_group(solid), state_group(state), drive_group(acting), surface._asdict(), options._asdict()
+    kernel.advance(*kernel.packed(*groups))

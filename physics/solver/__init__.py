@@ -2,36 +2,32 @@
 
 from __future__ import annotations
 
+from .arguments import PackedArguments, argument_packs, array_types, drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
 from .kernel_functions import REACH, SPEED_FLOOR, build_functions
-from .kernels import BLOCKS_AT_ONCE, SMALL, VERTICES_AT_ONCE, array_types
-from .pace import Pace
-from .scheduling import TRIANGLES_PER_THREAD, most_threads, schedule
 from .solver import advance
 from .stepping import SAFETY, TICK, frequency_limits, squared_frequencies, substeps, vertex_frequencies
 
 __all__ = [
-    "BLOCKS_AT_ONCE",
     "CALM",
     "REACH",
     "SAFETY",
-    "SMALL",
     "SPEED_FLOOR",
     "TICK",
-    "TRIANGLES_PER_THREAD",
-    "VERTICES_AT_ONCE",
     "Drive",
-    "Pace",
+    "PackedArguments",
     "Solid",
     "State",
     "WindTable",
     "advance",
+    "argument_packs",
     "array_types",
     "build_functions",
+    "drive_group",
     "frequency_limits",
-    "most_threads",
-    "schedule",
+    "solid_group",
     "squared_frequencies",
+    "state_group",
     "substeps",
     "vertex_frequencies",
 ]

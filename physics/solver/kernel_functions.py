@@ -27,6 +27,9 @@ SPEED_FLOOR = 5.0
 REACH = 0.25
 """Part of its smallest altitude that a vertex faster than ``SPEED_FLOOR`` moves in a substep at most."""
 
+SMALL = 0x7FFFFFF
+"""Masks the ends of loops over blocks, which changes nothing but tells the compiler that 48 n fits into 32 bits."""
+
 LATE_SAFETY = (1 + SAFETY) / 2
 """Between the planned step and the limit, so that small strains change nothing."""
 
@@ -99,20 +102,15 @@ def build_functions(ti: Any) -> SimpleNamespace:
         return elements[n, 6] * (shear + pressure * bulk) / (shear + 2.0 * pressure)
 
     @ti.func
-    def highest_frequency(solid: any_value, state: any_value, first: ti.i32, end: ti.i32):
-        """The highest omega^2 of the triangles in some blocks as they are now."""
+    def planned_steps(part: ti.i32, solid: any_value, state: any_value):
+        """Substeps of a part in a tick: the planned ones unless large deformation asks for more."""
         squared = lanes(0.0)
-        for n in range(first, end):
+        for n in range(solid.starts[part][1] & SMALL, solid.starts[part + 1][1] & SMALL):
             squared = ti.max(squared, present_frequencies(solid, state, n))
         highest = 0.0
         for lane in ti.static(range(LANES)):
             highest = ti.max(highest, squared[lane])
-        return highest
-
-    @ti.func
-    def substeps_at(squared_frequency: ti.f32, planned: ti.i32):
-        """The substeps of a tick: the planned ones unless large deformation asks for more."""
-        needed, count = ti.sqrt(squared_frequency) * (TICK / (2.0 * LATE_SAFETY)), planned
+        needed, count = ti.sqrt(highest) * (TICK / (2.0 * LATE_SAFETY)), solid.substeps[part]
         if needed > ti.cast(count, ti.f32):
             count = ti.cast(ti.ceil(ti.min(needed, ti.cast(count * MOST_REFINEMENT, ti.f32))), ti.i32)
         return count
@@ -147,11 +145,11 @@ def build_functions(ti: Any) -> SimpleNamespace:
     def wind_push(q: vec2, tick: ti.i32, drive: any_value):
         """Acceleration at q by the wind field in a tick."""
         total = vec2(0.0, 0.0)
-        if drive.wind.uniform.shape[0] > 0:
-            total = drive.wind.uniform[tick]
-            for m in range(drive.wind.waves.shape[0]):
-                wave = drive.wind.waves[m]
-                turned = ti.sin(wave[0] * q[0] + wave[1] * q[1] + drive.wind.phases[tick, m])
+        if drive.uniform.shape[0] > 0:
+            total = drive.uniform[tick]
+            for m in range(drive.waves.shape[0]):
+                wave = drive.waves[m]
+                turned = ti.sin(wave[0] * q[0] + wave[1] * q[1] + drive.phases[tick, m])
                 total = total + turned * vec2(wave[2], wave[3])
         return total
 
@@ -175,12 +173,10 @@ def build_functions(ti: Any) -> SimpleNamespace:
         return total
 
     @ti.func
-    def begin_tick(
-        first: ti.i32, last: ti.i32, tick: ti.i32, dt: ti.f32, solid: any_value, state: any_value, drive: any_value
-    ):
-        """External acceleration and damping of some vertices in a tick of steps of dt."""
-        damping, decay = 0.0, 1.0
-        for i in range(first, last):
+    def begin_tick(part: ti.i32, tick: ti.i32, count: ti.i32, solid: any_value, state: any_value, drive: any_value):
+        """External acceleration of the vertices of a part in a tick, and their damping in one of its substeps."""
+        damping, decay, dt = 0.0, 1.0, TICK / count
+        for i in range(solid.starts[part][0], solid.starts[part + 1][0]):
             if solid.vertices[i][3] != damping:  # most have the same
                 damping = solid.vertices[i][3]
                 decay = ti.exp(0.0 - damping * dt)
@@ -242,7 +238,6 @@ def build_functions(ti: Any) -> SimpleNamespace:
         solid: any_value,
         state: any_value,
         drive: any_value,
-        pairs_of_forces: any_value,
     ):
         """One of the substeps of a vertex in a tick: v' = exp(-alpha dt) (v + dt (f / m + a)), u' = u + dt v'."""
         u, v = ti.static(state.displacement, state.velocity)
@@ -251,7 +246,7 @@ def build_functions(ti: Any) -> SimpleNamespace:
         if leader < 0 or grip > 0.0:
             force = vec2(0.0, 0.0)
             for slot in range(solid.first_slots[i], solid.first_slots[i + 1]):
-                force = force + pairs_of_forces[solid.slots[slot]]
+                force = force + state.force_pairs[solid.slots[slot]]
             speed = state.decay[i] * (v[i] + dt * (vertex[2] * force + state.push[i]))
             if grip > 0.0:
                 before = goal(place(vertex), tick, leader, begin, drive)
@@ -268,25 +263,26 @@ def build_functions(ti: Any) -> SimpleNamespace:
             u[i] = goal(place(vertex), tick, leader, end, drive)
 
     @ti.func
-    def move_vertices(
-        first: ti.i32,
-        last: ti.i32,
+    def take_step(
+        part: ti.i32,
         tick: ti.i32,
         step: ti.i32,
         count: ti.i32,
         solid: any_value,
         state: any_value,
         drive: any_value,
-        pairs_of_forces: any_value,
     ):
-        """One of the substeps of the vertices from the first to before the last one in a tick.
+        """One of the substeps of a part in a tick.
 
         Tethers have a loop of their own, which costs nothing where there are none.
         """
-        for i in range(first, last):
-            move(i, tick, step, count, solid, state, drive, pairs_of_forces)
+        first, end = solid.starts[part], solid.starts[part + 1]
+        for n in range(first[1] & SMALL, end[1] & SMALL):
+            add_forces(solid, state, n)
+        for i in range(first[0], end[0]):
+            move(i, tick, step, count, solid, state, drive)
         if solid.anchors.shape[0] > 0:
-            for i in range(first, last):
+            for i in range(first[0], end[0]):
                 tether(i, tick, step, count, solid, state, drive)
 
     @ti.func
@@ -301,10 +297,8 @@ def build_functions(ti: Any) -> SimpleNamespace:
 
     return SimpleNamespace(
         add_forces=add_forces,
-        highest_frequency=highest_frequency,
-        substeps_at=substeps_at,
+        planned_steps=planned_steps,
         begin_tick=begin_tick,
-        place=place,
-        move_vertices=move_vertices,
+        take_step=take_step,
         record=record,
     )

@@ -144,12 +144,10 @@ def report(animation: Animation) -> None:
 
 
 def _way(animation: Animation, planned: SimulationPlan) -> str:
-    """How the connected parts were gone about."""
+    """How the connected parts were computed."""
     if animation.scene.contact is not None:
-        return f"connected parts: {planned.alone}, which threads advance together where they may touch"
-    shared = [f"one shared by up to {threads} threads, where that is faster" for threads in planned.shared]
-    alone = [f"{planned.alone} side by side, a thread for each"] if planned.alone else []
-    return f"connected parts: {', '.join(shared + alone)}"
+        return f"connected parts: {planned.parts}, one after the other, as they may touch"
+    return f"connected parts: {planned.parts} side by side, a thread for each"
 
 
 def _save_data(options: argparse.Namespace, animation: Animation) -> None:

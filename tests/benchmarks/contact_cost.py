@@ -1,7 +1,7 @@
 """What contact costs: the same scene with it and without, in turns.
 
-Without contact, bodies are computed side by side; with it, their threads meet after every step and look for contacts.
-``--one-core`` leaves out what the meetings cost.
+Without contact, bodies are computed side by side, each on a thread; with it, one after the other in every step.
+``--one-core`` leaves out what that costs.
 """
 
 from __future__ import annotations

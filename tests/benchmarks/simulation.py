@@ -33,11 +33,10 @@ from physanimator.physics.assembly import assemble, plan
 from physanimator.physics.material import Material, preset
 from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
 from physanimator.physics.rig import Circle, Pinned, RigPoint
-from physanimator.physics.runtime import LANES
 from physanimator.physics.scene import Body, Scene, automatic_scene
 from physanimator.physics.simulation import simulate
 from physanimator.physics.simulation.simulation import _solid
-from physanimator.physics.solver import TICK, Drive, Solid, State, schedule
+from physanimator.physics.solver import TICK, Drive, Solid, State
 from physanimator.physics.solver import advance as advance_solid
 
 # Threads of one contestant that wait for more work would hold a processor in the next one's turn.
@@ -121,8 +120,8 @@ def solid_and_problem(mesh: TriangleMesh) -> tuple[Solid, Problem]:
     return solid, Problem(*constants, np.ascontiguousarray(solid.vertices[:, 2]), u, step, decay)
 
 
-def ours(solid: Solid, threads: int | None = None) -> Advance:
-    """The solver itself, launched as ``simulate`` launches it; on so many threads where it shares the work at all."""
+def ours(solid: Solid) -> Advance:
+    """The solver itself, launched as ``simulate`` launches it: a connected part on one thread."""
     substeps, state = int(solid.substeps[0]), State.at_rest(solid)
 
     def advance(u: np.ndarray, v: np.ndarray, steps: int) -> None:
@@ -130,7 +129,7 @@ def ours(solid: Solid, threads: int | None = None) -> Advance:
         zeros = np.zeros((ticks + 1, 1, 6), dtype=np.float32)
         nothing = np.zeros((0, 6), dtype=np.float32), np.zeros(0, dtype=np.int32)
         drive = Drive(zeros, zeros, np.zeros(ticks + 1, dtype=np.int32), *nothing, (0.0, 0.0))
-        advance_solid(solid, state._replace(displacement=u, velocity=v), drive, threads=threads)
+        advance_solid(solid, state._replace(displacement=u, velocity=v), drive)
 
     return advance
 
@@ -227,18 +226,15 @@ def contact_costs_on_one_core(rounds: int) -> Any:
 
 def measure(rounds: int, sizes: dict[str, int]) -> dict[str, Any]:
     """Everything, each size in turn."""
-    mtri: dict[str, dict[str, float | None]] = {
-        name: dict.fromkeys(sizes) for name in ("ours", "ours_one_thread", *PEERS)
-    }
+    mtri: dict[str, dict[str, float | None]] = {name: dict.fromkeys(sizes) for name in ("ours", *PEERS)}
     differences: dict[str, dict[str, float | None]] = {name: dict.fromkeys(sizes) for name in PEERS}
-    triangles, shared = {}, {}
+    triangles = {}
     for size, count in sizes.items():
         mesh = mesh_of_about(count)
         solid, problem = solid_and_problem(mesh)
-        contestants = {"ours": ours(solid), "ours_one_thread": ours(solid, threads=1)}
+        contestants = {"ours": ours(solid)}
         contestants |= {name: ready for name in PEERS if (ready := peer(name, problem)) is not None}
         substeps, triangles[size] = int(solid.substeps[0]), len(problem.triangles)
-        shared[size] = bool(schedule(LANES * np.diff(solid.starts[:, 1]), solid.substeps).shared)
         for name, difference in checked(contestants, problem, substeps).items():
             if name in differences:
                 differences[name][size] = difference
@@ -255,7 +251,6 @@ def measure(rounds: int, sizes: dict[str, int]) -> dict[str, Any]:
         },
         "startup_s": start_up_seconds(5),
         "startup_taichi_s": start_up_seconds(5, _TAICHI_START_UP),
-        "shared_among_threads": shared,
         "contact": {"all_cores": contact_costs(rounds), "one_core": contact_costs_on_one_core(rounds)},
         "rounds": rounds,
         "machine": {"cores": os.cpu_count(), "processor": platform.machine(), "load": os.getloadavg()[0]},

@@ -25,8 +25,7 @@ from physanimator.physics.material import Material, modes
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.rig import Circle, MaskRegion, Polygon, RigPoint, Wave
 from physanimator.physics.scene import Body, Contact, Holds, Paint, Scene
-from physanimator.physics.simulation import sample_simulations, simulate, simulation
-from physanimator.physics.solver import scheduling
+from physanimator.physics.simulation import sample_simulations, simulate
 
 PATIENCE = 60.0
 ORDER = itertools.count()
@@ -262,14 +261,12 @@ def kept(seed: int, *, pixels: int = 0) -> PreviewBodies:
     return PreviewBodies((Body(TriangleMesh(corners, np.array([[0, 1, 2]]), 100, 100)),), picture)
 
 
-def test_the_kernel_for_shared_parts_is_loaded_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_kernels_for_bodies_that_touch_are_loaded_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
     warmed: list[Scene] = []
-    monkeypatch.setattr(scheduling, "most_threads", lambda: 2)
     monkeypatch.setattr(sample_simulations, "simulate", lambda scene, **_: warmed.append(scene))
     monkeypatch.setattr(runtime, "keep_compiled", lambda: False)
     warm_up()
-    planned = simulation.plan(warmed[0], frames=2)
-    assert (planned.alone, planned.shared) == (1, (2,))
+    assert warmed[-1].contact is None
     warm_up(contact=True)
     assert warmed[-1].contact is not None
     assert len(warmed[-1].bodies) > 1

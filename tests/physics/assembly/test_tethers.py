@@ -15,7 +15,7 @@ from physanimator.physics.rig import KeyedPath, Pinned, Polygon, RigPoint
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.simulation import simulate
 from physanimator.physics.simulation.simulation import _solid
-from physanimator.physics.solver import TICK, Drive, State, advance
+from physanimator.physics.solver import Drive, State, advance
 
 SIZE = 512
 TOP = Polygon(((0, 0), (SIZE, 0), (SIZE, 60), (0, 60)))
@@ -133,25 +133,6 @@ def test_tethers_only_take_energy() -> None:
     assert energies.max() < 1.02 * energies[0]  # the integrator's own band
     assert energies[-1] < 0.9 * energies[0]
     assert (energies[240:].max()) < 1.02 * energies[200:240].max()
-
-
-def test_any_number_of_threads_gives_the_same_to_the_last_bit() -> None:
-    mask = np.zeros((SIZE, SIZE), dtype=bool)
-    mask[30:430, 160:360] = True
-    away = KeyedPath((0.0, 0.1, 1.0), ((0.0, 0.0), (60.0, -90.0), (0.0, 0.0)))
-    body = Body(mesh_from_mask(mask, spacing=4.0), Material(youngs_modulus=5.0, stretch_limit=1.01))
-    made = Scene((body,), (), (replace(HELD, motion=away),), wind=STORM)
-    from physanimator.physics.assembly import drive
-
-    system = assemble(made)
-    solid, states = _solid(made, system), []
-    assert len(system.rest.triangles) > 8_000
-    for threads in (1, 2):
-        state = State.at_rest(solid)
-        advance(solid, state, drive(made, 0, round(0.1 / TICK)), threads=threads)
-        states.append(state)
-    np.testing.assert_array_equal(states[0].displacement, states[1].displacement)
-    np.testing.assert_array_equal(states[0].velocity, states[1].velocity)
 
 
 def test_wind_moves_in_proportion_to_the_response() -> None:

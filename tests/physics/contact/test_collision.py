@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from physanimator.physics.assembly import assemble
-from physanimator.physics.contact import TouchingBodies, contact_surface, touching_bodies
+from physanimator.physics.contact import TouchingBodies, contact_surface
 from physanimator.physics.contact.surface import CONTACTS
-from physanimator.physics.contact.team import LARGE
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.forces import EnergyStroke
 from physanimator.physics.material import Material, energy
 from physanimator.physics.mesh import TriangleMesh, mesh_from_mask, signed_distances
 from physanimator.physics.motion import Motion
 from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint
-from physanimator.physics.runtime import LANES
 from physanimator.physics.scene import Body, Collider, Contact, Scene
 from physanimator.physics.simulation import simulate
 from physanimator.physics.simulation.simulation import _solid
-from physanimator.physics.solver import Pace
 
 Array = NDArray[np.float64]
 SIZE = 512
@@ -119,20 +116,13 @@ def test_the_same_scene_moves_the_same_way() -> None:
     np.testing.assert_array_equal(simulate(blobs(Contact()), frames=60).positions, pile().positions[:60])
 
 
-@pytest.mark.parametrize("threads", [2, 3])
-def test_the_motion_is_the_same_with_any_number_of_threads(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_large_and_small_parts_that_take_steps_of_their_own_stay_apart() -> None:
     fine = mesh_from_mask(np.hypot(*(axis - 250.0 for axis in grid())) < 60, spacing=3.5)
-    assert len(fine.triangles) > LARGE * LANES  # shared among the threads; the others are whole pieces
     far = Body(box(20, 20, 70, 60), SOFT)  # touches nothing at first
     bodies = (Body(fine, SOFT), Body(disc(*CENTRES[0]), SOFT), Body(disc(*CENTRES[3]), SOFT), far)
     scene = Scene(bodies, (pull(256, 256, 6.0),), contact=Contact(), gravity=(0.0, 0.1))
-    monkeypatch.setattr(Pace, "share", lambda _: True)
-    motions = []
-    for count in (1, threads):
-        monkeypatch.setattr(touching_bodies, "most_threads", partial(int, count))
-        motions.append(simulate(scene, frames=24).positions)
-    assert max(deepest(Motion(scene.bodies, motions[1], scene.frame_rate), frame) for frame in (12, 23)) == 0
-    np.testing.assert_array_equal(motions[0], motions[1])
+    motion = simulate(scene, frames=24)
+    assert max(deepest(motion, frame) for frame in (12, 23)) == 0
 
 
 @pytest.mark.parametrize("speed", [0.3, 1.0])

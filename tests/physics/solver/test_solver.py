@@ -16,22 +16,17 @@ from physanimator.physics.material import (
     semi_implicit_euler,
     stiffness_matrix,
 )
-from physanimator.physics.runtime import LANES, aligned
+from physanimator.physics.runtime import aligned
 from physanimator.physics.solver import (
-    BLOCKS_AT_ONCE,
     SPEED_FLOOR,
     TICK,
-    VERTICES_AT_ONCE,
     Drive,
-    Pace,
     Solid,
     State,
     advance,
-    solver,
     squared_frequencies,
     substeps,
 )
-from physanimator.physics.solver.scheduling import Schedule
 from physanimator.physics.solver.solver import internal_forces
 
 YOUNG, POISSON, DAMPING = 500.0, 0.3, 1.5
@@ -172,24 +167,6 @@ def test_ticks_may_be_launched_together_or_one_by_one() -> None:
         advance(solid, single, still(1, gravity=(2.0, 0.0)))
     assert np.abs(together.displacement).max() > 1e-3
     np.testing.assert_array_equal(together.displacement, single.displacement)
-
-
-@pytest.mark.parametrize("threads", [1, 2, 3])
-def test_threads_that_share_a_part_find_the_same_to_the_last_bit(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    rest = strip(24, 96)
-    solid = solid_of(rest, led=tuple(range(25)))
-    assert len(rest.triangles) > 4 * LANES * BLOCKS_AT_ONCE
-    assert len(rest.positions) > 4 * VERTICES_AT_ONCE
-    alone, shared = State.at_rest(solid), State.at_rest(solid)
-    advance(solid, alone, still(12, gravity=(40.0, 0.0)), threads=1)
-    chosen = Schedule(np.zeros(0, dtype=np.int32), ((0, threads),))
-    monkeypatch.setattr(solver, "schedule", lambda *_, **__: chosen)
-    monkeypatch.setattr(Pace, "share", lambda _: True)
-    for _ in range(3):
-        advance(solid, shared, still(4, gravity=(40.0, 0.0)))
-    assert np.abs(alone.displacement).max() > 1e-3
-    np.testing.assert_array_equal(shared.displacement, alone.displacement)
-    np.testing.assert_array_equal(shared.velocity, alone.velocity)
 
 
 @pytest.mark.parametrize("kind", ["wind", "repel", "attract"])
