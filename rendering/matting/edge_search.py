@@ -27,8 +27,6 @@ _SAMPLES = 36
 _NEAR, _FAR = 9, 30
 _BEST = 3
 _ALIKE = 0.08
-# The middle of a gap is none where its colours are the part's rather than the background's by this much.
-_OWN = 0.3
 # A colour of neither side is more often the part's, whose outline is drawn, than the background's.
 _OUTLINE, _STRANGE = 0.07, 0.02
 # Distance from the mask's edge, as a share of the reach, at which the mask itself is e : 1 sure; and its weight.
@@ -56,7 +54,7 @@ def found_shape(image: FloatImage, mask: FloatImage, reach: FloatImage) -> tuple
     """
     inside = mask > _HALF
     depth, away = _depth(inside), _depth(~inside)
-    core, outside = _seeds(image, (depth > reach, away > reach), (_middle(depth), _middle(away)))
+    core, outside = (depth > reach) | _middle(depth), (away > reach) | _middle(away)
     band = ~core & ~outside
     likely = np.full(mask.shape, _HALF, dtype=np.float32)
     if not (core.any() and outside.any() and band.any()):
@@ -68,21 +66,6 @@ def found_shape(image: FloatImage, mask: FloatImage, reach: FloatImage) -> tuple
     shape = inside.copy()
     shape[band] = _walked(image, mask, band, core, odds / (1 + odds)) > _HALF
     return _tidied(shape, core), likely
-
-
-def _seeds(image: FloatImage, far: tuple[Mask, Mask], middles: tuple[Mask, Mask]) -> tuple[Mask, Mask]:
-    """What is certain of either side: what is far from its edge, and the middle of what is thin.
-
-    A narrow gap in the mask that shows the part's own colours, and not those from around the part, has come to lie
-    beside the gap in the picture, or has been made wider than that is: its middle is no background.
-    """
-    (core, outside), (thin, gaps) = far, middles
-    core, gaps = core | thin, gaps & ~outside
-    if core.any() and outside.any() and gaps.any():
-        own = explained(image, gaps, core) - explained(image, gaps, outside) > _OWN
-        gaps = gaps.copy()
-        gaps[gaps] = ~own
-    return core, outside | gaps
 
 
 def _depth(shape: Mask) -> FloatImage:

@@ -37,9 +37,6 @@ _ANTI_ALIASED = 1.9
 _BLURRED = 3.0
 # Share of soft pixels in uniform blocks from which on a mask has been enlarged without smoothing.
 _BLOCKS = 0.25
-# Enlarged hard edges have a step every so many pixels at least, and hardly ever two steps at neighbouring pixels.
-_STEPS = 32
-_BESIDE_ANOTHER = 0.05
 # An edge that is found elsewhere must be this much stronger than the mask's own, and differ by this much in colour.
 _STRONGER = 1.15
 _LEAST_STEP = 0.04
@@ -124,7 +121,7 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
         mask = np.where(mask < _NOISE, np.float32(0), np.where(mask > 1 - _NOISE, np.float32(1), mask))
     blurred = edge.width > _BLURRED
     shape, moved = _searched(image, mask, edge)
-    displaced = _share(moved, edge.line & ~blurred) > _MOVED or _in_steps(edge)
+    displaced = _share(moved, edge.line & ~blurred) > _MOVED
     if displaced:
         # From where it has got to: strands that the mask had lost have a core to start from now.
         again = shape.astype(np.float32)
@@ -140,7 +137,7 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
         shape = np.where(moved, shape, edge.inside)
     soft = noisy or displaced or edge.median_width() > _ANTI_ALIASED or _in_blocks(mask)
     rewritten = blurred | grown(moved, SQUARE) | soft
-    near = _distance(shape) <= _REACH + np.minimum(edge.width, _WIDEST)
+    near = np.minimum(_distance(shape), _distance(edge.inside)) <= _REACH + np.minimum(edge.width, _WIDEST)
     # Where the picture has no edge, a soft transition is what somebody wanted.
     wanted = blurred & (edge_strength(image, shape) < _LEAST_STEP)
     # Where a slightly soft edge stays in its place, it says between pixels where that is.
@@ -245,17 +242,6 @@ def _in_blocks(mask: FloatImage) -> bool:
     alike = soft.all(axis=0) & (np.ptp(corners, axis=0) < 1e-3)
     count = int(soft[0].sum())
     return count > 0 and 4 * int(alike.sum()) > _BLOCKS * count
-
-
-def _in_steps(edge: _Edge) -> bool:
-    """Whether a hard edge goes in steps of several pixels, as where a mask has been enlarged without smoothing."""
-    if edge.median_width() > _ANTI_ALIASED:
-        return False
-    inside = edge.inside.astype(np.uint8)
-    corner = (inside[:-1, :-1] + inside[1:, :-1] + inside[:-1, 1:] + inside[1:, 1:]) % 2 > 0
-    beside = int((corner[1:] & corner[:-1]).sum() + (corner[:, 1:] & corner[:, :-1]).sum())
-    count = int(corner.sum())
-    return _STEPS * count > int(edge.line.sum()) and beside < _BESIDE_ANOTHER * count
 
 
 def _distance(shape: Mask) -> FloatImage:

@@ -208,10 +208,11 @@ def test_a_mask_made_with_care_stays_as_it_is(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_slightly_soft_edge_keeps_its_place_between_pixels(kind: str) -> None:
-    """Blurred by less than a pixel, the mask still says which share of the edge's pixels is the part's."""
+    """Blurred by about a pixel, the mask still says which share of the edge's pixels is the part's."""
     picture, _, alpha, _ = drawn(kind)
-    regular = regular_mask(as_floats(picture), MASKS["blurred by 0.7"](alpha))
-    assert np.abs(regular - alpha).sum() < 0.6 * np.abs(hard(alpha) - alpha).sum()
+    for mask in (MASKS["blurred by 0.7"](alpha), MASKS["half size"](alpha), cv2.GaussianBlur(alpha, (0, 0), 1.2)):
+        regular = regular_mask(as_floats(picture), mask)
+        assert np.abs(regular - alpha).sum() < 0.7 * np.abs(hard(alpha) - alpha).sum()
 
 
 def test_without_an_edge_in_the_picture_a_feathered_mask_keeps_its_feather() -> None:
@@ -230,14 +231,6 @@ def test_a_hole_made_wider_than_it_is_closes() -> None:
     around = (np.hypot(X - 104, Y - 92) < 8) & (np.hypot(X - 104, Y - 92) > 3)
     assert mask[around].min() == 0
     assert regular_mask(as_floats(picture), mask)[around].min() == 1
-
-
-def test_enlarged_blocks_do_not_count_as_made_with_care() -> None:
-    """Where few of the blocks' edges are far off, they are moved all the same; a careful rectangle is not."""
-    picture, _, alpha, _ = drawn("thick outline")
-    blocks = scaled(hard(alpha), 3, cv2.INTER_NEAREST, cv2.INTER_NEAREST)
-    wrong = [int(((mask > 0.5) != (alpha > 0.5)).sum()) for mask in (blocks, regular_mask(as_floats(picture), blocks))]
-    assert wrong[1] < 0.4 * wrong[0]
 
 
 def test_pure_black_is_not_left_behind_by_the_last_digit_of_a_mask() -> None:
