@@ -27,6 +27,8 @@ _HALF = 0.5
 # The edge may lie this far from the mask's, and as far again as half of a soft transition is wide [px].
 _REACH = 10.0
 _WIDEST = 30.0
+# What differs less from white is white: even so little of the part's black missing would blacken what is behind it.
+_WHITE = 1 - 0.5 / 255
 # Noise around edges, as compression makes it, stays below this much and below this share of the edge's pixels.
 _NOISE = 0.1
 _NOISY = 0.1
@@ -38,11 +40,14 @@ _BLOCKS = 0.25
 # An edge that is found elsewhere must be this much stronger than the mask's own, and differ by this much in colour.
 _STRONGER = 1.15
 _LEAST_STEP = 0.04
+# So far from an edge its strength is not seen [px].
+_APART = 8.0
 # Where less of an edge would move, the mask has been made with care and is taken at its word.
 _MOVED = 0.3
 # Strands are looked for so many times, and their edges near by.
 _PIECES = 8
 _AROUND_STRANDS = np.ones((11, 11), np.uint8)
+_NARROW = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (9, 9))
 _TOUCHING = np.ones((5, 5), np.uint8)
 _MARGIN = 40
 
@@ -103,7 +108,14 @@ def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
         margin *= 2
     regular = mask.copy()
     regular[window] = found
-    return regular
+    return np.where(_empty(image), np.float32(0), regular)
+
+
+def _empty(image: FloatImage) -> Mask:
+    """Where there is nothing to see in a picture with opacity, shape [h, w]; nowhere in one without."""
+    if image.shape[2] == 3:
+        return np.zeros(image.shape[:2], dtype=bool)
+    return ~grown(image[..., 3] > FAINT, SQUARE)
 
 
 def _meets_border(found: FloatImage, mask: FloatImage) -> bool:
@@ -125,20 +137,22 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
         again = shape.astype(np.float32)
         shape, further = _searched(image, again, _edge_of(again))
         moved |= further
-        strands = _with_strands(image, shape, edge.inside)
-        moved |= strands != shape
-        shape = strands
+        before = shape
+        if image.shape[2] > 3:
+            shape = shape | _hanging(image[..., 3], shape)
+        shape = _with_strands(image, shape, edge.inside)
+        moved |= shape != before
     else:
         moved &= blurred
         shape = np.where(moved, shape, edge.inside)
     soft = noisy or displaced or edge.median_width() > _ANTI_ALIASED or _in_blocks(mask)
     rewritten = blurred | grown(moved, SQUARE) | soft
-    near = _distance(shape) <= _REACH + np.minimum(edge.width, _WIDEST)
+    near = np.minimum(_distance(shape), _distance(edge.inside)) <= _REACH + np.minimum(edge.width, _WIDEST)
     # Where the picture has no edge, a soft transition is what somebody wanted.
     wanted = blurred & (edge_strength(image, shape) < _LEAST_STEP)
     # Where a slightly soft edge stays in its place, it says between pixels where that is.
     narrowed = np.clip(_HALF + (mask - _HALF) * np.maximum(edge.width, 1), 0, 1)
-    stays = ~displaced & ~noisy & (edge.width <= _BLURRED) & ((narrowed > _HALF) == shape) & ~_in_blocks(mask)
+    stays = ~displaced & ~noisy & ((narrowed > _HALF) == shape) & ~_in_blocks(mask)
     return np.where(rewritten & near & ~wanted, np.where(stays, narrowed, shape), mask).astype(np.float32)
 
 
@@ -154,12 +168,23 @@ def _searched(image: FloatImage, mask: FloatImage, edge: _Edge) -> tuple[Mask, M
     changed = shape != edge.inside
     weight = mean_near(likely, changed, sigma=3.0)[0]
     strength = edge_strength(image, shape)
-    better = strength > np.maximum(_STRONGER * edge_strength(image, edge.inside), _LEAST_STEP)
+    given = edge_strength(image, edge.inside)
+    better = strength > np.maximum(_STRONGER * given, _LEAST_STEP)
+    better |= _closed(shape & ~edge.inside, shape, given)
     moved = changed & better & (np.where(shape, weight, 1 - weight) > _HALF)
     # Changes as thin as one pixel are left to the matting.
     thick = cv2.morphologyEx(moved.astype(np.uint8), cv2.MORPH_OPEN, np.ones((2, 2), np.uint8)) > 0
     moved &= grown(thick, SQUARE)
     return np.where(moved, shape, edge.inside), moved
+
+
+def _closed(added: Mask, shape: Mask, strength: FloatImage) -> Mask:
+    """Where an edge of the mask that the picture does not show is gone, as of holes made wider than they are."""
+    count, labels = cv2.connectedComponents(added.astype(np.uint8), connectivity=8)
+    is_open = np.zeros(count, dtype=bool)
+    is_open[labels[added & grown(~shape, SQUARE)]] = True
+    far = ~is_open[labels] | (_distance(shape) > _APART)
+    return added & far & (strength < _LEAST_STEP)
 
 
 def _with_strands(image: FloatImage, shape: Mask, given: Mask) -> Mask:
@@ -178,6 +203,17 @@ def _with_strands(image: FloatImage, shape: Mask, given: Mask) -> Mask:
     return shape
 
 
+def _hanging(opacity: FloatImage, shape: Mask) -> Mask:
+    """Narrow pieces of a picture with opacity that nothing but the part holds, as the tips of strands."""
+    rest = (opacity > _HALF) & ~shape
+    count, labels = cv2.connectedComponents(rest.astype(np.uint8), connectivity=8)
+    hanging, wide = np.zeros(count, dtype=bool), cv2.erode(rest.astype(np.uint8), _NARROW) > 0
+    hanging[labels[rest & grown(shape, SQUARE)]] = True
+    hanging[labels[wide]] = False
+    hanging[0] = False
+    return hanging[labels]
+
+
 def _edge_of(mask: FloatImage) -> _Edge:
     inside = mask > _HALF
     line = inside & grown(~inside, CROSS)
@@ -193,7 +229,8 @@ def _up_to_white(mask: FloatImage) -> FloatImage:
     if highest <= FAINT:
         return mask
     white = float(np.percentile(mask[mask > _HALF * highest], 90))
-    return np.minimum(mask / np.float32(white), 1) if white < 0.98 else mask
+    mask = mask / np.float32(white) if white < 0.98 else mask
+    return np.where(mask > _WHITE, np.float32(1), mask)
 
 
 def _is_noisy(mask: FloatImage) -> bool:

@@ -11,7 +11,8 @@ from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
 from physanimator.rendering.composite import LayeredRenderer
-from physanimator.rendering.matting import regular_mask
+from physanimator.rendering.matting import fitting_plate, mixed_rim, regular_mask, soft_alpha, with_outline
+from physanimator.rendering.plate import fill_hole
 
 WIDTH, HEIGHT, FINE = 220, 180, 4
 Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5
@@ -207,17 +208,61 @@ def test_a_mask_made_with_care_stays_as_it_is(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_slightly_soft_edge_keeps_its_place_between_pixels(kind: str) -> None:
-    """Blurred by less than a pixel, the mask still says which share of the edge's pixels is the part's."""
+    """Blurred by about a pixel, the mask still says which share of the edge's pixels is the part's."""
     picture, _, alpha, _ = drawn(kind)
-    regular = regular_mask(as_floats(picture), MASKS["blurred by 0.7"](alpha))
-    assert np.abs(regular - alpha).sum() < 0.6 * np.abs(hard(alpha) - alpha).sum()
+    for mask in (MASKS["blurred by 0.7"](alpha), MASKS["half size"](alpha), cv2.GaussianBlur(alpha, (0, 0), 1.2)):
+        regular = regular_mask(as_floats(picture), mask)
+        assert np.abs(regular - alpha).sum() < 0.7 * np.abs(hard(alpha) - alpha).sum()
 
 
 def test_without_an_edge_in_the_picture_a_feathered_mask_keeps_its_feather() -> None:
     """Hair that moves at its ends only: the mask fades where the picture shows nothing."""
     plain = np.full((HEIGHT, WIDTH, 3), 0.5, dtype=np.float32)
     feathered = cv2.GaussianBlur(hard(shape()), (0, 0), 5)
-    assert np.abs(regular_mask(plain, feathered) - feathered).max() < 1e-6
+    assert np.abs(regular_mask(plain, feathered) - feathered).max() < 0.5 / 255
+
+
+def test_a_hole_made_wider_than_it_is_closes() -> None:
+    """A shrunk mask has each pinhole of the part as a hole: what is around the pinhole is the part."""
+    picture, _, alpha, _ = drawn("thick outline")
+    pinhole = np.hypot(X - 104, Y - 92) < 1.5
+    picture[pinhole] = (SKY[pinhole] * 255).astype(np.uint8)
+    mask = cv2.erode(hard(np.where(pinhole, 0, alpha)), disc(4))
+    around = (np.hypot(X - 104, Y - 92) < 8) & (np.hypot(X - 104, Y - 92) > 3)
+    assert mask[around].min() == 0
+    assert regular_mask(as_floats(picture), mask)[around].min() == 1
+
+
+def test_pure_black_is_not_left_behind_by_the_last_digit_of_a_mask() -> None:
+    """Filters give 0.9999999 for white; whatever stays of black, however little, would have to be black."""
+    _, background, alpha, _ = drawn("painted")
+    picture = (background * (1 - alpha[..., None])).astype(np.float32)
+    for white in (1 - 1e-7, 1 - 1e-3):
+        mask = regular_mask(picture, np.float32(white) * hard(alpha))
+        support = with_outline(picture, mask)
+        plate = fill_hole(picture, support | mixed_rim(mask, support))
+        left = fitting_plate(picture, plate, soft_alpha(picture, plate, mask, support))
+        assert (np.abs(left - background).mean(axis=2) > 0.12)[alpha > 0.99].mean() < 0.02
+
+
+def test_where_a_sprite_shows_nothing_a_grown_mask_has_nothing() -> None:
+    inside = shape()
+    sprite = np.dstack([np.full((HEIGHT, WIDTH, 3), 0.5, np.float32), inside])
+    regular = regular_mask(sprite, cv2.dilate(hard(inside), disc(6)))
+    assert regular[cv2.dilate(inside, np.ones((5, 5), np.uint8)) == 0].max() == 0
+
+
+def test_the_tips_that_nothing_holds_go_with_their_sprite() -> None:
+    """Tips narrower than a shrunk mask can show; a hand as wide as the arm stays where the mask ends."""
+    fine = np.zeros((HEIGHT * FINE, WIDTH * FINE), np.uint8)
+    cv2.circle(fine, (80 * FINE, 90 * FINE), 40 * FINE, 1, -1)
+    for end in ((200, 60), (200, 90), (200, 120)):
+        cv2.line(fine, (110 * FINE, 90 * FINE), (end[0] * FINE, end[1] * FINE), 1, 5 * FINE)
+    inside = cv2.resize(fine.astype(np.float32), (WIDTH, HEIGHT), interpolation=cv2.INTER_AREA)
+    colour = np.where((X > 125)[..., None], INK, RED)
+    mask = cv2.erode(hard(inside), disc(4))
+    regular = regular_mask(np.dstack([over(np.ones_like(colour), colour, inside), inside]), mask)
+    assert (regular > 0.5)[(inside > 0.9) & (X > 130)].mean() > 0.95
 
 
 def test_a_veil_within_the_part_stays_translucent() -> None:
