@@ -69,7 +69,7 @@ def test_a_batch_that_no_machine_holds_is_refused_before_the_work(host: Any) -> 
 
 
 def test_advice_is_in_the_history_of_a_run_without_a_browser(host: Any) -> None:
-    graph = moving_bar(3)
+    graph = moving_bar(12)  # a second: nothing is said of shorter trials, to which no wind may have come
     graph["scene"] = ours("AutomaticScene", bodies=["body", 0], wind_strength=0.0, wind_angle=0.0, sway_by_size=True,
                           frame_rate=12.0)  # fmt: skip
     outputs = host.run(graph | {"seen": core("PreviewAny", source=["motion", 1])})
