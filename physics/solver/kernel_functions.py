@@ -12,11 +12,12 @@ The functions take the arrays of ``arrays`` whole, by their names.
 from types import SimpleNamespace
 from typing import Any
 
+from ..forces import FALLOFFS, STROKE_KINDS
 from ..rig import FIRMNESS
 from ..runtime import LANES
 from .stepping import SAFETY, TICK
 
-__all__ = ["LATE_SAFETY", "MOST_REFINEMENT", "REACH", "SPEED_FLOOR", "build_functions"]
+__all__ = ["LATE_SAFETY", "MOST_REFINEMENT", "SPEED_FLOOR", "STEP_LIMIT", "build_functions"]
 
 MOST_REFINEMENT = 4
 """Large deformation stiffens triangles; a tick then takes up to this many times its planned substeps."""
@@ -24,14 +25,18 @@ MOST_REFINEMENT = 4
 SPEED_FLOOR = 5.0
 """Speed that is never cut [side/s]."""
 
-REACH = 0.25
+STEP_LIMIT = 0.25
 """Part of its smallest altitude that a vertex faster than ``SPEED_FLOOR`` moves in a substep at most."""
 
-SMALL = 0x7FFFFFF
+BLOCK_MASK = 0x7FFFFFF
 """Masks the ends of loops over blocks, which changes nothing but tells the compiler that 48 n fits into 32 bits."""
 
 LATE_SAFETY = (1 + SAFETY) / 2
 """Between the planned step and the limit, so that small strains change nothing."""
+
+_KINDS = len(STROKE_KINDS)
+_WIND, _REPEL, _ATTRACT = (STROKE_KINDS.index(kind) for kind in ("wind", "repel", "attract"))
+_LINEAR, _SMOOTH, _CONSTANT = (FALLOFFS.index(falloff) for falloff in ("linear", "smooth", "constant"))
 
 
 def build_functions(ti: Any) -> SimpleNamespace:
@@ -105,7 +110,7 @@ def build_functions(ti: Any) -> SimpleNamespace:
     def planned_steps(part: ti.i32, solid: any_value, state: any_value):
         """Substeps of a part in a tick: the planned ones unless large deformation asks for more."""
         squared = lanes(0.0)
-        for n in range(solid.starts[part][1] & SMALL, solid.starts[part + 1][1] & SMALL):
+        for n in range(solid.starts[part][1] & BLOCK_MASK, solid.starts[part + 1][1] & BLOCK_MASK):
             squared = ti.max(squared, present_frequencies(solid, state, n))
         highest = 0.0
         for lane in ti.static(range(LANES)):
@@ -117,27 +122,25 @@ def build_functions(ti: Any) -> SimpleNamespace:
 
     @ti.func
     def particle_push(q: vec2, drive: any_value, p: ti.i32):
-        """Acceleration at q by one flow particle (Appendix "Interactive Animation"), nothing beyond its radius.
-
-        The kind is 0 wind, 1 repel, 2 attract, plus 3 for a smooth or 6 for a constant falloff.
-        """
+        """Acceleration at q by one flow particle (Appendix "Interactive Animation"), nothing beyond its radius."""
         particle = ti.static(drive.particles)
-        kind, push = drive.kinds[p], vec2(0.0, 0.0)
+        kind, falloff = drive.kinds[p] % _KINDS, drive.kinds[p] // _KINDS
+        push = vec2(0.0, 0.0)
         offset = q - vec2(particle[p, 0], particle[p, 1])
         distance, radius = offset.norm(), particle[p, 4]
         if distance <= radius:
             falling = 1.0 - distance / radius
-            if kind >= 6:
+            if falloff == _CONSTANT:
                 falling = 1.0
-            elif kind >= 3:
+            elif falloff == _SMOOTH:
                 falling = falling * falling * (1.0 + distance / radius) * (1.0 + distance / radius)
-            if kind % 3 == 0:
+            if kind == _WIND:
                 push = falling * vec2(particle[p, 2], particle[p, 3])
-            elif kind == 1:
+            elif kind == _REPEL and falloff == _LINEAR:
                 push = offset / radius
             elif distance > 0.0:
                 push = falling / distance * offset
-                if kind % 3 == 2:
+                if kind == _ATTRACT:
                     push = push * -1.0
         return push * particle[p, 5]
 
@@ -184,19 +187,19 @@ def build_functions(ti: Any) -> SimpleNamespace:
             state.push[i] = external_acceleration(i, tick, solid, state, drive)
 
     @ti.func
-    def led(x: vec2, coefficients: any_value, tick: ti.i32, leader: ti.i32):
+    def affine(x: vec2, coefficients: any_value, tick: ti.i32, handle: ti.i32):
         """M x + d by the coefficients of a rig point."""
         c = ti.static(coefficients)
         return vec2(
-            c[tick, leader, 0] * x[0] + c[tick, leader, 1] * x[1] + c[tick, leader, 4],
-            c[tick, leader, 2] * x[0] + c[tick, leader, 3] * x[1] + c[tick, leader, 5],
+            c[tick, handle, 0] * x[0] + c[tick, handle, 1] * x[1] + c[tick, handle, 4],
+            c[tick, handle, 2] * x[0] + c[tick, handle, 3] * x[1] + c[tick, handle, 5],
         )
 
     @ti.func
-    def goal(x: vec2, tick: ti.i32, leader: ti.i32, s: ti.f32, drive: any_value):
+    def goal(x: vec2, tick: ti.i32, handle: ti.i32, s: ti.f32, drive: any_value):
         """Displacement to which a rig point leads what was drawn at x, at a part s of a tick: a cubic in time."""
-        a, b = led(x, drive.rig_leads, tick, leader), led(x, drive.rig_leads, tick + 1, leader)
-        va, vb = TICK * led(x, drive.rig_rates, tick, leader), TICK * led(x, drive.rig_rates, tick + 1, leader)
+        a, b = affine(x, drive.rig_leads, tick, handle), affine(x, drive.rig_leads, tick + 1, handle)
+        va, vb = TICK * affine(x, drive.rig_rates, tick, handle), TICK * affine(x, drive.rig_rates, tick + 1, handle)
         return a + s * (va + s * (3.0 * (b - a) - 2.0 * va - vb + s * (2.0 * (a - b) + va + vb)))
 
     @ti.func
@@ -211,17 +214,17 @@ def build_functions(ti: Any) -> SimpleNamespace:
     ):
         """Put a vertex that is farther from its anchor than its tether allows back, and let it move no farther away.
 
-        Where the anchor is follows from its leader: its own entries may be written by another thread at this moment.
+        Where the anchor is at the end of the step follows from its rig point.
         """
         u, v = ti.static(state.displacement, state.velocity)
         anchor = solid.anchors[i]
         if anchor >= 0:
             begin, end, dt = step / ti.cast(count, ti.f32), (step + 1.0) / count, TICK / count
-            x, leader = place(solid.vertices[anchor]), solid.leaders[anchor]
+            x, handle = place(solid.vertices[anchor]), solid.handles[anchor]
             held, rate = vec2(0.0, 0.0), vec2(0.0, 0.0)
-            if leader >= 0:
-                held = goal(x, tick, leader, end, drive)
-                rate = (held - goal(x, tick, leader, begin, drive)) / dt
+            if handle >= 0:
+                held = goal(x, tick, handle, end, drive)
+                rate = (held - goal(x, tick, handle, begin, drive)) / dt
             offset = place(solid.vertices[i]) - x + (u[i] - held)
             distance, length = offset.norm(), solid.tethers[i]
             if distance > length:
@@ -241,26 +244,26 @@ def build_functions(ti: Any) -> SimpleNamespace:
     ):
         """One of the substeps of a vertex in a tick: v' = exp(-alpha dt) (v + dt (f / m + a)), u' = u + dt v'."""
         u, v = ti.static(state.displacement, state.velocity)
-        vertex, leader, grip = solid.vertices[i], solid.leaders[i], solid.grips[i]
+        vertex, handle, grip = solid.vertices[i], solid.handles[i], solid.grips[i]
         begin, end, dt = step / ti.cast(count, ti.f32), (step + 1.0) / count, TICK / count
-        if leader < 0 or grip > 0.0:
+        if handle < 0 or grip > 0.0:
             force = vec2(0.0, 0.0)
             for slot in range(solid.first_slots[i], solid.first_slots[i + 1]):
                 force = force + state.force_pairs[solid.slots[slot]]
             speed = state.decay[i] * (v[i] + dt * (vertex[2] * force + state.push[i]))
             if grip > 0.0:
-                before = goal(place(vertex), tick, leader, begin, drive)
-                after = goal(place(vertex), tick, leader, end, drive)
+                before = goal(place(vertex), tick, handle, begin, drive)
+                after = goal(place(vertex), tick, handle, end, drive)
                 speed = pulled(speed, u[i], before, after, grip, dt)
             squared_speed = speed.norm_sqr()
             if squared_speed > SPEED_FLOOR * SPEED_FLOOR:
-                limit = ti.max(solid.reach[i] / dt, SPEED_FLOOR)
+                limit = ti.max(solid.step_limits[i] / dt, SPEED_FLOOR)
                 speed = speed * ti.min(limit / ti.sqrt(squared_speed), 1.0)
             v[i] = speed
             u[i] = u[i] + dt * speed
         else:
-            v[i] = led(place(vertex), drive.rig_rates, tick + 1, leader)
-            u[i] = goal(place(vertex), tick, leader, end, drive)
+            v[i] = affine(place(vertex), drive.rig_rates, tick + 1, handle)
+            u[i] = goal(place(vertex), tick, handle, end, drive)
 
     @ti.func
     def take_step(
@@ -277,7 +280,7 @@ def build_functions(ti: Any) -> SimpleNamespace:
         Tethers have a loop of their own, which costs nothing where there are none.
         """
         first, end = solid.starts[part], solid.starts[part + 1]
-        for n in range(first[1] & SMALL, end[1] & SMALL):
+        for n in range(first[1] & BLOCK_MASK, end[1] & BLOCK_MASK):
             add_forces(solid, state, n)
         for i in range(first[0], end[0]):
             move(i, tick, step, count, solid, state, drive)
