@@ -80,5 +80,5 @@ def test_an_error_in_a_kernel_names_its_line() -> None:
 
         return wrong
 
-    with pytest.raises(Exception, match=r'test_taichi_reading.py", line \d+, in wrong'):
+    with pytest.raises(Exception, match=r'test_reading.py", line \d+, in wrong'):
         taichi_runtime.run(lambda: taichi_runtime.compiled(build)())

@@ -16,12 +16,12 @@ import conftest
 import numpy as np
 
 def simulated(progress=None):
-    from physanimator.physics.collision import Contact
-    from physanimator.physics.meshing import mesh_from_mask
+    from physanimator.physics.scene import Contact
+    from physanimator.physics.mesh import mesh_from_mask
     from physanimator.physics.rig import Circle, RigPoint
     from physanimator.physics.scene import Body, Scene
     from physanimator.physics.simulation import simulate
-    from physanimator.physics.strokes import EnergyStroke
+    from physanimator.physics.forces import EnergyStroke
     y, x = np.mgrid[:120, :120] + 0.5
     mesh = mesh_from_mask((np.abs(x - 60) < 12) & (y > 15) & (y < 100), spacing=8)
     wind = EnergyStroke(path=((0, 60), (120, 60)), radius=60, speed=200, strength=4, interval=0.2)

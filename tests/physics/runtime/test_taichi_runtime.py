@@ -185,7 +185,7 @@ class Counting(types.ModuleType):
         Counting.asked += 1
         return "/nowhere/counting.py"
 sys.modules["counting"] = Counting("counting")
-from physanimator.physics.taichi_runtime import compiled, run
+from physanimator.physics.runtime.taichi_runtime import compiled, run
 run(compiled, lambda ti: None)
 assert "taichi" in sys.modules
 print(Counting.asked)
