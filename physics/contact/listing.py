@@ -9,6 +9,7 @@ Edges go into a spatial hash by their middles; vertices outside the bounding box
 from types import SimpleNamespace
 from typing import Any
 
+from .edge_hash import build_edge_hash
 from .surface import LONGEST, MARGIN, RADIUS, SPACING
 
 __all__ = ["INSIDE_DEPTH", "TOLERANCE", "build_contact_listing"]
@@ -17,48 +18,14 @@ TOLERANCE = 0.05  # [mean edges] added to distances, for speed that is gained be
 INSIDE_DEPTH = 0.5  # [mean edges] behind an edge, from where on a point counts as inside
 _INSIDE_RADIUS = 2.0  # [mean edges] within which edges are searched for a point that may be inside: the deepest contact
 _FAR = 1e6  # [side], farther than anything
-_ROW_STRIDE = 19349663  # spreads the rows of cells over the hash (Teschner et al. 2003)
 
 
 def build_contact_listing(ti: Any, contact: SimpleNamespace) -> SimpleNamespace:
     """The functions of the listing, by name, on those that ``build_contact_functions`` made."""
     vec2, vec4, int2 = ti.types.vector(2, ti.f32), ti.types.vector(4, ti.f32), ti.types.vector(2, ti.i32)
-    any_value = ti.template()
+    any_value, hashing = ti.template(), build_edge_hash(ti)
+    cell_of, bucket, middle, fill_hash = hashing.cell_of, hashing.bucket, hashing.middle, hashing.fill_hash
     rest_position, offset_from_edge, edge_ends = contact.rest_position, contact.offset_from_edge, contact.edge_ends
-
-    @ti.func
-    def cell_of(p: vec2, size: ti.f32):
-        return ti.cast(ti.floor(p[0] / size), ti.i32), ti.cast(ti.floor(p[1] / size), ti.i32)
-
-    @ti.func
-    def bucket(x: ti.i32, y: ti.i32, count: ti.i32):
-        """Bucket of a cell; neighbours in a row of cells have neighbouring buckets."""
-        return (x + y * _ROW_STRIDE) & (count - 1)
-
-    @ti.func
-    def middle(surface: any_value, e: ti.i32):
-        """Middle of an edge when the candidates were listed."""
-        return vec2(surface.middles[e][0], surface.middles[e][1])
-
-    @ti.func
-    def fill_hash(surface: any_value, size: ti.f32):
-        """Sort edges by the buckets of their middles (counting sort): those of k are order[heads[k]:heads[k + 1]]."""
-        heads, order = ti.static(surface.heads, surface.order)
-        for k in range(heads.shape[0]):
-            heads[k] = 0
-        for e in range(surface.edges.shape[0]):
-            x, y = cell_of(middle(surface, e), size)
-            k = bucket(x, y, heads.shape[0] - 1)
-            order[e][1] = k
-            heads[k] = heads[k] + 1
-        total = 0
-        for k in range(heads.shape[0]):
-            total = total + heads[k]
-            heads[k] = total
-        for e in range(surface.edges.shape[0]):
-            k = order[e][1]
-            heads[k] = heads[k] - 1
-            order[heads[k]][0] = e
 
     @ti.func
     def may_touch(surface: any_value, solid: any_value, i: ti.i32, own: ti.i32, e: ti.i32, options: any_value):
