@@ -99,17 +99,17 @@ class Solid(NamedTuple):
 
 
 class State(NamedTuple):
-    """What the kernels change in place.
+    """The state of the bodies, and arrays that the kernels work in.
 
     Attributes:
         displacement: u = x - X [side], float32, shape [v, 2].
         velocity: [side/s], float32, shape [v, 2].
         push: external acceleration [side/s^2] in this tick, float32, shape [v, 2].
-        decay: what damping leaves of a velocity in a substep of this tick, float32, shape [v].
+        decay: factor exp(-damping dt) on the velocity in a substep of this tick, float32, shape [v].
         corner_forces: internal force of each triangle on its corners [density side^3 / s^2], the pairs of a block one
             after the other, float32, shape [n, 3, 32].
-        records: receives the displacement f times in a launch, each time after as many ticks [side], float32,
-            shape [f, v, 2]; f may be 0.
+        records: receives the displacement f times in a launch, at equal distances of time, last at its end [side],
+            float32, shape [f, v, 2]; f may be 0.
     """
 
     displacement: Float32Array

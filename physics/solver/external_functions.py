@@ -62,7 +62,7 @@ def build_begin_tick(ti: Any) -> Any:
 
     @ti.func
     def external_acceleration(i: ti.i32, tick: ti.i32, solid: any_value, state: any_value, drive: any_value):
-        """What strokes, wind and gravity give a vertex."""
+        """Acceleration of a vertex by strokes, wind and gravity; 0 for kinematic and pinned ones."""
         vertex, total = solid.vertices[i], vec2(0.0, 0.0)
         if vertex[2] > 0.0:
             q = place(vertex) + state.displacement[i]

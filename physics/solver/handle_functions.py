@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-"""Rig points (handles) in the kernels: where they lead vertices, how springs pull vertices there, and tethers."""
+"""Rig points (handles) in the kernels: the positions that they prescribe, springs towards these, and tethers."""
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
 
@@ -32,14 +32,14 @@ def build_handle_functions(ti: Any) -> SimpleNamespace:
 
     @ti.func
     def goal(x: vec2, tick: ti.i32, handle: ti.i32, s: ti.f32, drive: any_value):
-        """Displacement to which a rig point leads what was drawn at x, at a part s of a tick: a cubic in time."""
+        """Displacement that a rig point prescribes at x, at a part s (0 to 1) of a tick: a cubic in time."""
         a, b = affine(x, drive.rig_leads, tick, handle), affine(x, drive.rig_leads, tick + 1, handle)
         va, vb = TICK * affine(x, drive.rig_rates, tick, handle), TICK * affine(x, drive.rig_rates, tick + 1, handle)
         return a + s * (va + s * (3.0 * (b - a) - 2.0 * va - vb + s * (2.0 * (a - b) + va + vb)))
 
     @ti.func
     def pulled(speed: vec2, u: vec2, before: vec2, after: vec2, grip: ti.f32, dt: ti.f32):
-        """Velocity after a step of the critically damped spring between a vertex and its goal, taken implicitly."""
+        """Velocity after an implicit step of the critically damped spring between a vertex and its goal."""
         rate = dt * FIRMNESS * grip
         return (speed + (rate * rate * (after - u) + 2.0 * rate * (after - before)) / dt) / (1.0 + rate * (2.0 + rate))
 
@@ -47,7 +47,7 @@ def build_handle_functions(ti: Any) -> SimpleNamespace:
     def tether(
         i: ti.i32, tick: ti.i32, step: ti.i32, count: ti.i32, solid: any_value, state: any_value, drive: any_value
     ):
-        """Put a vertex that is farther from its anchor than its tether allows back, and let it move no farther away.
+        """Project a vertex back to its tether's length from the anchor, and take away velocity that leads farther off.
 
         Where the anchor is at the end of the step follows from its rig point.
         """

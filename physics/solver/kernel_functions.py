@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-"""What the kernels are made of: a substep of a part, from the forces on its triangles to the way of its vertices."""
+"""What the kernels are made of: a substep of a part, from the forces on its triangles to its vertices' positions."""
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
 
@@ -85,7 +85,7 @@ def build_functions(ti: Any) -> SimpleNamespace:
 
     @ti.func
     def record(first: ti.i32, last: ti.i32, tick: ti.i32, state: any_value, drive: any_value):
-        """Write down where vertices are after a tick, if it is one of those."""
+        """Store displacements after a tick, if it is one of those that are recorded."""
         records = ti.static(state.records)
         if records.shape[0] > 0:
             every = (drive.first_particles.shape[0] - 1) // records.shape[0]
