@@ -19,7 +19,8 @@ from .system import System, assemble
 __all__ = ["DEFAULT_MINUTES", "MAX_WORK", "SimulationPlan", "check_work", "plan", "plan_system", "work_of_minutes"]
 
 UPDATES_PER_SECOND = 1.5e8
-"""Triangle updates (one triangle in one substep) a second on one core of an ordinary machine; for estimates only."""
+"""Triangle updates (one triangle in one substep) a second on one core of an ordinary machine, as measured by
+``tests/benchmarks/simulation.py``; for estimates only, as are the other amounts of work here, which compare with it."""
 
 MAX_WORK = DEFAULT_MINUTES * 60 * UPDATES_PER_SECOND
 """The most that is accepted unless told, ``DEFAULT_MINUTES``, in triangle updates."""
@@ -34,8 +35,7 @@ CROWDING_WORK = 10.0
 """Work of two points of outlines in the same small square in a tick, in triangle updates."""
 
 PARTICLE_WORK = 0.2
-"""Work of one flow particle on one vertex in triangle updates."""
-
+"""Work of one flow particle on one vertex in a tick, in triangle updates."""
 
 WIND_WORK = 4.0
 """Work of a wind field on one vertex in a tick, in triangle updates."""
@@ -44,7 +44,8 @@ STROKE_WORK = 750.0
 """Work of finding the particles of one stroke in a tick, whether it has any or not, in triangle updates."""
 
 CONTACT_WORK = 1.3
-"""Factor on the work of bodies that touch."""
+"""Factor on the work of a scene with contact: it took 1.16 to 1.23 times as long in the scenes of
+``tests/benchmarks/contact_cost.py``, and this leaves room for more."""
 
 
 NO_OUTLINES = OutlineCounts(0, 0, 0)
@@ -97,7 +98,7 @@ class SimulationPlan:
 
 
 def plan(scene: Scene, *, frames: int) -> SimulationPlan:
-    """How ``simulate`` would go about a scene, without doing it.
+    """What ``simulate`` would take for a scene, without doing it.
 
     Args:
         scene: what to simulate.

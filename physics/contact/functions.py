@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-"""What the contact kernel is made of: where vertices and edges are, and how those too near are put apart."""
+"""Narrow phase and response of contact: positions of vertices and edges, and how a contact is resolved."""
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
 
@@ -11,12 +11,14 @@ from .surface import CONTACTS, STEPS
 
 __all__ = ["build_contact_functions"]
 
-_YIELDING = 0.5  # part of the thickness that gives way at first, so that pushes do not set light vertices ringing
-_RETURN = 0.01  # part of it that comes back in a step
+# Part of the thickness that may be penetrated before positions are corrected: a correction of all of it in every step
+# sets light vertices ringing. The rest is corrected slowly, by a part in a step (Baumgarte stabilisation).
+_YIELDING = 0.5
+_RETURN = 0.01
 # A part that takes so few steps in a tick may be pushed by a whole thickness at once; stiffer ones, whose elasticity
 # turns a push in a short step into speed, by less, with the square of their steps.
 _PUSHED_AT_ONCE = 36
-_THIN = 1e-3  # [side], of contacts that are thinner
+_THIN = 1e-3  # [side], in place of the thickness of contacts that are thinner
 _LEAST_PUSH = 1e-6  # [side]; what is less makes no difference that could be seen
 _LEAST_SPEED = 1e-4  # [side/s]
 
@@ -26,44 +28,44 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
     vec2, any_value = ti.types.vector(2, ti.f32), ti.template()
 
     @ti.func
-    def rest_place(solid: any_value, i: ti.i32):
+    def rest_position(solid: any_value, i: ti.i32):
         return vec2(solid.vertices[i][0], solid.vertices[i][1])
 
     @ti.func
-    def place(solid: any_value, state: any_value, i: ti.i32):
-        return rest_place(solid, i) + state.displacement[i]
+    def position(solid: any_value, state: any_value, i: ti.i32):
+        return rest_position(solid, i) + state.displacement[i]
 
     @ti.func
-    def along(p: vec2, a: vec2, b: vec2):
-        """Where on the edge from a to b (0 to 1) the point nearest to p lies."""
+    def edge_parameter(p: vec2, a: vec2, b: vec2):
+        """Parameter, 0 at a to 1 at b, of the point of an edge that is nearest to p."""
         edge = b - a
         return ti.min(1.0, ti.max(0.0, edge.dot(p - a) / ti.max(edge.norm_sqr(), 1e-20)))
 
     @ti.func
-    def offset(p: vec2, a: vec2, b: vec2):
-        """From the nearest point of the edge to p."""
-        return p - (a + along(p, a, b) * (b - a))
+    def offset_from_edge(p: vec2, a: vec2, b: vec2):
+        """Vector from the nearest point of the edge to p."""
+        return p - (a + edge_parameter(p, a, b) * (b - a))
 
     @ti.func
     def edge_ends(surface: any_value, e: ti.i32):
-        """Where the ends of an edge were when places were last noted."""
+        """Ends of an edge at the latest search."""
         ends = surface.edges[e]
-        return surface.places[ends[0]], surface.places[ends[1]]
+        return surface.positions[ends[0]], surface.positions[ends[1]]
 
     @ti.func
     def normal_of(surface: any_value, e: ti.i32):
-        """Unit normal of an edge, which points away from its part."""
+        """Outward unit normal of an edge."""
         a, b = edge_ends(surface, e)
         edge = b - a
         return vec2(0.0 - edge[1], edge[0]) / ti.max(edge.norm(), 1e-12)
 
     @ti.func
     def steps_in(interval: ti.i32, intervals: ti.i32, steps: ti.i32):
-        """How many of its steps of a tick a part takes in one of so many intervals: they are spread evenly."""
+        """Steps of a part in one interval of a tick, over whose intervals they are spread evenly: 0 or 1."""
         return (interval + 1) * steps // intervals - interval * steps // intervals
 
     @ti.func
-    def put_contact_apart(
+    def resolve_contact(
         surface: any_value,
         solid: any_value,
         state: any_value,
@@ -74,22 +76,24 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
     ):
         """Project positions and velocities along a contact's normal, weighted by the inverse masses.
 
-        ``steps`` are those that the stiffer one takes in a tick, and ``rate`` is one over the time in which the two may
-        come together [1/s]. Returns 1 if anything had to be done.
+        ``steps`` are those of the stiffer part in a tick, and ``rate`` is one over the time step of the softer one
+        [1/s]. Returns 1 if anything was corrected.
         """
         u, v = ti.static(state.displacement, state.velocity)
         pair, data = surface.contacts[c], surface.contact_data[c]
         edge = surface.edges[pair[1]]
         i, a, b = surface.points[pair[0]], surface.points[edge[0]], surface.points[edge[1]]
         normal, t, wanted = vec2(data[0], data[1]), data[2], data[3]
-        gap = normal.dot(place(solid, state, i) - (1.0 - t) * place(solid, state, a) - t * place(solid, state, b))
+        gap = normal.dot(
+            position(solid, state, i) - (1.0 - t) * position(solid, state, a) - t * position(solid, state, b)
+        )
         push = ti.max(wanted - _YIELDING * options.thickness - gap, 0.0)
         push = push + _RETURN * ti.max(wanted - gap - push, 0.0)
         stiffness = ti.max(ti.cast(steps, ti.f32) / _PUSHED_AT_ONCE, 1.0)
         push = ti.min(push, ti.max(options.thickness, _THIN) / (stiffness * stiffness))
         relative = v[i] - (1.0 - t) * v[a] - t * v[b]
         approach = relative.dot(normal)
-        # What is still apart may come as near as it wants to be, but no nearer.
+        # While a gap is left, the approach may close it in the softer one's step, but not more.
         missing = 0.0 - approach - ti.max(gap - wanted, 0.0) * rate
         wi, wa, wb = solid.vertices[i][2], (1.0 - t) * solid.vertices[a][2], t * solid.vertices[b][2]
         weight, done = wi + (1.0 - t) * wa + t * wb, 0
@@ -110,7 +114,7 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
         return done
 
     @ti.func
-    def put_apart(
+    def resolve_contacts(
         surface: any_value,
         solid: any_value,
         state: any_value,
@@ -119,10 +123,10 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
         intervals: ti.i32,
         passes: ti.i32,
     ):
-        """Put apart the pairs of parts of which the stiffer one has just taken a step.
+        """Resolve the contacts of those pairs of parts of which the stiffer one has just taken a step.
 
-        The other may move only at the end of its longer step, for which nothing may come too near. After a pass in
-        which nothing had to be done, none would find anything.
+        The softer one moves later, at the end of its longer step, until which the gap has to last. A pass that
+        corrects nothing is the last one.
         """
         activity = ti.static(surface.activity)
         count, left = ti.cast(surface.memory[CONTACTS], ti.i32), passes
@@ -136,16 +140,16 @@ def build_contact_functions(ti: Any) -> SimpleNamespace:
                 if fewer == 0:  # a collider
                     fewer = more
                 if more >= intervals or steps_in(interval, intervals, more) > 0:
-                    done = done | put_contact_apart(surface, solid, state, options, c, more, fewer / TICK)
+                    done = done | resolve_contact(surface, solid, state, options, c, more, fewer / TICK)
             left = ti.select(done > 0, left - 1, 0)
 
     return SimpleNamespace(
-        rest_place=rest_place,
-        place=place,
-        along=along,
-        offset=offset,
+        rest_position=rest_position,
+        position=position,
+        edge_parameter=edge_parameter,
+        offset_from_edge=offset_from_edge,
         edge_ends=edge_ends,
         normal_of=normal_of,
         steps_in=steps_in,
-        put_apart=put_apart,
+        resolve_contacts=resolve_contacts,
     )

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from ..solver import TICK, PackedArguments, argument_packs, array_types, build_functions
 from .functions import build_contact_functions
 from .search import build_contact_search
-from .surface import CONTACTS, GOOD_FOR, LEFT, NEXT_STEPS, STEPPING, STEPS, TOUCHING
+from .surface import CONTACTS, NEXT_STEPS, STEPPING, STEPS, TOUCHING, VALID_FOR, VALID_LEFT
 
 __all__ = ["ContactKernel", "build_contact_kernel"]
 
@@ -51,7 +51,7 @@ def build_contact_kernel(ti: Any) -> ContactKernel:
     options_pack = ti.types.argpack(friction=ti.f32, thickness=ti.f32, self_contact=ti.i32)
     functions, contact = build_functions(ti), build_contact_functions(ti)
     find_contacts = build_contact_search(ti, contact)
-    resolve_contacts, steps_in = contact.put_apart, contact.steps_in
+    resolve_contacts, steps_in = contact.resolve_contacts, contact.steps_in
     planned_steps, begin_tick = functions.planned_steps, functions.begin_tick
     take_step, record = functions.take_step, functions.record
 
@@ -82,7 +82,7 @@ def build_contact_kernel(ti: Any) -> ContactKernel:
         for part in range(scene.solid.substeps.shape[0]):
             if activity[part][TOUCHING] > 0:
                 activity[part][STEPS] = most
-        memory[LEFT] = ti.max(memory[GOOD_FOR], _LEAST_INTERVALS * TICK / ti.max(intervals, 1))
+        memory[VALID_LEFT] = ti.max(memory[VALID_FOR], _LEAST_INTERVALS * TICK / ti.max(intervals, 1))
         return intervals
 
     @ti.func
@@ -108,11 +108,11 @@ def build_contact_kernel(ti: Any) -> ContactKernel:
         dt = TICK / intervals
         if intervals > 1:
             resolve_contacts(surface, solid, state, options, interval, intervals, 1)
-        surface.memory[LEFT] = surface.memory[LEFT] - dt
+        surface.memory[VALID_LEFT] = surface.memory[VALID_LEFT] - dt
         # The search at the end of the tick is soon enough for a list that is good until the last interval.
-        if interval + 2 < intervals and surface.memory[LEFT] < 0.5 * dt:
+        if interval + 2 < intervals and surface.memory[VALID_LEFT] < 0.5 * dt:
             find_contacts(surface, solid, state, options, TICK - (interval + 1) * dt)
-            surface.memory[LEFT] = ti.max(surface.memory[GOOD_FOR], _LEAST_INTERVALS * dt)
+            surface.memory[VALID_LEFT] = ti.max(surface.memory[VALID_FOR], _LEAST_INTERVALS * dt)
 
     @ti.func
     def end_tick(scene: ti.template()):
@@ -172,9 +172,9 @@ def _surface_pack(ti: Any) -> Any:
         middles=types.vectors4,
         candidate_ranges=types.pairs,
         candidates=types.integers,
-        places=types.vectors,
-        marks=types.vectors4,
-        found=types.integers,
+        positions=types.vectors,
+        listed=types.vectors4,
+        contact_counts=types.integers,
         contacts=types.pairs,
         contact_data=types.vectors4,
         activity=types.integers4,

@@ -1,4 +1,4 @@
-"""The surfaces that touch: boundaries of bodies and colliders in the kernel's form, and how they overlap at rest."""
+"""Boundaries of bodies and colliders in the form of the contact kernel, and how they overlap at rest."""
 
 from __future__ import annotations
 
@@ -15,18 +15,17 @@ from ..scene import Contact, Scene, outlines, window_of
 __all__ = [
     "CANDIDATES",
     "CONTACTS",
-    "ENTERED",
     "FASTEST",
-    "FORESEEN",
     "GAP",
-    "GOOD_FOR",
-    "LEFT",
+    "GOT_INSIDE",
     "LIST_LENGTH",
     "LONGEST",
-    "MOVED",
-    "NEAREST",
+    "MARGIN",
+    "MOVED_SINCE_LISTING",
+    "MOVED_SINCE_SEARCH",
+    "NEAREST_SQUARE",
     "NEXT_STEPS",
-    "REACH",
+    "RADIUS",
     "SEARCH",
     "SPACING",
     "SPEED",
@@ -34,7 +33,8 @@ __all__ = [
     "STEPS",
     "TIME",
     "TOUCHING",
-    "WALKED",
+    "VALID_FOR",
+    "VALID_LEFT",
     "ContactSurface",
     "contact_surface",
 ]
@@ -44,26 +44,26 @@ Float32Array = NDArray[np.float32]
 Int32Array = NDArray[np.int32]
 
 LIST_LENGTH = 4
-"""Contacts of one vertex, each with another part."""
+"""Most contacts of one vertex, each with another part."""
 
 CANDIDATES = 96
-"""Edges around a vertex, on average over all, that are remembered at most."""
+"""Most candidate edges of a vertex, on average over all vertices."""
 
 (
-    FORESEEN,
-    CONTACTS,
-    GAP,
-    GOOD_FOR,
-    LEFT,
-    SEARCH,
-    TIME,
-    FASTEST,
-    LONGEST,
-    NEAREST,
-    MOVED,
-    WALKED,
-    REACH,
-    ENTERED,
+    MARGIN,  # for motion, within which candidates were listed [side]
+    CONTACTS,  # how many there are; -1 before the first search
+    GAP,  # by which every point is farther from all edges than the search radius, at least [side]
+    VALID_FOR,  # how long the list of contacts is valid from its search on [s]
+    VALID_LEFT,  # how much of that is left [s]
+    SEARCH,  # what the present search has to do
+    TIME,  # ahead, for which it lists contacts [s]
+    FASTEST,  # speed of the fastest boundary vertex [side/s]
+    LONGEST,  # length of the longest edge [side]
+    NEAREST_SQUARE,  # squared distance from a point to a candidate, the least of all [side^2]
+    MOVED_SINCE_LISTING,  # farthest way of a point since the candidates were listed [side]
+    MOVED_SINCE_SEARCH,  # farthest way of a point since the search before [side]
+    RADIUS,  # within which candidates were listed, besides the margin [side]
+    GOT_INSIDE,  # 1 if a point has got behind an edge since
 ) = range(14)
 """Places of the numbers in ``ContactSurface.memory``."""
 
@@ -92,28 +92,23 @@ class ContactSurface(NamedTuple):
         first_overlaps: where each point's entries of the following two begin, int32, shape [n + 1].
         overlap_parts: parts that a point is in or near at rest, int32, shape [o].
         overlaps: distance that it keeps from each, negative inside [side], float32, shape [o].
-        heads, order: room for the kernel's spatial hash, int32; order has for each place in it an edge, and for each
-            edge its bucket, shape [e, 2].
+        heads, order: the spatial hash: where each bucket begins in order, and the edges by bucket, beside which stands
+            the bucket of each edge by its number, int32, shapes [k + 1], [e, 2].
         middles: the middle of each edge when candidates were listed, half its length [side], and its body, float32,
             shape [e, 4].
-        candidate_ranges, candidates: for each point the edges that it may come near to for a while, and where they
-            begin and end among them.
-        places: where each point was when contacts were last looked for [side], float32, shape [n, 2].
-        marks: where it was when the candidates were listed, how far from the nearest of them [side], and 1 if it is
-            known to be in front of all other parts, float32, shape [n, 4].
-        found: contacts of each point in the present search, int32, shape [n].
-        contacts: a point and the edge that it may touch, int32, shape [c, 2].
-        contact_data: the normal, where on the edge, and the distance to keep, float32, shape [c, 4].
-        activity: for each part 1 if the latest search has found that it may touch another in a tick, 1 if it steps with
-            others in the present tick, the substeps that it takes in it (0 for colliders), and those that it needs in
-            the next one, int32, shape [p, 4].
-        memory: numbers that the kernel keeps, float32, shape [14]: how far the candidates foresee [side], the number of
-            contacts (-1: not yet found), how far everything is from any [side], how long the list of contacts is good
-            when it is made [s], and for how long it still has to do [s]; then of the present search what has to be
-            done, the time ahead [s], the speed of the fastest [side/s], the longest edge, the square of the distance
-            to the nearest candidate, how far a point has moved since the candidates were listed and since contacts were
-            last looked for, the distance within which candidates were listed besides what they foresee [side], and
-            whether a point has got behind an edge since.
+        candidate_ranges, candidates: where the candidate edges of each point begin and end, int32, shape [n, 2], and
+            the edges, int32.
+        positions: each point at the latest search [side], float32, shape [n, 2].
+        listed: each point when the candidates were listed, its distance from the nearest of them [side], and 1 if it is
+            known to be outside of all other parts, float32, shape [n, 4].
+        contact_counts: number of contacts of each point in the present search, int32, shape [n].
+        contacts: pairs of a point and the edge that it may touch, int32, shape [c, 2].
+        contact_data: normal (2), parameter along the edge, and distance to keep [side] of each contact, float32, shape
+            [c, 4].
+        activity: of each part 1 if it may touch another within a tick, by the latest search; 1 if it steps in intervals
+            in the present tick; its substeps in it (0 for colliders); and those that it needs in the next one, int32,
+            shape [p, 4].
+        memory: numbers that the kernel keeps from search to search, at the places named above, float32, shape [14].
     """
 
     points: Int32Array
@@ -132,9 +127,9 @@ class ContactSurface(NamedTuple):
     middles: Float32Array
     candidate_ranges: Int32Array
     candidates: Int32Array
-    places: Float32Array
-    marks: Float32Array
-    found: Int32Array
+    positions: Float32Array
+    listed: Float32Array
+    contact_counts: Int32Array
     contacts: Int32Array
     contact_data: Float32Array
     activity: Int32Array
@@ -185,9 +180,9 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         middles=np.zeros((len(every), 4), np.float32),
         candidate_ranges=np.zeros((len(points), 2), np.int32),
         candidates=np.zeros(CANDIDATES * len(points), np.int32),
-        places=np.zeros((len(points), 2), np.float32),
-        marks=np.column_stack([np.zeros((len(points), 3)), np.diff(overlaps[0]) == 0]).astype(np.float32),
-        found=np.zeros(len(points), np.int32),
+        positions=np.zeros((len(points), 2), np.float32),
+        listed=np.column_stack([np.zeros((len(points), 3)), np.diff(overlaps[0]) == 0]).astype(np.float32),
+        contact_counts=np.zeros(len(points), np.int32),
         contacts=np.zeros((room, 2), np.int32),
         contact_data=np.zeros((room, 4), np.float32),
         activity=np.tile(np.array([1, 0, 0, 0], np.int32), (len(bodies), 1)),

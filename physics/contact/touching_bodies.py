@@ -1,9 +1,8 @@
-"""Bodies that touch, and their way through time.
+"""Bodies in contact: their state, and launches of the contact kernel that advance it.
 
-Every part takes its own steps through a tick as without contact, but parts that touch take as many as the stiffest of
-them and are put apart after each: pushed out of each other more rarely, or while one stands still, they would gain
-energy. Two that have only come near are put apart in every step of the stiffer one, and the softer one is foreseen to
-move at the end of its own step.
+Every part takes its own substeps of a tick as without contact, but parts that touch take as many as the stiffest of
+them, and contacts are resolved after each step: pushed apart more rarely, or while one stands still, they would gain
+energy.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ class ContactOptions(NamedTuple):
 
 
 class _Touching(NamedTuple):
-    """What the kernel reads, and the surface with what it notes there from one launch to the next."""
+    """What the kernel reads; in the surface it also keeps its lists from one launch to the next."""
 
     solid: Solid
     surface: ContactSurface

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .strokes import FALLOFFS, ROUNDING, STROKE_KINDS, EnergyStroke
+from .strokes import ROUNDING, EnergyStroke
 from .travel import factors
 
 __all__ = ["Particles", "acceleration", "all_particles", "most_alive", "particles", "particles_at"]
@@ -27,8 +27,7 @@ class Particles(NamedTuple):
     """The particles of several strokes at one time, in the form that a kernel reads.
 
     Attributes:
-        kind: index into ``STROKE_KINDS`` (0 wind, 1 repel, 2 attract) plus 3 times that into ``FALLOFFS`` (0 linear,
-            1 smooth, 2 constant), int32, shape [p].
+        kind: kind and falloff as in ``EnergyStroke.effect_number``, int32, shape [p].
         position: [px], shape [p, 2].
         direction: unit direction of travel, shape [p, 2]; (0, 0) for a path without a length.
         radius: [px], shape [p].
@@ -110,7 +109,7 @@ def particles_at(strokes: Sequence[EnergyStroke], times: Iterable[float]) -> tup
         np.concatenate([nothing, *parts])[order]
         for nothing, parts in zip(_NOTHING, zip(*placed, strict=True) if placed else ((), (), ()), strict=True)
     )
-    kinds = [STROKE_KINDS.index(s.kind) + len(STROKE_KINDS) * FALLOFFS.index(s.falloff) for s in strokes]
+    kinds = [stroke.effect_number for stroke in strokes]
     of_stroke = np.repeat(np.arange(len(strokes)), counts.sum(axis=1))[order]
     radius, strength = (np.array([getattr(s, name) for s in strokes], dtype=float) for name in ("radius", "strength"))
     found = Particles(

@@ -222,6 +222,11 @@ class EnergyStroke:
         return line
 
     @property
+    def effect_number(self) -> int:
+        """Kind and falloff as one number: index into ``STROKE_KINDS`` plus their count times that into ``FALLOFFS``."""
+        return STROKE_KINDS.index(self.kind) + len(STROKE_KINDS) * FALLOFFS.index(self.falloff)
+
+    @property
     def rests(self) -> bool:
         """Whether the stroke is a single resting particle."""
         return self.speed == 0 or self.polyline.length == 0

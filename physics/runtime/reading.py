@@ -1,4 +1,7 @@
-"""Taichi reads the source of kernels anew in every process; some of that is needless, and takes a third of the start.
+"""Taichi reads the source of kernels anew in every process; some of that is needless, and takes 0.2 s of the start.
+
+Measured with compiled kernels on disk in ten pairs of processes: 0.77 s instead of 0.98 s of processor time for the
+first simulation.
 
 For every call of a function it looks for the module and the end of the function, and for every expression it lays out
 the source line under which an error would be shown. Here a file is read once, and errors name their line only.

@@ -36,7 +36,7 @@ from ..process_end import stop_at_end, working
 from ..progress import Progress
 from ..rig import Pinned
 from ..scene import Scene
-from ..solver import REACH, TICK, Solid, State, advance, squared_frequencies
+from ..solver import STEP_LIMIT, TICK, Solid, State, advance, squared_frequencies
 from .loop import MOST_CYCLES, first_frame, loop_frames, periodic, settled
 
 __all__ = ["OnFrame", "SimulationPlan", "plan", "simulate"]
@@ -266,7 +266,7 @@ def _solid(scene: Scene, system: System, start: NDArray[np.float32] | None = Non
     np.minimum.at(altitudes, rest.triangles, rest.smallest_altitudes[:, None])
     moving = [index for index, point in enumerate(scene.rig_points) if not isinstance(point.motion, Pinned)]
     gripped = free & (system.grips > 0)
-    leaders = np.where(np.isin(system.leaders, moving), system.leaders, -1)
+    kinematic = np.where(np.isin(system.leaders, moving), system.leaders, -1)
     squared = squared_frequencies(rest, mu, lam, system.density)
     squared = np.minimum(squared, system.highest[system.part_of_triangle])
     stiffness = np.column_stack([2 * mu * rest.areas, lam * rest.areas, squared])
@@ -277,8 +277,8 @@ def _solid(scene: Scene, system: System, start: NDArray[np.float32] | None = Non
         starts=system.starts,
         substeps=system.substeps,
         vertices=np.column_stack([rest.positions, inverse_mass, system.damping]).astype(np.float32),
-        reach=np.where(free, REACH * altitudes, 0.0).astype(np.float32),
-        leaders=np.where(gripped, system.grippers, leaders).astype(np.int32),
+        step_limits=np.where(free, STEP_LIMIT * altitudes, 0.0).astype(np.float32),
+        handles=np.where(gripped, system.grippers, kinematic).astype(np.int32),
         grips=np.where(gripped, system.grips, 0.0).astype(np.float32),
         triangles=np.ascontiguousarray(rest.triangles[active]),
         inverse_edges=rest.inverse_edges[active].reshape(-1, 4).astype(np.float32),

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from .arguments import PackedArguments, argument_packs, array_types, drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
-from .kernel_functions import REACH, SPEED_FLOOR, build_functions
+from .kernel_functions import SPEED_FLOOR, STEP_LIMIT, build_functions
 from .solver import advance
 from .stepping import SAFETY, TICK, frequency_limits, squared_frequencies, substeps, vertex_frequencies
 
 __all__ = [
     "CALM",
-    "REACH",
     "SAFETY",
     "SPEED_FLOOR",
+    "STEP_LIMIT",
     "TICK",
     "Drive",
     "PackedArguments",

@@ -14,8 +14,7 @@ __all__ = ["PackedArguments", "argument_packs", "array_types", "drive_group", "s
 def array_types(ti: Any) -> SimpleNamespace:
     """Arrays as the kernels see them.
 
-    Elements are vectors of 2, 4 or 16 only: those of 3 or 6 numbers do not lie one behind the other in the compiler's
-    eyes.
+    Elements are vectors of 2, 4 or 16 only: the compiler pads those of 3 or 6 numbers, which arrays of NumPy are not.
     """
     array, vector = ti.types.ndarray, ti.types.vector
     return SimpleNamespace(
@@ -46,8 +45,8 @@ def argument_packs(ti: Any) -> SimpleNamespace:
             starts=types.pairs,
             substeps=types.integers,
             vertices=types.vectors4,
-            reach=types.scalars,
-            leaders=types.integers,
+            step_limits=types.scalars,
+            handles=types.integers,
             grips=types.scalars,
             corners=types.index_blocks,
             elements=types.blocks,

@@ -22,10 +22,11 @@ class Solid(NamedTuple):
         starts: first vertex and first block of triangles of each part, and where the last one ends, int32,
             shape [p + 1, 2].
         substeps: planned substeps of each part in a tick, int32, shape [p].
-        vertices: rest position X [side], inverse mass (0: led or held), damping [1/s], float32, shape [v, 4].
-        reach: largest displacement in a substep [side], float32, shape [v].
-        leaders: index of the rig point that leads each vertex or pulls it along, -1 for none, int32, shape [v].
-        grips: how firmly it pulls, 0..1; 0 where it leads, float32, shape [v].
+        vertices: rest position X [side], inverse mass (0: kinematic or pinned), damping [1/s], float32, shape [v, 4].
+        step_limits: largest displacement in a substep [side], float32, shape [v].
+        handles: index of the moving rig point whose motion each vertex follows, -1 for none, int32, shape [v].
+        grips: firmness of the spring by which it follows, 0..1; 0 for kinematic vertices, which are where the motion
+            has them, float32, shape [v].
         corners: vertices at the corners of the triangles of each block, int32, shape [n, 3, 16]; a part's last block
             is filled up with triangles that have no stiffness.
         elements: of each of these triangles the row-major inverse of its rest edge columns [1/side], 2 mu V,
@@ -33,7 +34,7 @@ class Solid(NamedTuple):
         first_slots: where each vertex's slots begin, int32, shape [v + 1].
         slots: where the forces on a vertex are among ``State.corner_forces`` seen as pairs, one slot for each of its
             triangles, int32, shape [3 t].
-        anchors: vertex that holds each vertex by a tether, one that is held or led itself, -1 for none, int32, shape
+        anchors: vertex that holds each vertex by a tether, itself pinned or kinematic, -1 for none, int32, shape
             [v]; of no length where nothing is tethered.
         tethers: length of the tether [side], float32, shape as ``anchors``.
         wind_response: factor on what wind and strokes do to each vertex, float32, shape [v]; of no length for 1
@@ -43,8 +44,8 @@ class Solid(NamedTuple):
     starts: Int32Array
     substeps: Int32Array
     vertices: Float32Array
-    reach: Float32Array
-    leaders: Int32Array
+    step_limits: Float32Array
+    handles: Int32Array
     grips: Float32Array
     corners: Int32Array
     elements: Float32Array
@@ -98,17 +99,17 @@ class Solid(NamedTuple):
 
 
 class State(NamedTuple):
-    """What the kernels change in place.
+    """The state of the bodies, and arrays that the kernels work in.
 
     Attributes:
         displacement: u = x - X [side], float32, shape [v, 2].
         velocity: [side/s], float32, shape [v, 2].
         push: external acceleration [side/s^2] in this tick, float32, shape [v, 2].
-        decay: what damping leaves of a velocity in a substep of this tick, float32, shape [v].
+        decay: factor exp(-damping dt) on the velocity in a substep of this tick, float32, shape [v].
         corner_forces: internal force of each triangle on its corners [density side^3 / s^2], the pairs of a block one
             after the other, float32, shape [n, 3, 32].
-        records: receives the displacement f times in a launch, each time after as many ticks [side], float32,
-            shape [f, v, 2]; f may be 0.
+        records: receives the displacement f times in a launch, at equal distances of time, last at its end [side],
+            float32, shape [f, v, 2]; f may be 0.
     """
 
     displacement: Float32Array
@@ -159,7 +160,7 @@ class Drive(NamedTuple):
         first_particles: particles of tick i are those from entry i to before entry i + 1, int32, shape [n + 1].
         particles: position and direction of travel of each particle in the middle of its tick [side],
             radius [side], strength [side/s^2], float32, shape [p, 6].
-        kinds: kind and falloff as in ``flow_particles.Particles``, int32, shape [p].
+        kinds: kind and falloff as in ``EnergyStroke.effect_number``, int32, shape [p].
         gravity: acceleration of every vertex [side/s^2].
         wind: beside it.
     """

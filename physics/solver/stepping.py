@@ -33,7 +33,7 @@ It is the same at every frame rate, and common frame rates divide it: so the mot
 """
 
 SAFETY = 0.9
-"""The step as a part of the largest stable one."""
+"""The step as a part of the largest stable one: room for what deformation adds to the frequencies within a tick."""
 
 MASS_BUDGET = 0.0007
 """Mass that may be added to a connected part to slow its stiffest spots, as a part of its own.

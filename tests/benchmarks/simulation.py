@@ -66,8 +66,8 @@ import numpy as np
 from physanimator.physics.solver import Drive, Solid, State, advance
 i, f = (lambda *v: np.array(v, np.int32)), (lambda *v: np.array(v, np.float32))
 solid = Solid.of_triangles(
-    starts=i([0, 0], [3, 1]), substeps=i(2), vertices=np.ones((3, 4), np.float32), reach=np.ones(3, np.float32),
-    leaders=i(-1, -1, -1), grips=np.zeros(3, np.float32), triangles=i([0, 1, 2]), inverse_edges=f([1, 0, 0, 1]),
+    starts=i([0, 0], [3, 1]), substeps=i(2), vertices=np.ones((3, 4), np.float32), step_limits=np.ones(3, np.float32),
+    handles=i(-1, -1, -1), grips=np.zeros(3, np.float32), triangles=i([0, 1, 2]), inverse_edges=f([1, 0, 0, 1]),
     stiffness=f([1, 1, 1]))
 rig = np.zeros((2, 1, 6), np.float32)
 advance(solid, State.at_rest(solid), Drive(rig, rig, i(0, 0), np.zeros((0, 6), np.float32), i(), (0.0, 0.0)))
