@@ -13,6 +13,7 @@ from ..physics.rig import RigPoint
 from ..physics.scene import Scene as PhysicalScene
 from ..physics.scene import automatic_scene
 from .host import checked_document, refusal
+from .host.field_inputs import input_of
 from .host.wires import (
     BodiesWire,
     ContactWire,
@@ -55,7 +56,7 @@ class Scene(io.ComfyNode):
                 io.Float.Input(
                     "gravity_y", default=0.0, min=-100.0, max=100.0, step=0.1, tooltip=_gravity("downwards")
                 ),
-                _frame_rate(),
+                input_of(PhysicalScene, "frame_rate"),
                 StrokesWire.Input("strokes", optional=True, tooltip="Energy strokes that act on every body."),
                 RigWire.Input("rig_points", optional=True, tooltip="What is held or led."),
                 WindWire.Input("wind", optional=True, tooltip="Blows everywhere beside the strokes."),
@@ -117,7 +118,7 @@ class AutomaticScene(io.ComfyNode):
                     tooltip="Small bodies sway faster than their material says and large ones slower, as pendulums do."
                     " Off: every body sways as often as its material says.",
                 ),
-                _frame_rate(),
+                input_of(PhysicalScene, "frame_rate"),
                 StrokesWire.Input("strokes", optional=True, tooltip="Used instead of the gusts when connected."),
                 RigWire.Input("rig_points", optional=True, tooltip="Used instead of the pins when connected."),
                 WindWire.Input("wind", optional=True, tooltip="Blows instead of the gusts when connected."),
@@ -217,17 +218,6 @@ def scene_outputs() -> list[io.Output]:
             tooltip="The scene as a JSON document without its meshes: for Scene from JSON and for the command line.",
         ),
     ]
-
-
-def _frame_rate() -> io.Float.Input:
-    return io.Float.Input(
-        "frame_rate",
-        default=PhysicalScene.frame_rate,
-        min=1.0,
-        max=240.0,
-        step=1.0,
-        tooltip="Frames a second [1/s]. Simulate hands it on to Create Video.",
-    )
 
 
 def _gravity(direction: str) -> str:

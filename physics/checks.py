@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from numbers import Real
+from numbers import Integral, Real
 from typing import Any
 
 import numpy as np
 
 from .errors import InvalidInputError, require
 
-__all__ = ["is_number", "is_whole", "numbers_of", "require_kind", "within"]
+__all__ = ["check_number", "check_whole", "is_number", "is_whole", "numbers_of", "require_kind", "within"]
 
 
 def is_number(value: object) -> bool:
@@ -70,3 +70,30 @@ def require_kind(name: str, value: object, kind: type | tuple[type, ...], expect
         InvalidInputError: it is.
     """
     require(name, type(value).__name__, isinstance(value, kind), expected)
+
+
+def check_number(name: str, value: object, low: float, high: float = math.inf, *, unit: str = "") -> None:
+    """Refuse anything but a finite number from ``low`` to ``high``, as an option is.
+
+    Args:
+        name: what the user calls it.
+        value: what was given.
+        low: smallest usable value.
+        high: largest usable value.
+        unit: to stand after the range, such as " px".
+
+    Raises:
+        InvalidInputError: it is something else.
+    """
+    expected = f"a number of at least {low:g}{unit}" if high == math.inf else f"a number from {low:g} to {high:g}{unit}"
+    require(name, value, within(value, low, high), expected)
+
+
+def check_whole(name: str, value: object, low: int, high: int, *, unit: str = "") -> None:
+    """Refuse anything but a whole number from ``low`` to ``high`` that is no float; arguments as ``check_number``.
+
+    Raises:
+        InvalidInputError: it is something else.
+    """
+    whole = isinstance(value, Integral) and is_whole(value, low, high)
+    require(name, value, whole, f"a whole number from {low} to {high}{unit}")

@@ -40,7 +40,6 @@ __all__ = [
 ]
 
 T = TypeVar("T")
-S = TypeVar("S", EnergyStroke, RigPoint, Contact, Collider, Paint, QueryPoint)
 
 _NAMED = re.compile(r"([a-z_]+(?:\[\d+\])?(?:\.[a-z_]+)?) (must .*)", re.DOTALL)  # as `require` words it
 
@@ -112,34 +111,23 @@ def scene_from_checked(checked: Mapping[str, Any], *, meshes: Sequence[TriangleM
     size = (int(document["width"]), int(document["height"]))
     target = (supply[0].width, supply[0].height) if supply else size
     bodies = _read_bodies(document.get("bodies", []), supply, size, target)
-    strokes = _each("strokes", document, _read_stroke)
     _require_small_masks(document)
-    rig_points = _each("rig_points", document, _read_rig_point)
-    contact, colliders = _read_contact(document.get("contact")), _each("colliders", document, _read_collider)
-    paint, query_points = _each("paint", document, _read_paint), query_points_of(document)
+    lists: dict[str, Any] = {name: _each(name, document, read) for name, read in _READERS.items()}
+    fields: dict[str, Any] = {
+        "wind": _read_one("wind", document, Wind),
+        "contact": _read_one("contact", document, Contact),
+    }
     if target != size:
         scale = (target[0] / size[0], target[1] / size[1], max(target) / max(size))
-        strokes = _rescaled("strokes", strokes, scale)
-        rig_points = _rescaled("rig_points", rig_points, scale)
-        colliders = _rescaled("colliders", colliders, scale)
-        paint = _rescaled("paint", paint, scale)
-        query_points = _rescaled("query_points", query_points, scale)
-        contact = contact and _rescaled("contact", [contact], scale)[0]
-    options = _floats({name: value for name, value in document.items() if name in ("gravity", "frame_rate", "loop")})
-    wind = _read_wind(document.get("wind"), size, target)
+        lists = {
+            name: [_rescaled(each, scale, at) for each, at in _placed(name, found)] for name, found in lists.items()
+        }
+        fields = {name: each and _rescaled(each, scale, name) for name, each in fields.items()}
+    options: dict[str, Any] = {
+        name: document[name] for name in ("gravity", "frame_rate", "loop", "sag") if name in document
+    }
     with _located(""):
-        return Scene(
-            tuple(bodies),
-            tuple(strokes),
-            tuple(rig_points),
-            wind=wind,
-            sag=document.get("sag", False),
-            contact=contact,
-            colliders=tuple(colliders),
-            paint=tuple(paint),
-            query_points=tuple(query_points),
-            **options,
-        )
+        return Scene(tuple(bodies), **lists, **fields, **_floats(options))
 
 
 def _read_bodies(
@@ -177,11 +165,9 @@ def _read_stroke(entry: dict[str, Any], path: str) -> EnergyStroke:
         return EnergyStroke(**_floats(entry))
 
 
-def _read_wind(entry: dict[str, Any] | None, size: tuple[int, int], target: tuple[int, int]) -> Wind | None:
-    if entry is None:
-        return None
-    with _located("wind"):
-        return Wind(**_floats(entry)).rescaled((target[0] / size[0], target[1] / size[1], max(target) / max(size)))
+def _read_one(name: str, document: dict[str, Any], kind: type) -> Any:
+    with _located(name):
+        return None if document.get(name) is None else kind(**_floats(document[name]))
 
 
 def _read_rig_point(entry: dict[str, Any], path: str) -> RigPoint:
@@ -206,11 +192,6 @@ def _read_typed(entry: dict[str, Any], types: dict[str, type], path: str) -> Any
         return kind(**values)
 
 
-def _read_contact(entry: dict[str, Any] | None) -> Contact | None:
-    with _located("contact"):
-        return None if entry is None else Contact(**_floats(entry))
-
-
 def _read_collider(entry: dict[str, Any], path: str) -> Collider:
     region = _read_typed(entry["region"], COLLIDER_TYPES, f"{path}.region")
     with _located(path):
@@ -231,6 +212,15 @@ def query_points_of(document: dict[str, Any]) -> list[QueryPoint]:
 
 def _read_query_point(entry: dict[str, Any], _path: str) -> QueryPoint:
     return QueryPoint(**_floats(entry))
+
+
+_READERS: dict[str, Callable[[dict[str, Any], str], Any]] = {
+    "strokes": _read_stroke,
+    "rig_points": _read_rig_point,
+    "colliders": _read_collider,
+    "paint": _read_paint,
+    "query_points": _read_query_point,
+}
 
 
 def _require_small_masks(document: dict[str, Any]) -> None:
@@ -257,15 +247,17 @@ def _masks(document: Mapping[str, Any]) -> Iterator[tuple[str, int]]:
 
 
 def _each(name: str, document: dict[str, Any], read: Callable[[dict[str, Any], str], T]) -> list[T]:
-    return [read(entry, join_path(name, index)) for index, entry in enumerate(document.get(name, []))]
+    return [read(entry, path) for entry, path in _placed(name, document.get(name, []))]
 
 
-def _rescaled(name: str, entries: list[S], scale: Scale) -> list[S]:
-    result = []
-    for index, entry in enumerate(entries):
-        with _located(join_path(name, index)):
-            result.append(entry.rescaled(scale))
-    return result
+def _placed(name: str, entries: list[T]) -> list[tuple[T, str]]:
+    """Entries of a list with their paths."""
+    return [(entry, join_path(name, index)) for index, entry in enumerate(entries)]
+
+
+def _rescaled(entry: Any, scale: Scale, path: str) -> Any:
+    with _located(path):
+        return entry.rescaled(scale)
 
 
 def _floats(entry: dict[str, Any]) -> dict[str, Any]:

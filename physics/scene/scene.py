@@ -30,6 +30,9 @@ from .query_points import QueryPoint
 __all__ = ["Body", "Scene", "check_scene_rate"]
 
 
+_DRAWN = ("strokes", "rig_points", "colliders", "paint", "query_points")  # lists of what scales with the picture
+
+
 def check_scene_rate(frame_rate: float) -> None:
     """Refuse a frame rate that no scene can have, before any long work.
 
@@ -165,6 +168,7 @@ class Scene:
             minimum=1,
             maximum=240,
         ),
+        Input("Frames a second [1/s]. Simulate hands it on to Create Video.", step=1.0),
     ] = 24.0
     loop: Annotated[
         float | None,
@@ -260,16 +264,13 @@ class Scene:
         Positions scale in x and y, radii and speeds with the longest side; what is measured in sides stays.
         """
         scale = (width / self.width, height / self.height, max(width, height) / max(self.width, self.height))
+        drawn: dict[str, Any] = {name: tuple(each.rescaled(scale) for each in getattr(self, name)) for name in _DRAWN}
         return replace(
             self,
             bodies=tuple(replace(body, mesh=body.mesh.rescaled(width, height)) for body in self.bodies),
-            strokes=tuple(stroke.rescaled(scale) for stroke in self.strokes),
-            rig_points=tuple(rig_point.rescaled(scale) for rig_point in self.rig_points),
             wind=self.wind and self.wind.rescaled(scale),
             contact=self.contact and self.contact.rescaled(scale),
-            colliders=tuple(collider.rescaled(scale) for collider in self.colliders),
-            paint=tuple(entry.rescaled(scale) for entry in self.paint),
-            query_points=tuple(point.rescaled(scale) for point in self.query_points),
+            **drawn,
         )
 
     def _require_few_particles(self) -> None:

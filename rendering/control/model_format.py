@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.checks import check_whole
 from ...physics.errors import require
 from ...physics.motion import FITS, Fit, Motion, frame_at, sample_times
-from ...physics.number_checks import check_whole
 from ..overlays import reframed
 
 __all__ = ["FRAME_STEP", "SIZE_STEP", "ModelFormat"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...physics.number_checks import check_number, check_whole
+from ...physics.checks import check_number, check_whole
 from ..networks import LARGEST_AREA, SMALLEST_AREA, TRAINED_HEIGHT, TRAINED_WIDTH
 from .frame_layout import CLIP_FRAMES, LEAST_OVERLAP, OVERLAP
 

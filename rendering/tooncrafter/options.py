@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ...physics.checks import check_number, check_whole
 from ...physics.errors import require
-from ...physics.number_checks import check_number, check_whole
 from ..networks import LARGEST_AREA, SMALLEST_AREA
 
 __all__ = ["CLIP_GAP", "SOLVERS", "TRAINED_HEIGHT", "TRAINED_WIDTH", "ToonCrafterOptions"]
