@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .bilinear_splat import splat
 from .bleeding import carried_on
 from .clip_reading import read_clip
 from .frame_folder import frames_in, is_frame_name
@@ -41,6 +42,7 @@ __all__ = [
     "read_clip",
     "resized",
     "save_image",
+    "splat",
     "straight",
     "window_around",
     "write_animation",
