@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,10 @@ __all__ = ["splat"]
 
 
 def splat(
-    x: NDArray[np.float32], y: NDArray[np.float32], amounts: Sequence[NDArray[np.float64]], shape: tuple[int, int]
+    x: NDArray[np.floating[Any]],
+    y: NDArray[np.floating[Any]],
+    amounts: Sequence[NDArray[np.float64]],
+    shape: tuple[int, int],
 ) -> list[NDArray[np.float64]]:
     """Share amounts among the four pixels around each landing place.
 
