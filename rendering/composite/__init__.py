@@ -7,7 +7,8 @@ from .background import Background, background_of, renderer_of, shown_frame, sho
 from .beyond_border import on_canvas
 from .cutting import Layer
 from .layered_renderer import LayeredRenderer
-from .pixel_art import PixelArtRenderer, pixel_art_hint
+from .pixel_art import PixelArtRenderer
+from .pixel_blocks import pixel_art_hint
 from .sprite_layers import sprite_plate
 from .still_parts import keep_still_parts, moving_region
 

@@ -13,26 +13,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...physics.errors import InvalidInputError, require
-from ...physics.mesh import PixelBox, TriangleMesh, bounding_box, coverage_of, fitted, interpolate, triangle_ids
+from ...physics.mesh import coverage_of, fitted
 from ...physics.motion import Motion, layer_order
 from ..pictures import check_picture, is_transparent, nearest_pixels
-from .apron import ApronedMesh, canvas_of
-from .beyond_border import on_canvas
+from .carried_pixels import CarriedPixels
+from .pixel_blocks import block_size
 
-__all__ = ["PixelArtRenderer", "block_size", "looks_like_pixel_art", "pixel_art_hint", "pixel_plate"]
+__all__ = ["PixelArtRenderer", "pixel_plate"]
 
 FloatImage = NDArray[np.float32]
 Places = NDArray[np.int32]
 Mask = NDArray[np.bool_]
-
-# Art of fewer pixels on a side is rather a picture of large squares.
-_FEWEST_BLOCKS = 16
-_REACH = 1.5
-_LEAST_REACH = 12
-_NOWHERE = -1e6
-# Pixel art has few colours and is small, once its blocks are counted as pixels.
-_MOST_COLOURS = 64
-_LONGEST_SIDE = 320
 
 
 class PixelArtRenderer:
@@ -84,7 +75,7 @@ class PixelArtRenderer:
         self._order = layer_order(motion.bodies)
         self._image = self._blocks(image)
         wanted = {k: self._blocks(fitted(coverage_of(masks[k]), width, height)) > 0.5 for k in self._order}
-        carried = {k: _CarriedPixels(motion.bodies[k].mesh, wanted[k], self.block) for k in self._order}
+        carried = {k: CarriedPixels(motion.bodies[k].mesh, wanted[k], self.block) for k in self._order}
         inside = [wanted[k] & carried[k].covered for k in self._order]
         if plate is None:
             self._behind = pixel_plate(self._image, np.logical_or.reduce(inside))
@@ -175,93 +166,9 @@ class PixelArtRenderer:
         return image if self.block == 1 else image.repeat(self.block, axis=0).repeat(self.block, axis=1)
 
 
-class _CarriedPixels:
-    """A body's mesh with an apron, and how it carries pixels along."""
-
-    def __init__(self, mesh: TriangleMesh, mask: Mask, block: int) -> None:
-        edges = mesh.vertices[mesh.boundary_edges]
-        length = float(np.median(np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1)))
-        reach = max(_LEAST_REACH, 2 * block, int(np.ceil(_REACH * length)))
-        canvas = canvas_of(mesh, reach=reach)
-        shape = mask.astype(np.float32).repeat(block, axis=0).repeat(block, axis=1)
-        self._mesh = ApronedMesh.around(mesh, on_canvas(shape, canvas), canvas, reach=reach)
-        self._block = block
-        whole = PixelBox(0, 0, mesh.width, mesh.height)
-        half = block // 2
-        self.covered = (triangle_ids(self._mesh.rest, self._mesh.triangles, whole) >= 0)[half::block, half::block]
-
-    def moved(self, pixels: Places, vertices: NDArray[np.float32], width: int, height: int) -> Places:
-        """The pixels with the mesh moved, -1 where the body is not.
-
-        Args:
-            pixels: which pixel of the illustration the body shows at rest, -1 where it is not, shape [h, w] in blocks.
-            vertices: positions of the body's vertices [px], shape [v, 2].
-            width: of the picture [px].
-            height: of the picture [px].
-        """
-        found = np.full(pixels.shape, -1, dtype=np.int32)
-        points, block = self._mesh.positions(vertices), self._block
-        box = bounding_box(points).clipped(width, height)
-        if not (box.width and box.height):
-            return found
-        x, y = interpolate(points, self._mesh.triangles, self._mesh.rest - points, box, fill=_NOWHERE)
-        half = block // 2
-        # The blocks whose middle lies in the box.
-        rows = np.arange(-((half - box.top) // block), -((half - box.bottom) // block))
-        columns = np.arange(-((half - box.left) // block), -((half - box.right) // block))
-        at = np.ix_(rows * block + half - box.top, columns * block + half - box.left)
-        # Beyond the picture's border the body goes on as it is there; beyond the mesh there is nothing.
-        row, column = (
-            np.clip(np.rint(way[at] / block + here), 0, count - 1).astype(np.int64)
-            for way, here, count in ((y, rows[:, None], pixels.shape[0]), (x, columns[None], pixels.shape[1]))
-        )
-        found[np.ix_(rows, columns)] = np.where(x[at] > _NOWHERE / 2, pixels[row, column], -1)
-        return found
-
-
 def _own_pixels(inside: Mask, visible: Mask) -> Places:
     """Which pixel stands for each of a body's: itself, or the nearest one that is not hidden; -1 elsewhere."""
     return np.where(inside, nearest_pixels(visible if visible.any() else inside)[1], np.int32(-1))
-
-
-def block_size(image: NDArray[Any]) -> int:
-    """Side of the squares of one colour that a picture is made of [px]; 1 where it is not.
-
-    Args:
-        image: shape [h, w, c].
-    """
-    height, width = image.shape[:2]
-    down = np.flatnonzero((image[1:] != image[:-1]).any(axis=(1, 2))) + 1
-    across = np.flatnonzero((image[:, 1:] != image[:, :-1]).any(axis=(0, 2))) + 1
-    block = int(np.gcd.reduce([height, width, *down, *across]))
-    # A picture of a few large shapes tells nothing about its pixels.
-    return block if block * _FEWEST_BLOCKS <= min(height, width) else 1
-
-
-def looks_like_pixel_art(image: NDArray[Any]) -> bool:
-    """Whether a picture is small, once its blocks are counted as pixels, and has few colours.
-
-    Args:
-        image: RGB or RGBA, shape [h, w, c].
-    """
-    block = block_size(image)
-    small = np.ascontiguousarray(image[::block, ::block])
-    if max(small.shape[:2]) > _LONGEST_SIDE:
-        return False
-    return len(np.unique(small.reshape(-1, small.shape[2]), axis=0)) <= _MOST_COLOURS
-
-
-def pixel_art_hint(image: NDArray[Any], *, option: str) -> list[str]:
-    """A sentence for a picture that looks like pixel art and is not treated as such.
-
-    Args:
-        image: RGB or RGBA, shape [h, w, c].
-        option: what would do so.
-    """
-    if not looks_like_pixel_art(image):
-        return []
-    height, width = image.shape[:2]
-    return [f"the picture looks like pixel art ({width} x {height} px, few colours); {option} keeps its pixels hard"]
 
 
 def pixel_plate(image: NDArray[Any], hole: Mask) -> NDArray[Any]:

@@ -65,9 +65,7 @@ class Clip:
 
     def keyframe(self, number: int) -> FloatImage:
         """A keyframe as float32 in 0..1."""
-        image = self.keyframes[number]
-        # Not as_float: its quotient may differ in the last bit, which decides to which level a mean of two is rounded.
-        return image.astype(np.float32) * np.float32(1 / 255) if image.dtype == np.uint8 else as_float(image)
+        return as_float(self.keyframes[number], exact=False)
 
     def times(self, number: int) -> list[tuple[int, float]]:
         """Frames between keyframe ``number`` and the next, each with its place between them in 0..1."""

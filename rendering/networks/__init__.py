@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .configuration import FromValues
+from .configuration import DiffusionConfiguration, FromValues
 from .working_size import LARGEST_AREA, SMALLEST_AREA, TRAINED_HEIGHT, TRAINED_WIDTH, Frame
 
 __all__ = [
@@ -10,6 +10,7 @@ __all__ = [
     "SMALLEST_AREA",
     "TRAINED_HEIGHT",
     "TRAINED_WIDTH",
+    "DiffusionConfiguration",
     "Frame",
     "FromValues",
 ]

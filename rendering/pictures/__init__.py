@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from .bilinear_splat import splat
 from .bleeding import carried_on
 from .clip_reading import read_clip
+from .container_formats import FORMATS, holds_alpha
 from .frame_folder import frames_in, is_frame_name
 from .frame_record import RECORD
 from .images import check_image_output, data_address, load_image, load_mask, save_image
@@ -12,7 +14,7 @@ from .pixel_windows import window_around
 from .pixels import as_dtype, as_float, as_grey, as_picture, as_uint8, check_picture
 from .premultiplication import premultiplied, resized, straight
 from .transparency import WHITE, Colour, is_transparent, over
-from .video import FORMATS, check_output, holds_alpha, write_animation
+from .video import check_output, write_animation
 
 __all__ = [
     "FORMATS",
@@ -41,6 +43,7 @@ __all__ = [
     "read_clip",
     "resized",
     "save_image",
+    "splat",
     "straight",
     "window_around",
     "write_animation",

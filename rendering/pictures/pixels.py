@@ -54,8 +54,13 @@ def check_picture(image: ArrayLike, *, name: str = "image", alpha: bool = False)
     as_picture(image, name=name, alpha=alpha)
 
 
-def as_float(image: ArrayLike) -> FloatImage:
+def as_float(image: ArrayLike, *, exact: bool = True) -> FloatImage:
     """Any picture of :func:`as_picture`, or one plane of it, as float32 in 0 to 1, in its own shape.
+
+    Args:
+        image: the picture.
+        exact: divide by 255. Otherwise multiply by 1 / 255, which differs in the last bit of every other level: line
+            drawings and in-betweens hang on that bit where a value lies half-way between two levels.
 
     Examples:
         >>> import numpy as np
@@ -64,7 +69,9 @@ def as_float(image: ArrayLike) -> FloatImage:
         [[0.0, 1.0]]
     """
     values = _as_8_bits_or_float(as_array(image, "image"), "image")
-    return values.astype(np.float32) / np.float32(255) if values.dtype == np.uint8 else values
+    if values.dtype != np.uint8:
+        return values
+    return values.astype(np.float32) / np.float32(255) if exact else values.astype(np.float32) * np.float32(1 / 255)
 
 
 def as_grey(image: ArrayLike) -> FloatImage:

@@ -17,6 +17,8 @@ HALF_WIDTH = 6
 LEAST_REACH = 3
 """The narrowest line reaches this far from its middle, with what is beside it [px]."""
 
+# Half and twice each of these draw between as much and two and a half times as much, measured as in line_continuation.
+
 # Colours rest where they differ by less than this share of the line's contrast over this distance [px].
 _REST = 0.3
 # And where, for all their texture, the mean before and behind differs by less than this share.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from .layered_sketch import LayeredSketch
 from .sketch import cleaned, extract_sketch
 from .sketch_warping import WARP_MODES, WarpMode, warped_sketches
-from .splatting import splat, splats_of
+from .splatting import splats_of
 from .warp import forward_warp, warp_sketch
 
 __all__ = [
@@ -15,7 +15,6 @@ __all__ = [
     "cleaned",
     "extract_sketch",
     "forward_warp",
-    "splat",
     "splats_of",
     "warp_sketch",
     "warped_sketches",

@@ -68,7 +68,7 @@ def extract_sketch(
         >>> bool(sketch[20, 20] < 0.2), float(sketch[20, 5])
         (True, 1.0)
     """
-    picture = as_float(as_picture(image))
+    picture = as_float(as_picture(image), exact=False)
     require("line_width", line_width, 0.5 <= line_width <= 50, "0.5 to 50 px")
     require("threshold", threshold, 0 < threshold < 1, "above 0 and below 1")
     require("sharpness", sharpness, 0 < sharpness < np.inf, "above 0")

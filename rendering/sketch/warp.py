@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from ...physics.errors import require
 from ...physics.motion import FlowField
-from ..pictures import as_float
-from .splatting import splat, splats_of
+from ..pictures import as_float, splat
+from .splatting import splats_of
 
 __all__ = ["SPLAT_MODES", "SplatMode", "WarpedSketch", "forward_warp", "warp_sketch"]
 

@@ -11,7 +11,7 @@ from torch.nn import functional
 from .frame_layout import FrameLayout
 from .temporal_convolution import MaskedTemporalConvolution
 
-__all__ = ["Blend", "Conditions", "VideoResidualBlock", "normalised"]
+__all__ = ["Blend", "Conditions", "SpatialResidualBlock", "VideoResidualBlock", "normalised"]
 
 
 @dataclass(frozen=True)
@@ -65,12 +65,10 @@ class _TemporalResidual(nn.Module):
         return self.out_layers[3](functional.silu(self.out_layers[0](h)), references)
 
 
-class VideoResidualBlock(nn.Module):
-    """Residual block of the video networks."""
+class SpatialResidualBlock(nn.Module):
+    """What the residual blocks of both video models do to each frame by itself."""
 
-    def __init__(
-        self, channels_in: int, channels_out: int, embedding_channels: int, kernel: tuple[int, int, int]
-    ) -> None:
+    def __init__(self, channels_in: int, channels_out: int, embedding_channels: int) -> None:
         super().__init__()
         first, second = (nn.Conv2d(each, channels_out, 3, padding=1) for each in (channels_in, channels_out))
         self.in_layers = nn.Sequential(normalised(channels_in), nn.SiLU(), first)
@@ -78,13 +76,26 @@ class VideoResidualBlock(nn.Module):
         self.out_layers = nn.Sequential(normalised(channels_out), nn.SiLU(), nn.Dropout(0), second)
         changes = channels_in != channels_out
         self.skip_connection = nn.Conv2d(channels_in, channels_out, 1) if changes else nn.Identity()
+
+    def spatial(self, x: Tensor, embedding: Tensor) -> Tensor:
+        """x: features, shape [b * t, c, h, w]; embedding: of each frame, shape [b * t, e]."""
+        h = self.in_layers(x) + self.emb_layers(embedding)[..., None, None]
+        return self.skip_connection(x) + self.out_layers(h)
+
+
+class VideoResidualBlock(SpatialResidualBlock):
+    """Residual block of the video networks."""
+
+    def __init__(
+        self, channels_in: int, channels_out: int, embedding_channels: int, kernel: tuple[int, int, int]
+    ) -> None:
+        super().__init__(channels_in, channels_out, embedding_channels)
         self.time_stack = _TemporalResidual(channels_out, embedding_channels, kernel)
         self.time_mixer = Blend()
 
     def forward(self, x: Tensor, conditions: Conditions) -> Tensor:
         """x: features, shape [b * t, c, h, w]."""
-        h = self.in_layers(x) + self.emb_layers(conditions.embedding)[..., None, None]
-        spatial = self.skip_connection(x) + self.out_layers(h)
+        spatial = self.spatial(x, conditions.embedding)
         clip = spatial.unflatten(0, (-1, conditions.layout.count)).transpose(1, 2)
         added = self.time_stack(clip, conditions).transpose(1, 2).flatten(0, 1)
         return self.time_mixer(spatial, spatial + added)

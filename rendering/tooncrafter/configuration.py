@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...physics.errors import require
-from ..networks import FromValues
+from ..networks import DiffusionConfiguration, FromValues
 
 __all__ = [
     "AutoencoderConfiguration",
@@ -16,31 +16,7 @@ __all__ = [
 
 
 @dataclass(frozen=True)
-class _DiffusionConfiguration(FromValues):
-    model_channels: int = 320
-    channel_mult: tuple[int, ...] = (1, 2, 4, 4)
-    num_res_blocks: int = 2
-    attention_at_levels: tuple[int, ...] = (0, 1, 2)
-    num_head_channels: int = 64
-    context_dim: int = 1024
-
-    def __post_init__(self) -> None:
-        width, heads = self.model_channels, self.num_head_channels
-        require("model_channels", width, width % 32 == 0 and width % heads == 0, f"a multiple of 32 and of {heads}")
-
-    @property
-    def embedding_channels(self) -> int:
-        """Channels of the embedding that every residual block receives."""
-        return 4 * self.model_channels
-
-    @property
-    def level_channels(self) -> tuple[int, ...]:
-        """Channels of each level."""
-        return tuple(self.model_channels * multiple for multiple in self.channel_mult)
-
-
-@dataclass(frozen=True)
-class UNetConfiguration(_DiffusionConfiguration):
+class UNetConfiguration(DiffusionConfiguration):
     """What the shapes of the UNet's weights follow from.
 
     Attributes:
@@ -69,7 +45,7 @@ class UNetConfiguration(_DiffusionConfiguration):
 
 
 @dataclass(frozen=True)
-class SketchEncoderConfiguration(_DiffusionConfiguration):
+class SketchEncoderConfiguration(DiffusionConfiguration):
     """What the shapes of the sketch encoder's weights follow from: the UNet's sizes and these.
 
     Attributes:

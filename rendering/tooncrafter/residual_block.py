@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from torch import Tensor, nn
 
-from ..svd.residual_block import normalised
+from ..svd.residual_block import SpatialResidualBlock, normalised
 
 __all__ = ["ResidualBlock", "TemporalConvolutions"]
 
@@ -25,7 +25,7 @@ class TemporalConvolutions(nn.Module):
         return x + self.conv4(self.conv3(self.conv2(self.conv1(x))))
 
 
-class ResidualBlock(nn.Module):
+class ResidualBlock(SpatialResidualBlock):
     """Residual block that is told the noise level."""
 
     def __init__(self, channels_in: int, channels_out: int, embedding_channels: int, *, temporal: bool) -> None:
@@ -37,13 +37,7 @@ class ResidualBlock(nn.Module):
             embedding_channels: of the embedded noise level.
             temporal: whether convolutions over time follow.
         """
-        super().__init__()
-        first, second = (nn.Conv2d(each, channels_out, 3, padding=1) for each in (channels_in, channels_out))
-        self.in_layers = nn.Sequential(normalised(channels_in), nn.SiLU(), first)
-        self.emb_layers = nn.Sequential(nn.SiLU(), nn.Linear(embedding_channels, channels_out))
-        self.out_layers = nn.Sequential(normalised(channels_out), nn.SiLU(), nn.Dropout(0), second)
-        changes = channels_in != channels_out
-        self.skip_connection = nn.Conv2d(channels_in, channels_out, 1) if changes else nn.Identity()
+        super().__init__(channels_in, channels_out, embedding_channels)
         self.temopral_conv = TemporalConvolutions(channels_out) if temporal else None  # (sic) the public name
 
     def forward(self, x: Tensor, embedding: Tensor, frames: int) -> Tensor:
@@ -54,8 +48,7 @@ class ResidualBlock(nn.Module):
             embedding: of each frame, shape [b * t, e].
             frames: t.
         """
-        h = self.in_layers(x) + self.emb_layers(embedding)[..., None, None]
-        h = self.skip_connection(x) + self.out_layers(h)
+        h = self.spatial(x, embedding)
         if self.temopral_conv is None:
             return h
         clip = h.unflatten(0, (-1, frames)).transpose(1, 2)

@@ -13,7 +13,8 @@ import numpy as np
 from layered_truth import inverse_displacement, nearest_pixel
 from physanimator.physics.mesh import bounding_box
 from physanimator.physics.motion import FlowSequence, Motion
-from physanimator.rendering.sketch import splat, split_fragments
+from physanimator.rendering.pictures import splat
+from physanimator.rendering.sketch import splats_of
 
 __all__ = ["Peers"]
 
@@ -88,7 +89,7 @@ class Peers:
         """Colour and coverage of the splatted part, shapes [h, w, 3] and [h, w, 1]."""
         moved = self.mask > 0.02
         flow = _extended(self._flow.flow(t).displacement, self._flow.inside, moved)
-        pieces = split_fragments(self.picture, flow, self.mask, moved)
+        pieces = splats_of(self.picture, flow, self.mask, moved)
         weight = (pieces.weight * pieces.area).astype(np.float64)
         *sums, total = splat(
             pieces.x, pieces.y, [*(weight * pieces.values[:, k] for k in range(3)), weight], self.mask.shape

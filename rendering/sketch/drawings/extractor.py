@@ -54,7 +54,7 @@ def draw_sketch(
     Raises:
         InvalidInputError: the picture or a parameter is unusable.
     """
-    picture = as_float(as_picture(image))
+    picture = as_float(as_picture(image), exact=False)
     require("working_size", working_size, working_size == 0 or 16 <= working_size <= 16384, "0, or 16 to 16384 px")
     height, width = picture.shape[:2]
     given = _resized(picture, working_size / max(height, width) if working_size else 1.0)

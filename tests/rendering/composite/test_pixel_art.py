@@ -11,7 +11,7 @@ from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
 from physanimator.rendering.composite import PixelArtRenderer, pixel_art_hint
-from physanimator.rendering.composite.pixel_art import block_size, looks_like_pixel_art
+from physanimator.rendering.composite.pixel_blocks import block_size, looks_like_pixel_art
 from physanimator.rendering.pictures import write_animation
 from PIL import Image
 

@@ -13,7 +13,16 @@ from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.mesh import coverage_of
 from physanimator.rendering.inbetweens import interpolate
 from physanimator.rendering.options import Timing, Touching
-from physanimator.rendering.pictures import as_float, as_picture, data_address, save_image, write_animation
+from physanimator.rendering.pictures import (
+    as_dtype,
+    as_float,
+    as_grey,
+    as_picture,
+    as_uint8,
+    data_address,
+    save_image,
+    write_animation,
+)
 from physanimator.rendering.pipeline import animate
 from physanimator.rendering.plate import clean_plate
 from physanimator.rendering.segmentation import segment
@@ -188,3 +197,26 @@ def test_masks_of_the_same_proportions_are_scaled_for_every_route() -> None:
     assert np.abs(animation.masks[0] - part()).mean() < 0.02
     with pytest.raises(InvalidInputError, match=r"colliders\[0\] must have the picture's size.*Got: 40 x 40 px"):
         animate(drawing(), [part()], touching=Touching(colliders=[part()[:, :40]]), timing=Timing(frames=1))
+
+
+def test_bytes_become_floats_by_a_quotient_or_by_a_product() -> None:
+    levels = np.arange(256, dtype=np.uint8)
+    quotients, products = as_float(levels), as_float(levels, exact=False)
+    assert np.array_equal(quotients, (levels.astype(np.float64) / 255).astype(np.float32))
+    assert np.array_equal(products, levels.astype(np.float32) * np.float32(1 / 255))
+    assert 0 < np.abs(quotients - products).max() < 1e-7
+    assert np.array_equal(as_uint8(quotients), levels)
+    assert np.array_equal(as_uint8(products), levels)
+
+
+def test_grey_is_the_mean_of_the_channels() -> None:
+    picture = drawing()
+    assert as_grey(picture[..., 0]).shape == picture.shape[:2]
+    assert np.abs(as_grey(picture) - picture.mean(axis=2) / 255).max() < 1e-6
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.float32, np.float64])
+def test_a_picture_goes_back_into_its_type(dtype: type) -> None:
+    found = as_dtype(np.array([-0.1, 0.5, 1.2], np.float32), np.dtype(dtype))
+    assert found.dtype == dtype
+    assert found.tolist() == ([0, 128, 255] if dtype == np.uint8 else [0, 0.5, 1])

@@ -12,9 +12,9 @@ import av
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.pictures import FORMATS, check_output, read_clip, video, write_animation
+from physanimator.rendering.pictures import FORMATS, check_output, encoding, read_clip, write_animation
+from physanimator.rendering.pictures.frame_rates import exact_frame_rate
 from physanimator.rendering.pictures.gif import shown_indices
-from physanimator.rendering.pictures.video import exact_frame_rate
 from PIL import Image
 
 WIDTH, HEIGHT = 96, 64
@@ -123,7 +123,7 @@ def test_of_large_pictures_fewer_are_held_before_the_first_is_written(
         return len(before_any)
 
     usual = held("usual")
-    monkeypatch.setattr(video, "_LOOKAHEAD_PIXELS", 4 * 256 * 256)
+    monkeypatch.setattr(encoding, "_LOOKAHEAD_PIXELS", 4 * 256 * 256)
     assert held("large") <= usual - 25
 
 

@@ -1,0 +1,124 @@
+"""Frames encoded by FFmpeg's libraries."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...physics.errors import InvalidInputError
+from .container_formats import ContainerFormat
+
+if TYPE_CHECKING:
+    import av
+
+__all__ = ["encode"]
+
+_LOOKAHEAD = 40  # frames that x264 holds to choose between them, with the preset
+_LOOKAHEAD_PIXELS = 150_000_000  # of these frames together: it takes three bytes and more for each
+_BT709 = 1
+_LIMITED_RANGE = 1
+
+
+@contextmanager
+def _refusals(codec: str) -> Iterator[None]:
+    """What the encoder does not take, as a sentence; a full disk and the like go on as they are."""
+    import av
+
+    try:
+        yield
+    except av.FFmpegError as error:
+        if isinstance(error, OSError):
+            raise
+        raise InvalidInputError(f"frames must be such that FFmpeg's {codec} takes them. Got: {error}") from error
+
+
+def encode(
+    frames: Iterable[NDArray[np.uint8]],
+    path: Path,
+    chosen: ContainerFormat,
+    shape: tuple[int, ...],
+    rate: Fraction,
+    *,
+    exact: bool,
+) -> None:
+    """Write frames into a file.
+
+    Args:
+        frames: RGB or RGBA, shape [h, w, 3] or [h, w, 4].
+        path: of the file.
+        chosen: how it is written.
+        shape: of every frame.
+        rate: frames a second.
+        exact: colours as they are, where the format can hold them.
+
+    Raises:
+        InvalidInputError: the encoder does not take the frames.
+    """
+    import av
+
+    alpha = shape[2] == 4
+    even = chosen.codec == "libx264"
+    height, width = (size + size % 2 if even else size for size in shape[:2])
+    with (
+        _refusals(chosen.codec),
+        av.open(str(path), "w", format=chosen.container, options=chosen.container_options) as container,
+    ):
+        options = chosen.options | (chosen.alpha_options if alpha else {}) | (chosen.exact_options if exact else {})
+        if even:
+            options |= {"rc-lookahead": str(_lookahead(width * height))}
+        stream = container.add_stream(chosen.codec, rate=rate, options=options)
+        stream.width, stream.height = width, height
+        stream.pix_fmt = (chosen.alpha_pixels if alpha else None) or chosen.pixels
+        stream.codec_context.time_base = 1 / rate
+        _describe(stream)
+        for frame in _converted(frames, stream.pix_fmt, rate, even=even, exact=exact, folder=path.parent):
+            container.mux(stream.encode(frame))
+        container.mux(stream.encode(None))
+
+
+def _lookahead(pixels: int) -> int:
+    """How many frames of so many pixels x264 shall look ahead: of large pictures fewer, so that memory has a bound."""
+    return max(1, min(_LOOKAHEAD, _LOOKAHEAD_PIXELS // pixels))
+
+
+def _describe(stream: av.VideoStream) -> None:
+    """Tell players what the numbers mean: without the tags they guess by the picture's size."""
+    if not str(stream.pix_fmt).startswith("yuv"):
+        return
+    context = stream.codec_context
+    context.colorspace = context.color_primaries = context.color_trc = _BT709
+    context.color_range = _LIMITED_RANGE
+
+
+def _converted(
+    frames: Iterable[NDArray[np.uint8]], pixels: str, rate: Fraction, *, even: bool, exact: bool, folder: Path
+) -> Iterator[av.VideoFrame]:
+    """Numbered frames in a stream's pixel format."""
+    if pixels == "pal8":
+        from .gif import paletted
+
+        yield from paletted(_numbered(frames, rate, even=even), rate, dithered=not exact, folder=folder)
+        return
+    for frame in _numbered(frames, rate, even=even):
+        if pixels.startswith("yuv"):
+            yield frame.reformat(format=pixels, dst_colorspace="ITU709", dst_color_range="MPEG")
+        else:
+            yield frame.reformat(format=pixels)
+
+
+def _numbered(frames: Iterable[NDArray[np.uint8]], rate: Fraction, *, even: bool) -> Iterator[av.VideoFrame]:
+    import av
+
+    for index, pixels in enumerate(frames):
+        height, width, channels = pixels.shape
+        if even and (height % 2 or width % 2):
+            pixels = np.pad(pixels, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")
+        frame = av.VideoFrame.from_ndarray(pixels, format="rgba" if channels == 4 else "rgb24")
+        frame.pts, frame.time_base = index, 1 / rate
+        yield frame
