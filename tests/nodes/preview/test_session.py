@@ -18,6 +18,7 @@ from physanimator.nodes.preview import session as preview_session
 from physanimator.nodes.preview.queue import RecordQueue
 from physanimator.nodes.preview.records import END, ERROR, record
 from physanimator.nodes.preview.session import PreviewRun, PreviewRuns, stream, warm_up
+from physanimator.physics import runtime
 from physanimator.physics.assembly import Preparations, preparation, system
 from physanimator.physics.errors import Cancelled
 from physanimator.physics.forces import EnergyStroke
@@ -265,7 +266,7 @@ def kept(seed: int, *, pixels: int = 0) -> PreviewBodies:
 def test_kernels_for_bodies_that_touch_are_loaded_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
     warmed: list[Scene] = []
     monkeypatch.setattr(sample_simulations, "simulate", lambda scene, **_: warmed.append(scene))
-    monkeypatch.setattr(taichi_runtime, "keep_compiled", lambda: False)
+    monkeypatch.setattr(runtime, "keep_compiled", lambda: False)
     warm_up()
     assert warmed[-1].contact is None
     warm_up(contact=True)
@@ -299,7 +300,7 @@ def test_large_kernels_run_where_they_stop_nobody_in_this_process(
 def test_what_was_compiled_is_kept_before_it_is_needed_again(monkeypatch: pytest.MonkeyPatch) -> None:
     done: list[str] = []
     monkeypatch.setattr(sample_simulations, "simulate", lambda *_, **__: done.append("simulated"))
-    monkeypatch.setattr(taichi_runtime, "keep_compiled", lambda: done.append("kept") or True)
+    monkeypatch.setattr(runtime, "keep_compiled", lambda: done.append("kept") or True)
     warm_up()
     assert done == ["simulated", "kept", "simulated"]
 
