@@ -147,12 +147,13 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
         shape = np.where(moved, shape, edge.inside)
     soft = noisy or displaced or edge.median_width() > _ANTI_ALIASED or _in_blocks(mask)
     rewritten = blurred | grown(moved, SQUARE) | soft
-    near = np.minimum(_distance(shape), _distance(edge.inside)) <= _REACH + np.minimum(edge.width, _WIDEST)
+    away = np.minimum(_distance(shape), _distance(edge.inside)) if soft else _distance(shape)
+    near = away <= _REACH + np.minimum(edge.width, _WIDEST)
     # Where the picture has no edge, a soft transition is what somebody wanted.
     wanted = blurred & (edge_strength(image, shape) < _LEAST_STEP)
     # Where a slightly soft edge stays in its place, it says between pixels where that is.
     narrowed = np.clip(_HALF + (mask - _HALF) * np.maximum(edge.width, 1), 0, 1)
-    stays = ~displaced & ~noisy & ((narrowed > _HALF) == shape) & ~_in_blocks(mask)
+    stays = ~displaced & ~noisy & (soft | (edge.width <= _BLURRED)) & ((narrowed > _HALF) == shape) & ~_in_blocks(mask)
     return np.where(rewritten & near & ~wanted, np.where(stays, narrowed, shape), mask).astype(np.float32)
 
 
