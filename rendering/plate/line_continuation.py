@@ -14,7 +14,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..pictures import splat
 from .line_end import HALF_WIDTH, LineEnd
 from .line_ends import DISTANCE, line_ends
 
@@ -76,12 +75,10 @@ def continue_lines(picture: FloatImage, hole: Mask) -> tuple[FloatImage, Mask]:
     Returns:
         The picture with strips along the continued lines, shape [h, w, 3], and where in the hole these are.
     """
+    total = np.zeros((*hole.shape, 4), dtype=np.float32)
     ends = line_ends(picture, hole)
-    strips = [_strip(bridge) for bridge in _whole_bands(_bridges(ends, hole), ends)]
-    if not strips:
-        return picture.copy(), np.zeros_like(hole)
-    points, values = (np.concatenate(each) for each in zip(*strips, strict=True))
-    total = np.dstack(splat(points[:, 0] - 0.5, points[:, 1] - 0.5, list(values.T), (hole.shape[0], hole.shape[1])))
+    for bridge in _whole_bands(_bridges(ends, hole), ends):
+        _draw(total, bridge)
     drawn = hole & (total[..., 3] > 1e-3)
     continued = picture.copy()
     continued[drawn] = (total[..., :3][drawn] / total[..., 3:][drawn]).astype(np.float32)
@@ -200,8 +197,8 @@ def _pixels(points: FloatArray, shape: tuple[int, ...]) -> tuple[IndexArray, Ind
     return np.clip(row, 0, shape[0] - 1), np.clip(column, 0, shape[1] - 1)
 
 
-def _strip(bridge: _Bridge) -> tuple[FloatArray, FloatArray]:
-    """Points of a strip [px], shape [n, 2], and what each sets down: weighted RGB and its weight, shape [n, 4]."""
+def _draw(total: FloatImage, bridge: _Bridge) -> None:
+    """Add a strip, its weight in the last channel."""
     curve = bridge.curve
     tangent = np.gradient(curve, axis=0)
     tangent /= np.maximum(np.linalg.norm(tangent, axis=1, keepdims=True), 1e-9)
@@ -212,4 +209,13 @@ def _strip(bridge: _Bridge) -> tuple[FloatArray, FloatArray]:
     t = np.linspace(0, 1, len(curve))[:, None, None]
     profile = (1 - t) * a.across(offsets) + t * b.across(-offsets)
     weight = np.broadcast_to(np.exp(-((offsets / _FALL) ** 2) / 2), (len(curve), len(offsets))).reshape(-1, 1)
-    return points, np.concatenate([profile.reshape(-1, 3) * weight, weight], axis=1)
+    values = np.concatenate([profile.reshape(-1, 3) * weight, weight], axis=1)
+    height, width = total.shape[:2]
+    left = np.floor(points - 0.5).astype(np.int64)
+    part = points - 0.5 - left
+    for down in (0, 1):
+        for right in (0, 1):
+            column, row = left[:, 0] + right, left[:, 1] + down
+            share = (part[:, 0] if right else 1 - part[:, 0]) * (part[:, 1] if down else 1 - part[:, 1])
+            within = (row >= 0) & (row < height) & (column >= 0) & (column < width)
+            np.add.at(total, (row[within], column[within]), values[within] * share[within, None])
