@@ -81,8 +81,7 @@ MAY_IMPORT = {
     ),
     # nodes: the host
     "nodes/host": (
-        "physics physics/document physics/mesh physics/motion physics/scene rendering/composite "
-        "rendering/pictures"
+        "physics physics/document physics/mesh physics/motion physics/scene rendering/composite rendering/pictures"
     ),
     "nodes/preview": (
         "physics physics/assembly physics/document physics/forces physics/motion physics/rig physics/runtime "
