@@ -13,12 +13,12 @@ from typing import Any
 from ..runtime import LANES
 from .stepping import SAFETY, TICK
 
-__all__ = ["BLOCK_MASK", "build_elastic_functions"]
+__all__ = ["BLOCK_MASK", "MOST_REFINEMENT", "build_elastic_functions"]
 
 BLOCK_MASK = 0x7FFFFFF
 """Masks the ends of loops over blocks, which changes nothing but tells the compiler that 48 n fits into 32 bits."""
 
-_MOST_REFINEMENT = 4
+MOST_REFINEMENT = 4
 """Large deformation stiffens triangles; a tick then takes up to this many times its planned substeps."""
 
 _LATE_SAFETY = (1 + SAFETY) / 2
@@ -91,17 +91,30 @@ def build_elastic_functions(ti: Any) -> SimpleNamespace:
         return elements[n, 6] * (shear + pressure * bulk) / (shear + 2.0 * pressure)
 
     @ti.func
-    def planned_steps(part: ti.i32, solid: any_value, state: any_value):
-        """Substeps of a part in a tick: the planned ones unless large deformation asks for more."""
+    def highest_frequency(first: ti.i32, end: ti.i32, solid: any_value, state: any_value):
+        """The highest omega^2 of blocks of triangles [1/s^2]."""
         squared = lanes(0.0)
-        for n in range(solid.starts[part][1] & BLOCK_MASK, solid.starts[part + 1][1] & BLOCK_MASK):
+        for n in range(first & BLOCK_MASK, end & BLOCK_MASK):
             squared = ti.max(squared, present_frequencies(solid, state, n))
         highest = 0.0
         for lane in ti.static(range(LANES)):
             highest = ti.max(highest, squared[lane])
-        needed, count = ti.sqrt(highest) * (TICK / (2.0 * _LATE_SAFETY)), solid.substeps[part]
+        return highest
+
+    @ti.func
+    def steps_for(highest: ti.f32, planned: ti.i32):
+        """Substeps in a tick at a highest omega^2: the planned ones unless large deformation asks for more."""
+        needed, count = ti.sqrt(highest) * (TICK / (2.0 * _LATE_SAFETY)), planned
         if needed > ti.cast(count, ti.f32):
-            count = ti.cast(ti.ceil(ti.min(needed, ti.cast(count * _MOST_REFINEMENT, ti.f32))), ti.i32)
+            count = ti.cast(ti.ceil(ti.min(needed, ti.cast(count * MOST_REFINEMENT, ti.f32))), ti.i32)
         return count
 
-    return SimpleNamespace(add_forces=add_forces, planned_steps=planned_steps)
+    @ti.func
+    def planned_steps(part: ti.i32, solid: any_value, state: any_value):
+        """Substeps of a part in a tick."""
+        highest = highest_frequency(solid.starts[part][1], solid.starts[part + 1][1], solid, state)
+        return steps_for(highest, solid.substeps[part])
+
+    return SimpleNamespace(
+        add_forces=add_forces, highest_frequency=highest_frequency, steps_for=steps_for, planned_steps=planned_steps
+    )

@@ -8,15 +8,15 @@ from typing import Any
 from ..forces import FALLOFFS, STROKE_KINDS
 from .stepping import TICK
 
-__all__ = ["build_begin_tick"]
+__all__ = ["build_begin_vertices"]
 
 _KINDS = len(STROKE_KINDS)
 _WIND, _REPEL, _ATTRACT = (STROKE_KINDS.index(kind) for kind in ("wind", "repel", "attract"))
 _LINEAR, _SMOOTH, _CONSTANT = (FALLOFFS.index(falloff) for falloff in ("linear", "smooth", "constant"))
 
 
-def build_begin_tick(ti: Any) -> Any:
-    """The function that begins a tick of a part; it takes ``Solid``, ``State`` and ``Drive`` whole."""
+def build_begin_vertices(ti: Any) -> Any:
+    """The function that begins a tick of vertices; it takes ``Solid``, ``State`` and ``Drive`` whole."""
     vec2, any_value = ti.types.vector(2, ti.f32), ti.template()
 
     @ti.func
@@ -75,14 +75,22 @@ def build_begin_tick(ti: Any) -> Any:
         return total
 
     @ti.func
-    def begin_tick(part: ti.i32, tick: ti.i32, count: ti.i32, solid: any_value, state: any_value, drive: any_value):
-        """External acceleration of the vertices of a part in a tick, and their damping in one of its substeps."""
+    def begin_vertices(
+        first: ti.i32,
+        end: ti.i32,
+        tick: ti.i32,
+        count: ti.i32,
+        solid: any_value,
+        state: any_value,
+        drive: any_value,
+    ):
+        """External acceleration of vertices in a tick, and their damping in one of its substeps."""
         damping, decay, dt = 0.0, 1.0, TICK / count
-        for i in range(solid.starts[part][0], solid.starts[part + 1][0]):
+        for i in range(first, end):
             if solid.vertices[i][3] != damping:  # most have the same
                 damping = solid.vertices[i][3]
                 decay = ti.exp(0.0 - damping * dt)
             state.decay[i] = decay
             state.push[i] = external_acceleration(i, tick, solid, state, drive)
 
-    return begin_tick
+    return begin_vertices

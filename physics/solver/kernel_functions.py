@@ -7,7 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from .elastic_functions import BLOCK_MASK, build_elastic_functions
-from .external_functions import build_begin_tick
+from .external_functions import build_begin_vertices
 from .handle_functions import build_handle_functions
 from .stepping import TICK
 
@@ -24,7 +24,7 @@ def build_functions(ti: Any) -> SimpleNamespace:
     """The functions that kernels are made of, by name; they take ``Solid``, ``State`` and ``Drive`` whole."""
     vec2, any_value = ti.types.vector(2, ti.f32), ti.template()
     elastic, handles = build_elastic_functions(ti), build_handle_functions(ti)
-    add_forces = elastic.add_forces
+    add_forces, begin_vertices = elastic.add_forces, build_begin_vertices(ti)
     place, affine, goal, pulled, tether = handles.place, handles.affine, handles.goal, handles.pulled, handles.tether
 
     @ti.func
@@ -61,6 +61,32 @@ def build_functions(ti: Any) -> SimpleNamespace:
             u[i] = goal(place(vertex), tick, handle, end, drive)
 
     @ti.func
+    def begin_tick(part: ti.i32, tick: ti.i32, count: ti.i32, solid: any_value, state: any_value, drive: any_value):
+        """External acceleration of the vertices of a part in a tick, and their damping in one of its substeps."""
+        begin_vertices(solid.starts[part][0], solid.starts[part + 1][0], tick, count, solid, state, drive)
+
+    @ti.func
+    def move_vertices(
+        first: ti.i32,
+        end: ti.i32,
+        tick: ti.i32,
+        step: ti.i32,
+        count: ti.i32,
+        solid: any_value,
+        state: any_value,
+        drive: any_value,
+    ):
+        """One of the substeps of vertices in a tick, once the forces on their triangles are known.
+
+        Tethers have a loop of their own, which costs nothing where there are none.
+        """
+        for i in range(first, end):
+            move(i, tick, step, count, solid, state, drive)
+        if solid.anchors.shape[0] > 0:
+            for i in range(first, end):
+                tether(i, tick, step, count, solid, state, drive)
+
+    @ti.func
     def take_step(
         part: ti.i32,
         tick: ti.i32,
@@ -70,18 +96,11 @@ def build_functions(ti: Any) -> SimpleNamespace:
         state: any_value,
         drive: any_value,
     ):
-        """One of the substeps of a part in a tick.
-
-        Tethers have a loop of their own, which costs nothing where there are none.
-        """
+        """One of the substeps of a part in a tick."""
         first, end = solid.starts[part], solid.starts[part + 1]
         for n in range(first[1] & BLOCK_MASK, end[1] & BLOCK_MASK):
             add_forces(solid, state, n)
-        for i in range(first[0], end[0]):
-            move(i, tick, step, count, solid, state, drive)
-        if solid.anchors.shape[0] > 0:
-            for i in range(first[0], end[0]):
-                tether(i, tick, step, count, solid, state, drive)
+        move_vertices(first[0], end[0], tick, step, count, solid, state, drive)
 
     @ti.func
     def record(first: ti.i32, last: ti.i32, tick: ti.i32, state: any_value, drive: any_value):
@@ -95,8 +114,12 @@ def build_functions(ti: Any) -> SimpleNamespace:
 
     return SimpleNamespace(
         add_forces=add_forces,
+        highest_frequency=elastic.highest_frequency,
+        steps_for=elastic.steps_for,
         planned_steps=elastic.planned_steps,
-        begin_tick=build_begin_tick(ti),
+        begin_vertices=begin_vertices,
+        begin_tick=begin_tick,
+        move_vertices=move_vertices,
         take_step=take_step,
         record=record,
     )

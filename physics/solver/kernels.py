@@ -3,7 +3,8 @@
 
 The unit is a tick (``stepping.TICK``). At its start the external acceleration of every vertex is evaluated and the
 step is chosen; then follow whole substeps: forces of all triangles, then velocities and positions of all vertices.
-One launch runs several ticks. Connected parts do not feel each other: each takes its own steps, on a thread of its own.
+One launch runs several ticks. Connected parts do not feel each other: each takes its own steps, on a thread of its own,
+or a very large one on several (``sharing``).
 """
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
@@ -12,6 +13,7 @@ from typing import Any, NamedTuple
 
 from .arguments import PackedArguments, argument_packs, array_types
 from .kernel_functions import build_functions
+from .sharing import build_advance_shared
 
 __all__ = ["Kernels", "build_kernels"]
 
@@ -20,6 +22,7 @@ class Kernels(NamedTuple):
     """What ``build_kernels`` makes."""
 
     advance: Any
+    advance_shared: Any
     packed: PackedArguments
     forces: Any
 
@@ -61,4 +64,5 @@ def build_kernels(ti: Any) -> Kernels:
             elastic = ti.static(_Elastic(corners, elements, u, corner_forces))
             add_forces(elastic, elastic, n)
 
-    return Kernels(advance, PackedArguments(packs.solid, packs.state, packs.drive), forces)
+    shared = build_advance_shared(ti, types, packs, functions)
+    return Kernels(advance, shared, PackedArguments(packs.solid, packs.state, packs.drive), forces)

@@ -5,6 +5,8 @@ The state is the displacement u = x - X rather than the position, so that F = I 
 
 from __future__ import annotations
 
+import os
+import time
 from typing import Any
 
 import numpy as np
@@ -13,9 +15,14 @@ from numpy.typing import NDArray
 from ..runtime import LANES, aligned, check_aligned, taichi_runtime
 from .arguments import drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
+from .elastic_functions import MOST_REFINEMENT
 from .kernels import build_kernels
+from .pace import Pace
+from .sharing import LARGE, MOST_THREADS, phases_of
 
 __all__ = ["CALM", "Drive", "Solid", "State", "WindTable", "advance", "internal_forces"]
+
+_paces: dict[int, Pace] = {}  # by the size of the part; used on the Taichi thread only
 
 
 def advance(solid: Solid, state: State, drive: Drive) -> None:
@@ -47,9 +54,39 @@ def internal_forces(solid: Solid, displacement: NDArray[np.float32]) -> NDArray[
 
 def _advance(solid: Solid, state: State, drive: Drive) -> None:
     kernels = taichi_runtime.compiled(build_kernels)
-    work = np.diff(solid.starts[:, 1]) * solid.substeps
-    parts = np.argsort(-work, kind="stable").astype(np.int32)  # the most work first, so that threads end together
-    kernels.advance(parts, *kernels.packed(solid_group(solid), state_group(state), drive_group(drive)))
+    triangles = LANES * np.diff(solid.starts[:, 1])
+    packs = kernels.packed(solid_group(solid), state_group(state), drive_group(drive))
+    alone = np.ones(len(triangles), dtype=bool)
+    threads = _processors()
+    for part in np.flatnonzero(triangles >= LARGE) if threads > 1 else ():
+        pace = _paces.setdefault(int(triangles[part]).bit_length(), Pace())
+        alone[part] = not pace.share()
+        start = time.perf_counter()
+        if alone[part]:
+            kernels.advance(np.array([part], dtype=np.int32), *packs)
+        else:
+            _advance_shared(kernels, int(part), threads, solid, drive, packs)
+        done = float(triangles[part] * solid.substeps[part] * (len(drive.first_particles) - 1))
+        pace.learn(shared=not alone[part], work=done, seconds=time.perf_counter() - start)
+        alone[part] = False
+    rest = np.flatnonzero(alone)
+    if len(rest):
+        work = triangles[rest] * solid.substeps[rest]
+        parts = rest[np.argsort(-work, kind="stable")]  # the most work first, so that threads end together
+        kernels.advance(parts.astype(np.int32), *packs)
+
+
+def _advance_shared(kernels: Any, part: int, threads: int, solid: Solid, drive: Drive, packs: list[Any]) -> None:
+    ticks = len(drive.first_particles) - 1
+    phases = phases_of(ticks, int(solid.substeps[part]), MOST_REFINEMENT)
+    counters, highest = np.zeros(1 + phases, dtype=np.int32), np.zeros(ticks, dtype=np.float32)
+    kernels.advance_shared(part, threads, counters, highest, *packs)
+
+
+def _processors() -> int:
+    """Threads that may share a part: one for each processor that this process may use, but not too many."""
+    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return min(available, MOST_THREADS)
 
 
 def _internal_forces(solid: Solid, arrays: tuple[NDArray[Any], ...]) -> None:

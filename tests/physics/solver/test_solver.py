@@ -24,9 +24,11 @@ from physanimator.physics.solver import (
     Solid,
     State,
     advance,
+    solver,
     squared_frequencies,
     substeps,
 )
+from physanimator.physics.solver.pace import Pace
 from physanimator.physics.solver.solver import internal_forces
 
 YOUNG, POISSON, DAMPING = 500.0, 0.3, 1.5
@@ -167,6 +169,26 @@ def test_ticks_may_be_launched_together_or_one_by_one() -> None:
         advance(solid, single, still(1, gravity=(2.0, 0.0)))
     assert np.abs(together.displacement).max() > 1e-3
     np.testing.assert_array_equal(together.displacement, single.displacement)
+
+
+@pytest.mark.parametrize("threads", [2, 3])
+def test_threads_that_share_a_part_find_the_same_to_the_last_bit(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    rest = strip(24, 96)
+    solid = solid_of(rest, led=tuple(range(25)))
+    alone, shared = State.at_rest(solid), State.at_rest(solid)
+    advance(solid, alone, still(12, gravity=(40.0, 0.0)))
+    launched: list[int] = []
+    original = solver._advance_shared
+    monkeypatch.setattr(solver, "_advance_shared", lambda *given: launched.append(given[2]) or original(*given))
+    monkeypatch.setattr(solver, "LARGE", len(rest.triangles))
+    monkeypatch.setattr(solver, "_processors", lambda: threads)
+    monkeypatch.setattr(Pace, "share", lambda _: True)
+    for _ in range(3):
+        advance(solid, shared, still(4, gravity=(40.0, 0.0)))
+    assert launched == [threads] * 3
+    assert np.abs(alone.displacement).max() > 1e-3
+    np.testing.assert_array_equal(shared.displacement, alone.displacement)
+    np.testing.assert_array_equal(shared.velocity, alone.velocity)
 
 
 @pytest.mark.parametrize("kind", ["wind", "repel", "attract"])
