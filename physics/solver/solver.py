@@ -16,7 +16,7 @@ from ..runtime import LANES, aligned, check_aligned, taichi_runtime
 from .arguments import drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
 from .elastic_functions import MOST_REFINEMENT
-from .kernels import build_kernels
+from .kernels import Kernels, build_kernels
 from .pace import Pace
 from .sharing import LARGE, MOST_THREADS, phases_of
 
@@ -54,30 +54,37 @@ def internal_forces(solid: Solid, displacement: NDArray[np.float32]) -> NDArray[
 
 def _advance(solid: Solid, state: State, drive: Drive) -> None:
     kernels = taichi_runtime.compiled(build_kernels)
-    triangles = LANES * np.diff(solid.starts[:, 1])
     packs = kernels.packed(solid_group(solid), state_group(state), drive_group(drive))
-    alone = np.ones(len(triangles), dtype=bool)
-    threads = _processors()
-    for part in np.flatnonzero(triangles >= LARGE) if threads > 1 else ():
-        pace = _paces.setdefault(int(triangles[part]).bit_length(), Pace())
-        alone[part] = not pace.share()
-        start = time.perf_counter()
-        if alone[part]:
-            kernels.advance(np.array([part], dtype=np.int32), *packs)
-        else:
-            _advance_shared(kernels, int(part), threads, solid, drive, packs)
-        done = float(triangles[part] * solid.substeps[part] * (len(drive.first_particles) - 1))
-        pace.learn(shared=not alone[part], work=done, seconds=time.perf_counter() - start)
-        alone[part] = False
-    rest = np.flatnonzero(alone)
-    if len(rest):
-        work = triangles[rest] * solid.substeps[rest]
-        parts = rest[np.argsort(-work, kind="stable")]  # the most work first, so that threads end together
-        kernels.advance(parts.astype(np.int32), *packs)
+    work = np.diff(solid.starts[:, 1]) * solid.substeps
+    parts = np.argsort(-work, kind="stable").astype(np.int32)  # the most work first, so that threads end together
+    largest = int(parts[0])
+    if _may_be_shared(solid, largest, work):
+        _advance_largest(kernels, largest, solid, drive, packs)
+        parts = parts[1:]
+    if len(parts):
+        kernels.advance(parts, *packs)
 
 
-def _advance_shared(kernels: Any, part: int, threads: int, solid: Solid, drive: Drive, packs: list[Any]) -> None:
-    ticks = len(drive.first_particles) - 1
+def _may_be_shared(solid: Solid, part: int, work: NDArray[Any]) -> bool:
+    """Whether a part is large enough, and all others would have to wait for it in the end."""
+    triangles = LANES * int(solid.starts[part + 1, 1] - solid.starts[part, 1])
+    return triangles >= LARGE and 2 * work[part] > work.sum() and _processors() > 1
+
+
+def _advance_largest(kernels: Kernels, part: int, solid: Solid, drive: Drive, packs: list[Any]) -> None:
+    """Advance a large part on one thread or on several, whichever was faster lately."""
+    work, ticks = int(solid.starts[part + 1, 1] - solid.starts[part, 1]), len(drive.first_particles) - 1
+    pace = _paces.setdefault(work.bit_length(), Pace())
+    shared, start = pace.share(), time.perf_counter()
+    if shared:
+        _advance_shared(kernels, part, _processors(), solid, ticks, packs)
+    else:
+        kernels.advance(np.array([part], dtype=np.int32), *packs)
+    done = float(work * solid.substeps[part] * ticks)
+    pace.learn(shared=shared, work=done, seconds=time.perf_counter() - start)
+
+
+def _advance_shared(kernels: Kernels, part: int, threads: int, solid: Solid, ticks: int, packs: list[Any]) -> None:
     phases = phases_of(ticks, int(solid.substeps[part]), MOST_REFINEMENT)
     counters, highest = np.zeros(1 + phases, dtype=np.int32), np.zeros(ticks, dtype=np.float32)
     kernels.advance_shared(part, threads, counters, highest, *packs)
