@@ -15,6 +15,7 @@ from physanimator.physics.errors import SceneError
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.scene import Body
 from physanimator.rendering.command import main
+from physanimator.rendering.options import Timing
 from physanimator.rendering.pictures import save_image
 from physanimator.rendering.pipeline import animate
 
@@ -45,7 +46,7 @@ def body() -> Body:
 
 
 def test_by_the_library(checks: list[object]) -> None:
-    animate(picture(), [part()], scene=DOCUMENT, frames=2)
+    animate(picture(), [part()], scene=DOCUMENT, timing=Timing(frames=2))
     assert len(checks) == 1
 
 

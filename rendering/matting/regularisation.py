@@ -153,7 +153,7 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
     wanted = blurred & (edge_strength(image, shape) < _LEAST_STEP)
     # Where a slightly soft edge stays in its place, it says between pixels where that is.
     narrowed = np.clip(_HALF + (mask - _HALF) * np.maximum(edge.width, 1), 0, 1)
-    stays = ~displaced & ~noisy & (soft | (edge.width <= _BLURRED)) & ((narrowed > _HALF) == shape) & ~_in_blocks(mask)
+    stays = ~displaced & ~noisy & (edge.width <= _BLURRED) & ((narrowed > _HALF) == shape) & ~_in_blocks(mask)
     return np.where(rewritten & near & ~wanted, np.where(stays, narrowed, shape), mask).astype(np.float32)
 
 
