@@ -4,7 +4,7 @@
 The unit is a tick (``stepping.TICK``). At its start the external acceleration of every vertex is evaluated and the
 step is chosen; then follow whole substeps: forces of all triangles, then velocities and positions of all vertices.
 One launch runs several ticks. Connected parts do not feel each other: each takes its own steps, on a thread of its own,
-or a very large one on several (``sharing``).
+or a large one on several (``sharing``).
 """
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.

@@ -18,7 +18,7 @@ from .arrays import CALM, Drive, Solid, State, WindTable
 from .elastic_functions import MOST_REFINEMENT
 from .kernels import Kernels, build_kernels
 from .pace import Pace
-from .sharing import LARGE, MOST_THREADS, phases_of
+from .sharing import LARGE, MOST_THREADS, TRIANGLES_PER_THREAD, phases_of
 
 __all__ = ["CALM", "Drive", "Solid", "State", "WindTable", "advance", "internal_forces"]
 
@@ -77,7 +77,8 @@ def _advance_largest(kernels: Kernels, part: int, solid: Solid, drive: Drive, pa
     pace = _paces.setdefault(work.bit_length(), Pace())
     shared, start = pace.share(), time.perf_counter()
     if shared:
-        _advance_shared(kernels, part, _processors(), solid, ticks, packs)
+        threads = min(_processors(), LANES * work // TRIANGLES_PER_THREAD)
+        _advance_shared(kernels, part, max(threads, 2), solid, ticks, packs)
     else:
         kernels.advance(np.array([part], dtype=np.int32), *packs)
     done = float(work * solid.substeps[part] * ticks)
@@ -91,7 +92,7 @@ def _advance_shared(kernels: Kernels, part: int, threads: int, solid: Solid, tic
 
 
 def _processors() -> int:
-    """Threads that may share a part: one for each processor that this process may use, but not too many."""
+    """Most threads that share a part: one for each processor that this process may use, but not too many."""
     available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return min(available, MOST_THREADS)
 

@@ -181,6 +181,7 @@ def test_threads_that_share_a_part_find_the_same_to_the_last_bit(threads: int, m
     original = solver._advance_shared
     monkeypatch.setattr(solver, "_advance_shared", lambda *given: launched.append(given[2]) or original(*given))
     monkeypatch.setattr(solver, "LARGE", len(rest.triangles))
+    monkeypatch.setattr(solver, "TRIANGLES_PER_THREAD", len(rest.triangles) // threads)
     monkeypatch.setattr(solver, "_processors", lambda: threads)
     monkeypatch.setattr(Pace, "share", lambda _: True)
     for _ in range(3):
