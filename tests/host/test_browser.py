@@ -142,13 +142,13 @@ def test_another_preset_brings_its_own_values(page: Any) -> None:
 
 
 def test_advice_appears_as_a_toast(page: Any, host: Any) -> None:
-    still = moving_bar(3) | {"seen": core("PreviewAny", source=["motion", 1])}
+    still = moving_bar(12) | {"seen": core("PreviewAny", source=["motion", 1])}
     still["scene"]["inputs"]["wind_strength"] = 0.0
     page.run("(prompt) => app.loadApiJson(prompt, 'advice')", still)
     page.page.wait_for_timeout(1000)
     page.run("() => app.queuePrompt(0)")
     # Frontends build toasts differently; what they say is the same.
-    said = page.page.get_by_text("nothing moves at all in 3 frames")
+    said = page.page.get_by_text("nothing moves at all in 12 frames")
     said.first.wait_for(timeout=60_000)
     assert said.first.is_visible()
     assert page.problems == []
