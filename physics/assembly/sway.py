@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,14 +20,11 @@ from ..material import (
     lowest_eigenvalue,
     lumped_masses,
     rest_shape,
-    stiffness_matrix,
 )
 from ..mesh import TriangleMesh
 from ..scene import Body
 from ..solver import SAFETY, TICK, frequency_limits, vertex_frequencies
-
-if TYPE_CHECKING:
-    from scipy.sparse import csr_array
+from .joints import free_system, joint_factors
 
 __all__ = ["SWAY_SUBSTEPS", "SwayPart", "first_frequency", "resolve_stiffness"]
 
@@ -73,7 +69,7 @@ def first_frequency(
     """
     if held.all() or not held.any():
         return None
-    squared = lowest_eigenvalue(*_free_system(rest, mu, lam, density, held))
+    squared = lowest_eigenvalue(*free_system(rest, mu, lam, density, held))
     return None if squared is None else math.sqrt(squared) / (2 * math.pi)
 
 
@@ -81,7 +77,8 @@ def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> t
     """Young's modulus of each triangle of a body, from its material and, where it asks for one, its sway frequency.
 
     The frequency is that of the body's longest part; shorter ones sway faster, as pendulums do, in proportion to
-    1 / sqrt(length). Parts of which nothing is held, or everything, keep the material's own Young's modulus.
+    1 / sqrt(length). Parts of which nothing is held, or everything, keep the material's own Young's modulus. Where a
+    part sways, narrow joints are stiffened first; see :mod:`.joints`.
 
     Args:
         body: the body.
@@ -104,8 +101,9 @@ def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> t
         checkpoint()
         chosen = part_of_triangle == part
         shape, held_here = _part_of(rest, chosen, held)
-        mu, lam = lame_parameters(modulus[chosen], material.poisson_ratio)
         density = densities[chosen]
+        modulus[chosen] *= joint_factors(shape, material.poisson_ratio, density, held_here)
+        mu, lam = lame_parameters(modulus[chosen], material.poisson_ratio)
         natural = first_frequency(shape, mu, lam, density, held_here)
         if natural is None:
             continue
@@ -143,13 +141,5 @@ def _most_stiffening(
     squared = vertex_frequencies(shape, mu, lam, masses)[~held]
     highest = float(frequency_limits(squared, masses[~held], np.zeros(len(squared), dtype=np.int32)).max())
     if wanted * highest > allowed:  # by the quick bound, which is on the safe side
-        highest = min(highest, highest_eigenvalue(*_free_system(shape, mu, lam, density, held)) or highest)
+        highest = min(highest, highest_eigenvalue(*free_system(shape, mu, lam, density, held)) or highest)
     return allowed / highest
-
-
-def _free_system(
-    rest: RestShape, mu: FloatArray, lam: FloatArray, density: ArrayLike, held: NDArray[np.bool_]
-) -> tuple[csr_array, FloatArray]:
-    """Stiffness matrix and masses of the coordinates that are free to move."""
-    free = np.repeat(~held, 2)
-    return stiffness_matrix(rest, mu, lam)[free][:, free], np.repeat(lumped_masses(rest, density), 2)[free]

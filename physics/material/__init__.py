@@ -17,7 +17,7 @@ from .elasticity import (
     stress,
 )
 from .material import PRESETS, SCALES, Material, preset
-from .modes import highest_eigenvalue, lowest_eigenvalue
+from .modes import highest_eigenvalue, lowest_eigenvalue, lowest_mode
 from .painting import mask_means, painted, painted_by_means
 
 __all__ = [
@@ -32,6 +32,7 @@ __all__ = [
     "highest_eigenvalue",
     "lame_parameters",
     "lowest_eigenvalue",
+    "lowest_mode",
     "lumped_masses",
     "mask_means",
     "painted",

@@ -34,16 +34,33 @@ def lowest_eigenvalue(stiffness: csr_array, masses: FloatArray) -> float | None:
     """
     scaled = _mass_scaled(stiffness, masses)
     top = float(scaled.diagonal().max())
-    values = _eigenvalues(scaled, count=_RIGID_MODES + 1, sigma=-_SHIFT * top, which="LM")
-    if values is None or values[-1] <= _RIGID * top:
+    found = _eigenpairs(scaled, count=_RIGID_MODES + 1, sigma=-_SHIFT * top, which="LM", return_eigenvectors=False)
+    if found is None or found[0][-1] <= _RIGID * top:
         return None
-    return float(values[np.argmax(values > _RIGID * top)])
+    return float(found[0][np.argmax(found[0] > _RIGID * top)])
+
+
+def lowest_mode(stiffness: csr_array, masses: FloatArray) -> FloatArray | None:
+    """The displacements of the slowest vibration that deforms, of any length, shape [n]; None when it is not found.
+
+    Args:
+        stiffness: K, symmetric and without negative eigenvalues, shape [n, n].
+        masses: the diagonal of M, all above 0, shape [n].
+    """
+    scaled = _mass_scaled(stiffness, masses)
+    top = float(scaled.diagonal().max())
+    found = _eigenpairs(scaled, count=_RIGID_MODES + 1, sigma=-_SHIFT * top, which="LM", return_eigenvectors=True)
+    if found is None or found[0][-1] <= _RIGID * top:
+        return None
+    values, vectors = found
+    return vectors[:, int(np.argmax(values > _RIGID * top))] / np.sqrt(masses)
 
 
 def highest_eigenvalue(stiffness: csr_array, masses: FloatArray) -> float | None:
     """The highest omega^2, at most 1 % too high; None when it cannot be found."""
-    values = _eigenvalues(_mass_scaled(stiffness, masses), count=1, which="LA", tol=_TOLERANCE)
-    return None if values is None else float(values[-1]) * (1 + _TOLERANCE)
+    scaled = _mass_scaled(stiffness, masses)
+    found = _eigenpairs(scaled, count=1, which="LA", tol=_TOLERANCE, return_eigenvectors=False)
+    return None if found is None else float(found[0][-1]) * (1 + _TOLERANCE)
 
 
 def _mass_scaled(stiffness: csr_array, masses: FloatArray) -> csr_array:
@@ -53,19 +70,28 @@ def _mass_scaled(stiffness: csr_array, masses: FloatArray) -> csr_array:
     return (scale @ stiffness @ scale).tocsr()
 
 
-def _eigenvalues(matrix: csr_array, *, count: int, **options: Any) -> FloatArray | None:
-    """Some eigenvalues, ascending; all of them where the matrix is small."""
+def _eigenpairs(
+    matrix: csr_array, *, count: int, return_eigenvectors: bool, **options: Any
+) -> tuple[FloatArray, FloatArray] | None:
+    """Some eigenvalues, ascending, and their vectors in columns if asked for; all where the matrix is small."""
     if matrix.shape[0] <= _DENSE:
-        return np.linalg.eigvalsh(matrix.toarray())
+        if return_eigenvectors:
+            return tuple(np.linalg.eigh(matrix.toarray()))  # type: ignore[return-value]
+        return np.linalg.eigvalsh(matrix.toarray()), np.empty((matrix.shape[0], 0))
     from scipy.sparse.linalg import ArpackError, eigsh
 
     start = np.random.default_rng(0).standard_normal(matrix.shape[0])  # always the same, for the same motion each run
     try:
         applied = _interruptible(matrix, options.get("sigma"))
-        found = eigsh(applied.pop("matrix"), k=count, v0=start, return_eigenvectors=False, **options, **applied)
+        options.update(applied, return_eigenvectors=return_eigenvectors)
+        found = eigsh(options.pop("matrix"), k=count, v0=start, **options)
     except (ArpackError, RuntimeError):  # no convergence; a factor that is exactly singular
         return None
-    return np.sort(found) if np.isfinite(found).all() else None
+    values, vectors = found if return_eigenvectors else (found, np.empty((matrix.shape[0], 0)))
+    if not np.isfinite(values).all():
+        return None
+    order = np.argsort(values)
+    return values[order], vectors[:, order] if return_eigenvectors else vectors
 
 
 def _interruptible(matrix: csr_array, sigma: float | None) -> dict[str, Any]:
