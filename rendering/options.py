@@ -13,7 +13,7 @@ from ..physics.scene import Contact, Scene, check_scene_rate
 from .animation import StageProgress
 from .drawing_checks import check_count
 
-__all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "AutomaticWind", "Timing", "Touching", "Watch"]
+__all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "AutomaticWind", "LayerChoice", "Timing", "Touching", "Watch"]
 
 DEFAULT_FRAMES = 72
 DEFAULT_FRAME_RATE = 24.0
@@ -76,6 +76,19 @@ class Touching:
 
     contact: Contact | None = None
     colliders: Sequence[NDArray[Any]] = ()
+
+
+@dataclass(frozen=True)
+class LayerChoice:
+    """Which layers of an artwork move; the others do so if their names say it.
+
+    Attributes:
+        move: names of layers that move.
+        still: names of layers that stand still.
+    """
+
+    move: Sequence[str] = ()
+    still: Sequence[str] = ()
 
 
 @dataclass(frozen=True, eq=False)

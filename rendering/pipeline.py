@@ -8,27 +8,27 @@ animate(picture, [mask], preset="hair").save("girl.mp4")
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.assembly import work_of_minutes
 from ..physics.document import given_scene, materials_of
 from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
-from ..physics.material import Material
-from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.process_end import working
 from ..physics.progress import Progress
 from ..physics.scene import Attachment, Body, Collider, Contact, Scene, automatic_scene
 from ..physics.simulation import loop_frames, simulate
 from .animation import Animation, StageProgress, timed
-from .composite import renderer_of
-from .matting import part_mesh
-from .options import DEFAULT_FRAME_RATE, DEFAULT_FRAMES, AutomaticWind, Timing, Touching, Watch
+from .options import DEFAULT_FRAME_RATE, DEFAULT_FRAMES, AutomaticWind, LayerChoice, Timing, Touching, Watch
+from .parts import about, coverages, parts_of_artwork, parts_of_picture
 from .pictures import as_picture, over
+
+if TYPE_CHECKING:
+    from .artwork import Artwork
 
 __all__ = ["animate"]
 
@@ -36,11 +36,12 @@ Image = NDArray[Any]
 Mask = NDArray[Any]
 
 _USUAL_WIND, _USUAL_TIMING, _AS_THE_SCENE_SAYS, _NOBODY = AutomaticWind(), Timing(), Touching(), Watch()
+_BY_THEIR_NAMES = LayerChoice()
 
 
 @working()
 def animate(
-    image: Image,
+    image: Image | Artwork,
     masks: Sequence[Mask] | None = None,
     points: Sequence[Any] | None = None,
     *,
@@ -53,6 +54,8 @@ def animate(
     timing: Timing = _USUAL_TIMING,
     touching: Touching = _AS_THE_SCENE_SAYS,
     plate: Image | None = None,
+    in_front: Mask | None = None,
+    layers: LayerChoice = _BY_THEIR_NAMES,
     pixel_art: bool = False,
     max_minutes: float = DEFAULT_MINUTES,
     watch: Watch = _NOBODY,
@@ -62,7 +65,7 @@ def animate(
     Args:
         image: the illustration, RGB, or straight RGBA to move on transparency, shape [h, w, 3] or [h, w, 4]: uint8,
             uint16, other whole numbers 0..255, or floating-point numbers 0..1 of any precision, as
-            :func:`as_picture` says.
+            :func:`as_picture` says. Or layered artwork, whose layers move as their names and ``layers`` say.
         masks: where each moving part is, bool, 0..1, 0..255 or 0..65535, each of shape [h, w] or, to be scaled, of the
             picture's proportions; later ones lie in front.
         points: for each further part its query points, in any form that
@@ -79,6 +82,9 @@ def animate(
         touching: what the parts keep out of.
         plate: the illustration without the moving parts, if it exists, RGB or RGBA in any form that ``image`` may have
             and of its size; painted in when None.
+        in_front: where something stands still in front of all parts, such as an arm before hair, in any form that
+            ``masks`` may have; the parts go on behind it.
+        layers: which layers of an artwork move.
         pixel_art: move whole pixels, or the blocks that an enlarged picture shows for them, and mix no colours.
         max_minutes: minutes that the simulation may take, by the estimate for one core of an ordinary machine; what
             would take longer is refused before it begins.
@@ -99,31 +105,41 @@ def animate(
         [(60, 60, 3), (60, 60, 3), (60, 60, 3)]
     """
     seconds: dict[str, float] = {}
-    image = as_picture(image, alpha=True)
-    plate = _checked_plate(plate, image)
-    masks = _coverages("masks", () if masks is None else masks, image)
-    colliders = _coverages("colliders", touching.colliders, image)
     work_of_minutes(max_minutes)
     if scene is not None and not isinstance(scene, Scene):
         from ..physics.document import check_document
 
         check_document(scene)
-    with timed(seconds, "segment"):
-        parts = (*masks, *_segmented(over(image), points or ()))
-    _check_parts(parts)
-    names = _part_names(len(masks), len(parts))
-    if watch.on_cut is not None:
-        watch.on_cut(parts[len(masks) :])
-    with timed(seconds, "mesh"):
-        seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
-        meshes = [_meshed(part, spacing, name, seen) for part, name in zip(parts, names, strict=True)]
+    if isinstance(image, np.ndarray):
+        image = as_picture(image, alpha=True)
+        plate = _checked_plate(plate, image)
+        masks = coverages("masks", () if masks is None else masks, image)
+        front = None if in_front is None else coverages("in_front", [in_front], image)[0]
+        colliders = coverages("colliders", touching.colliders, image)
+        with timed(seconds, "segment"):
+            cut = (*masks, *_segmented(over(image), points or ()))
+        _check_parts(cut)
+        names = _part_names(len(masks), len(cut))
+        if watch.on_cut is not None:
+            watch.on_cut(cut[len(masks) :])
+        with timed(seconds, "mesh"):
+            parts = parts_of_picture(
+                image, cut, names, spacing=spacing, plate=plate, in_front=front, pixel_art=pixel_art
+            )
+    else:
+        _check_layers_alone(masks=masks, points=points, plate=plate, in_front=in_front, pixel_art=pixel_art or None)
+        with timed(seconds, "mesh"):
+            parts = parts_of_artwork(image, move=layers.move, still=layers.still, spacing=spacing)
+        colliders = coverages("colliders", touching.colliders, parts.image)
     with timed(seconds, "scene"):
         if scene is None:
-            materials = materials_of(preset or "hair", sway, len(meshes))
-            whole = _automatic(_layered(meshes, materials), wind, timing, attach=attach, sway_by_size=sway is None)
+            suiting = [each or "hair" for each in parts.presets]
+            materials = materials_of(preset or suiting, sway, len(parts.meshes))
+            whole = _automatic(parts.bodies(materials), wind, timing, attach=attach, sway_by_size=sway is None)
         else:
-            whole = given_scene(scene, meshes, preset=preset, sway=sway, frame_rate=timing.frame_rate)
-        whole = whole if timing.loop is None else replace(whole, loop=timing.loop)
+            given = list(parts.meshes)
+            whole = given_scene(scene, given, preset=preset, sway=sway, frame_rate=timing.frame_rate)
+        whole = parts.covered(whole if timing.loop is None else replace(whole, loop=timing.loop))
         timing = _settled(timing, whole)
         whole = _touching(whole, touching.contact, colliders)
     if watch.on_scene is not None:
@@ -132,8 +148,8 @@ def animate(
         hears = _stage("simulate", watch.progress)
         motion = simulate(whole, frames=timing.frames, progress=hears, max_minutes=max_minutes)
     with timed(seconds, "prepare"):
-        renderer = renderer_of(image, parts, motion, plate=plate, pixel_art=pixel_art)
-    return Animation(image, parts, whole, motion, renderer, timing.skip, seconds)
+        renderer = parts.renderer(motion)
+    return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds)
 
 
 def _automatic(
@@ -169,13 +185,6 @@ def _checked_plate(plate: Image | None, image: Image) -> Image | None:
     return plate
 
 
-def _coverages(name: str, masks: Sequence[Mask], image: Image) -> list[Mask]:
-    """Masks as numbers from 0 to 1 of the picture's size."""
-    height, width = image.shape[:2]
-    named = [(f"{name}[{number}]", mask) for number, mask in enumerate(masks)]
-    return [fitted(coverage_of(mask, name=each), width, height, name=each) for each, mask in named]
-
-
 def _segmented(image: Image, points: Sequence[Any]) -> Iterator[Mask]:
     if not points:
         return
@@ -184,16 +193,9 @@ def _segmented(image: Image, points: Sequence[Any]) -> Iterator[Mask]:
 
     height, width = image.shape[:2]
     for each, name in zip(points, _part_names(0, len(points)), strict=True):
-        with _about(name):
+        with about(name):
             clicked = parse_points(each, width=width, height=height)
             yield segment(image, [(p.x, p.y) for p in clicked], [int(p.positive) for p in clicked])
-
-
-def _meshed(part: Mask, spacing: float | None, name: str, image: Image | None) -> TriangleMesh:
-    with _about(name):
-        if image is None:
-            return mesh_from_mask(part, spacing=spacing)
-        return part_mesh(image, part, spacing=spacing)
 
 
 def _part_names(masks: int, parts: int) -> list[str]:
@@ -203,24 +205,16 @@ def _part_names(masks: int, parts: int) -> list[str]:
     return [f"masks[{number}]" if number < masks else f"points[{number - masks}]" for number in range(parts)]
 
 
-@contextmanager
-def _about(name: str) -> Iterator[None]:
-    """Let an error tell what it is about."""
-    try:
-        yield
-    except InvalidInputError as error:
-        if not name:
-            raise
-        raise type(error)(f"{name}: {error}") from error
+def _check_layers_alone(**given: Any) -> None:
+    """Refuse what says again, or otherwise, what the layers of an artwork say."""
+    for name, value in given.items():
+        if value is not None and not (isinstance(value, Sequence) and not value):
+            raise InvalidInputError(f"{name} must be left out where the picture is in layers. Got: a value")
 
 
 def _check_parts(parts: Sequence[Mask]) -> None:
     if not parts:
         raise InvalidInputError("an animation needs at least one mask, or points on a part. Got: neither")
-
-
-def _layered(meshes: Sequence[TriangleMesh], materials: Sequence[Material]) -> list[Body]:
-    return [Body(mesh, made, layer) for layer, (mesh, made) in enumerate(zip(meshes, materials, strict=True))]
 
 
 def _touching(scene: Scene, contact: Contact | None, colliders: Sequence[Mask]) -> Scene:

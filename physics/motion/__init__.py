@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .export import motion_to_json, motion_to_svg
-from .flow import FlowField, FlowSequence, layer_order
+from .flow import FlowField, FlowSequence, layer_order, without_covered
 from .motion import LoopReport, Motion
 from .resampling import frame_at, sample_times
 from .still_motion import stillness
@@ -25,4 +25,5 @@ __all__ = [
     "sample_times",
     "stillness",
     "tracks",
+    "without_covered",
 ]

@@ -20,7 +20,7 @@ from ..mesh import PixelBox, barycentric, triangle_ids
 from ..scene import Body
 from .motion import Motion
 
-__all__ = ["FlowField", "FlowSequence", "layer_order"]
+__all__ = ["FlowField", "FlowSequence", "layer_order", "without_covered"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,10 +52,30 @@ def layer_order(bodies: Sequence[Body]) -> list[int]:
     return sorted(range(len(bodies)), key=lambda number: bodies[number].layer)
 
 
+def without_covered(ids: NDArray[np.int32], bodies: Sequence[Body]) -> NDArray[np.int32]:
+    """Rows of all bodies' triangles from back to front that are seen, -1 where something still is in front of them.
+
+    Args:
+        ids: row at each pixel, -1 for none, shape [h, w].
+        bodies: whose triangles they are, one after another in their layer order.
+    """
+    if all(body.cover is None for body in bodies):
+        return ids
+    order = layer_order(bodies)
+    ends = np.cumsum([0] + [len(bodies[k].mesh.triangles) for k in order])
+    seen = ids.copy()
+    for rank, number in enumerate(order):
+        cover = bodies[number].cover
+        if cover is not None:
+            seen[cover & (ids >= ends[rank]) & (ids < ends[rank + 1])] = -1
+    return seen
+
+
 class FlowSequence:
     """The flow of every frame of a motion, computed one frame at a time when asked for.
 
-    Where bodies overlap in the drawing, a pixel belongs to the body in front.
+    Where bodies overlap in the drawing, a pixel belongs to the body in front, and where something that stands still is
+    in front of that, to none: it does not move.
 
     Attributes:
         motion: whose flow it is.
@@ -122,7 +142,8 @@ class FlowSequence:
     @cached_property
     def _ids(self) -> NDArray[np.int32]:
         """Row of ``_triangles`` at each pixel of the drawing, -1 for none, shape [h, w]."""
-        return triangle_ids(self._rest, self._triangles, PixelBox(0, 0, self.motion.width, self.motion.height))
+        ids = triangle_ids(self._rest, self._triangles, PixelBox(0, 0, self.motion.width, self.motion.height))
+        return without_covered(ids, self.motion.bodies)
 
     @cached_property
     def _pixels(self) -> NDArray[np.int64]:

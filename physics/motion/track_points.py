@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..errors import InvalidInputError
 from ..mesh import PixelBox, barycentric, triangle_ids
 from .farthest_points import farthest_points
-from .flow import layer_order
+from .flow import layer_order, without_covered
 from .motion import Motion
 
 __all__ = ["BodyPoints", "Frame", "background_points", "body_points", "stacked_triangles"]
@@ -103,6 +103,7 @@ def _candidates(motion: Motion, frame: Frame) -> BodyPoints:
     triangles, bodies = stacked_triangles(motion)
     first = motion.positions[0].astype(np.float64)
     ids = triangle_ids(first, triangles, PixelBox(0, 0, motion.width, motion.height))
+    ids = without_covered(ids, motion.bodies)
     owner = np.where(ids >= 0, bodies[ids], -1)
     inside = np.zeros(ids.shape, dtype=bool)
     for number in range(len(motion.bodies)):

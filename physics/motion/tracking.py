@@ -164,7 +164,7 @@ def _placed(motion: Motion, size: tuple[int, int], fit: Fit) -> tuple[FloatArray
 
 
 def _hidden(motion: Motion, followed: BodyPoints, positions: FloatArray, moved: FloatArray) -> NDArray[np.bool_]:
-    """Whether each point lies in a triangle of a body in front of its own, shape [n]."""
+    """Whether each point lies behind something still, or in a triangle of a body in front of its own, shape [n]."""
     rank = np.argsort(layer_order(motion.bodies))
     starts = np.cumsum([0] + [len(body.mesh.vertices) for body in motion.bodies])
     hidden = np.zeros(len(moved), dtype=bool)
@@ -172,6 +172,12 @@ def _hidden(motion: Motion, followed: BodyPoints, positions: FloatArray, moved: 
         behind = np.flatnonzero(rank[followed.body] < rank[number])
         if len(behind):
             hidden[behind] |= _covered(moved[behind], positions[starts[number] :][body.mesh.triangles])
+        if body.cover is not None:
+            own = np.flatnonzero(followed.body == number)
+            column, row = np.floor(moved[own]).astype(np.int64).T
+            height, width = body.cover.shape
+            within = (column >= 0) & (column < width) & (row >= 0) & (row < height)
+            hidden[own[within]] |= body.cover[row[within], column[within]]
     return hidden
 
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..checks import numbers_of, require_kind, within
 from ..errors import InvalidInputError, require
 from ..fields import Field, Input, check_field, check_fields, described
@@ -94,9 +97,15 @@ class Body:
         Input("A higher layer covers a lower one; of equal layers, the later one in the chain does.", -99, 99),
     ] = 0
     name: Annotated[str, Field("Name", 'For people, such as "left sleeve".')] = ""
+    cover: NDArray[np.bool_] | None = None
+    """Where something that stands still is in front of it, shape [h, w] of the picture; None for nowhere."""
 
     def __post_init__(self) -> None:
         check_fields(self)
+        if self.cover is not None:
+            size = self.mesh.height, self.mesh.width
+            fits = self.cover.dtype == bool and self.cover.shape == size
+            require("cover", f"{self.cover.dtype} of shape {self.cover.shape}", fits, f"bool of shape {size}")
         for name in SCALES:
             scale = getattr(self.material, name)
             if scale is not None and len(scale) != len(self.mesh.triangles):

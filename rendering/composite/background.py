@@ -101,7 +101,13 @@ def usual_background(*, transparent_picture: bool, file_has_alpha: bool, parts: 
 
 
 def renderer_of(
-    image: Image, masks: Sequence[Image], motion: Motion, *, plate: Image | None = None, pixel_art: bool = False
+    image: Image,
+    masks: Sequence[Image],
+    motion: Motion,
+    *,
+    plate: Image | None = None,
+    pixel_art: bool = False,
+    in_front: Image | None = None,
 ) -> LayeredRenderer | PixelArtRenderer:
     """What draws a motion of an illustration.
 
@@ -111,6 +117,7 @@ def renderer_of(
         motion: of the bodies.
         plate: what is behind all bodies, of the image's dtype; its transparency is dropped where the image has none.
         pixel_art: see :class:`pixel_art.PixelArtRenderer`.
+        in_front: mask of what stands still in front of all bodies; not with ``pixel_art``.
 
     Raises:
         InvalidInputError: these do not fit together.
@@ -120,10 +127,11 @@ def renderer_of(
     if pixel_art:
         from .pixel_art import PixelArtRenderer
 
+        require("in_front", "a mask", in_front is None, "left out with pixel_art")
         return PixelArtRenderer(image, masks, motion, plate=plate)
     from .layered_renderer import LayeredRenderer
 
-    return LayeredRenderer(image, masks, motion, plate=plate)
+    return LayeredRenderer(image, masks, motion, plate=plate, in_front=in_front)
 
 
 def shown_frame(renderer: LayeredRenderer | PixelArtRenderer, t: int, background: Background) -> Image:

@@ -7,9 +7,10 @@ picture B beneath it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
@@ -21,8 +22,12 @@ from ..matting import fitting_plate, in_levels, mixed_rim, regular_mask, soft_al
 from ..plate import fill_hole, spread_colours
 from .apron import ApronedMesh, canvas_of
 from .beyond_border import on_canvas
+from .still_layers import StillLayer, still_layer
 
-__all__ = ["Layer", "take_apart"]
+if TYPE_CHECKING:
+    from ..artwork import Blend
+
+__all__ = ["Layer", "covered_by", "take_apart"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -44,11 +49,13 @@ class Layer:
         canvas: the pixels that the texture covers; may exceed the picture.
         texture: premultiplied RGB and alpha at rest, float32, shape [canvas height, canvas width, 4]; of a picture with
             transparency premultiplied RGBA and coverage, 5 channels.
+        blend: how it is laid over what is behind it.
     """
 
     mesh: ApronedMesh
     canvas: PixelBox
     texture: FloatImage
+    blend: Blend = "normal"
 
     def drawn(self, vertices: NDArray[np.float32], width: int, height: int) -> tuple[PixelBox, FloatImage]:
         """The layer with its mesh moved.
@@ -81,15 +88,15 @@ class Layer:
 
 
 def take_apart(
-    picture: FloatImage, masks: Sequence[FloatImage], meshes: Sequence[TriangleMesh], *, plate: FloatImage | None
-) -> tuple[FloatImage, list[Layer]]:
+    picture: FloatImage, masks: Sequence[FloatImage], meshes: Sequence[TriangleMesh | None], *, plate: FloatImage | None
+) -> tuple[FloatImage, list[Layer | StillLayer]]:
     """Peel the bodies off a picture, the front one first.
 
     Args:
         picture: RGB in 0 to 1, shape [h, w, 3].
         masks: soft mask of each body, from back to front, shape [h, w] each. Where masks overlap, the pixel shows
             the front body; what the body behind looks like there is continued from its visible part.
-        meshes: mesh of each body, from back to front.
+        meshes: mesh of each body, from back to front; None for what stands still in front of bodies.
         plate: what is behind all bodies, shape [h, w, 3]; None makes a clean plate.
 
     Returns:
@@ -100,17 +107,27 @@ def take_apart(
     if plate is None:
         unknown = [each | mixed_rim(mask, each) for mask, each in zip(masks, supports, strict=True)]
         plate = _without(picture, np.logical_or.reduce(unknown))
-    layers: list[Layer] = []
+    layers: list[Layer | StillLayer] = []
     for number in range(len(masks) - 1, -1, -1):
         beneath = _beneath(picture, plate, masks, supports, number)
         alpha = soft_alpha(picture, beneath, masks[number], supports[number])
-        mesh, canvas, covered = _covered(meshes[number], alpha)
-        alpha = np.where(covered, alpha, np.float32(0))
-        below = fitting_plate(picture, beneath, alpha, rounded=rounded)
-        colour = picture - (1 - alpha[..., None]) * below
-        layers.insert(0, Layer(mesh, canvas, on_canvas(np.dstack([colour, alpha]), canvas)))
-        picture = below
+        layer, picture = _peeled(picture, beneath, alpha, meshes[number], rounded=rounded)
+        layers = layers if layer is None else [layer, *layers]
     return picture, layers
+
+
+def _peeled(
+    picture: FloatImage, beneath: FloatImage, alpha: FloatImage, mesh: TriangleMesh | None, *, rounded: bool
+) -> tuple[Layer | StillLayer | None, FloatImage]:
+    """The layer of one body or still part, and the picture without it."""
+    if mesh is None:
+        below = fitting_plate(picture, beneath, alpha, rounded=rounded)
+        return still_layer(np.dstack([picture - (1 - alpha[..., None]) * below, alpha])), below
+    aproned, canvas, covered = _covered(mesh, alpha)
+    alpha = np.where(covered, alpha, np.float32(0))
+    below = fitting_plate(picture, beneath, alpha, rounded=rounded)
+    colour = picture - (1 - alpha[..., None]) * below
+    return Layer(aproned, canvas, on_canvas(np.dstack([colour, alpha]), canvas)), below
 
 
 def _without(picture: FloatImage, hole: Mask) -> FloatImage:
@@ -137,11 +154,21 @@ def _beneath(
 
 def _covered(mesh: TriangleMesh, alpha: FloatImage) -> tuple[ApronedMesh, PixelBox, Mask]:
     """The mesh with an apron for an alpha, its canvas, and the picture's pixels that it covers at rest."""
+    return covered_by(mesh, lambda canvas: on_canvas(alpha, canvas))
+
+
+def covered_by(mesh: TriangleMesh, alpha_over: Callable[[PixelBox], FloatImage]) -> tuple[ApronedMesh, PixelBox, Mask]:
+    """The mesh with an apron for an alpha, its canvas, and the picture's pixels that it covers at rest.
+
+    Args:
+        mesh: of the body.
+        alpha_over: gives the body's alpha over a canvas, shape [canvas height, canvas width].
+    """
     edges = mesh.vertices[mesh.boundary_edges]
     length = float(np.median(np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1)))
     reach = max(_LEAST_REACH, int(np.ceil(_REACH * length)))
     canvas = canvas_of(mesh, reach=reach)
-    aproned = ApronedMesh.around(mesh, on_canvas(alpha, canvas), canvas, reach=reach)
+    aproned = ApronedMesh.around(mesh, alpha_over(canvas), canvas, reach=reach)
     whole = PixelBox(0, 0, mesh.width, mesh.height)
     return aproned, canvas, triangle_ids(aproned.rest, aproned.triangles, whole) >= 0
 

@@ -17,11 +17,12 @@ from numpy.typing import NDArray
 
 from ...physics.mesh import TriangleMesh
 from .cutting import Layer
+from .still_layers import StillLayer
 
 __all__ = ["KEPT_BYTES", "KeptLayers", "apart"]
 
 FloatImage = NDArray[np.float32]
-Apart = tuple[FloatImage, list[Layer]]
+Apart = tuple[FloatImage, list[Layer | StillLayer]]
 
 KEPT_BYTES = 512 * 2**20
 """What is kept at most [bytes]."""
@@ -69,7 +70,7 @@ class KeptLayers:
         arrays: list[NDArray[Any]] = [
             background,
             *(layer.texture for layer in layers),
-            *(layer.mesh.rest for layer in layers),
+            *(layer.mesh.rest for layer in layers if isinstance(layer, Layer)),
         ]
         for array in arrays:
             array.setflags(write=False)
@@ -94,7 +95,7 @@ def apart(
     take_apart: Callable[..., Apart],
     picture: FloatImage,
     masks: Sequence[FloatImage],
-    meshes: Sequence[TriangleMesh],
+    meshes: Sequence[TriangleMesh | None],
     *,
     plate: FloatImage | None,
     kept: KeptLayers = _LAYERS,
@@ -105,7 +106,7 @@ def apart(
         take_apart: :func:`~.layers.take_apart` or :func:`~.sprite_layers.take_sprite_apart`.
         picture: see there, as are masks, meshes and plate.
         masks: one for each mesh.
-        meshes: of the bodies.
+        meshes: of the bodies, None for what stands still.
         plate: what is behind them, or None.
         kept: where results are kept.
 
@@ -113,9 +114,10 @@ def apart(
         Background and layers; read-only.
     """
     arrays: list[NDArray[Any]] = [picture, *masks]
-    arrays += [part for mesh in meshes for part in (mesh.vertices, mesh.triangles)]
+    arrays += [part for mesh in meshes if mesh is not None for part in (mesh.vertices, mesh.triangles)]
     arrays += [] if plate is None else [plate]
-    key = hashlib.blake2b(f"{take_apart.__name__} {len(masks)} {plate is None}".encode(), digest_size=20)
+    moving = [mesh is not None for mesh in meshes]
+    key = hashlib.blake2b(f"{take_apart.__name__} {moving} {plate is None}".encode(), digest_size=20)
     for array in arrays:
         key.update(f" {array.dtype} {array.shape} ".encode())
         key.update(np.ascontiguousarray(array).data)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import cv2
 import numpy as np
@@ -15,13 +15,27 @@ from ...physics.mesh import PixelBox, coverage_of, fitted
 from ...physics.motion import Motion, layer_order
 from ...physics.progress import Progress
 from ..pictures import as_dtype, as_float, as_picture, is_transparent, straight
-from .cutting import take_apart
+from .cutting import Layer, take_apart
 from .kept_layers import apart
+from .laying import lay_over
 from .sprite_layers import take_sprite_apart
+from .still_layers import StillLayer
+
+if TYPE_CHECKING:
+    from ..artwork import Artwork, Blend
 
 __all__ = ["LayeredRenderer", "render_frames"]
 
 FloatImage = NDArray[np.float32]
+
+
+class _Drawn(NamedTuple):
+    """One layer in one frame: its box in the picture, its channels there, its blend mode, and whether it moves."""
+
+    box: PixelBox
+    texture: FloatImage
+    blend: Blend
+    moving: bool
 
 
 class LayeredRenderer:
@@ -32,9 +46,13 @@ class LayeredRenderer:
 
     An illustration with transparency moves on transparency: its frames are straight RGBA, black where alpha is 0.
 
+    Layered artwork, or a mask of what stands in front, adds layers that stand still between and before those that
+    move; see :meth:`of_artwork`.
+
     Attributes:
         motion: what is drawn.
         plate: the illustration without its bodies, uint8 or float32 in its channels, shape [h, w, 3] or [h, w, 4].
+        drawn_plate: whether somebody drew what is behind the bodies.
 
     Examples:
         >>> import numpy as np
@@ -60,6 +78,7 @@ class LayeredRenderer:
         motion: Motion,
         *,
         plate: NDArray[Any] | None = None,
+        in_front: ArrayLike | None = None,
     ) -> None:
         """Take the illustration apart.
 
@@ -71,6 +90,8 @@ class LayeredRenderer:
             motion: of the bodies.
             plate: what is behind all bodies, of the image's size and channels; for RGBA it may be RGB, and what is
                 transparent behind the bodies is then found. None makes a clean plate.
+            in_front: mask of what stands still in front of all bodies, in any form that ``masks`` may have; None for
+                nothing.
 
         Raises:
             InvalidInputError: sizes, ranges or the number of masks do not fit together.
@@ -83,20 +104,67 @@ class LayeredRenderer:
             plate = as_picture(plate, name="plate", alpha=is_transparent(image))
             if plate.shape[:2] != image.shape[:2]:
                 raise InvalidInputError(f"plate must have the image's size {image.shape[:2]}. Got: {plate.shape[:2]}")
-        self.motion = motion
-        self._order = layer_order(motion.bodies)
-        background, self._layers = apart(
+        still = [] if in_front is None else [fitted(coverage_of(in_front), *size)]
+        order = layer_order(motion.bodies)
+        background, layers = apart(
             take_sprite_apart if is_transparent(image) else take_apart,
             as_float(image),
-            [fitted(coverage_of(masks[k]), *size) for k in self._order],
-            [motion.bodies[k].mesh for k in self._order],
+            [*(fitted(coverage_of(masks[k]), *size) for k in order), *still],
+            [*(motion.bodies[k].mesh for k in order), *(None for _ in still)],
             plate=None if plate is None else as_float(plate),
         )
-        if is_transparent(image):
-            self.plate = as_dtype(straight(background), image.dtype)
-            self._planes = np.ascontiguousarray(np.moveaxis(background, 2, 0))
-        else:
-            self.plate = as_dtype(background, image.dtype)
+        self._take(motion, background, layers, image.dtype)
+        self.drawn_plate = plate is not None
+
+    @classmethod
+    def of_artwork(cls, artwork: Artwork, layers: Sequence[int], motion: Motion) -> LayeredRenderer:
+        """The renderer of layered artwork: movers have pixels of their own, and nothing behind them is guessed.
+
+        Args:
+            artwork: the layers, from back to front.
+            layers: index of the layer that each body of the motion is.
+            motion: of the bodies, as large as the artwork's canvas.
+
+        Raises:
+            InvalidInputError: these do not fit together.
+        """
+        size, expected = (artwork.width, artwork.height), (motion.width, motion.height)
+        require("artwork", f"{size[0]} x {size[1]} px", size == expected, f"as large as the motion's, {expected} px")
+        meshes = {layer: body.mesh for layer, body in zip(layers, motion.bodies, strict=True)}
+        require("layers", list(layers), len(meshes) == len(motion.bodies), "another layer for each body")
+        from .artwork_layers import layers_of
+
+        renderer = cls.__new__(cls)
+        background, pieces = layers_of(artwork, meshes)
+        dtype = np.dtype(np.uint8 if artwork.dtype == np.uint8 else np.float32)
+        order = sorted(range(len(layers)), key=lambda number: layers[number])
+        renderer._take(motion, background, pieces, dtype, order=order)
+        renderer.drawn_plate = True
+        return renderer
+
+    def _take(
+        self,
+        motion: Motion,
+        background: FloatImage,
+        layers: Sequence[Layer | StillLayer],
+        dtype: np.dtype[Any],
+        *,
+        order: Sequence[int] | None = None,
+    ) -> None:
+        """Draw these layers, those that move in the order of the bodies, over a background."""
+        self.motion = motion
+        bodies = iter(layer_order(motion.bodies) if order is None else order)
+        self._layers = list(layers)
+        self._bodies = [next(bodies) if isinstance(layer, Layer) else None for layer in layers]
+        still = [layer for layer in layers if isinstance(layer, StillLayer)]
+        transparent = is_transparent(background)
+        planes = np.ascontiguousarray(np.moveaxis(background, 2, 0))
+        shown = planes.copy() if still else planes
+        for layer in still:
+            lay_over(_part(shown, layer.box), layer.texture, layer.blend)
+        self.plate = _interleaved(shown, dtype)
+        self._planes = planes
+        if not (still or transparent):
             self._planes = np.ascontiguousarray(np.moveaxis(as_float(self.plate), 2, 0))
 
     def __len__(self) -> int:
@@ -155,41 +223,57 @@ class LayeredRenderer:
             InvalidInputError: there is no such frame.
         """
         planes = np.zeros((4, *self.plate.shape[:2]), dtype=np.float32)
-        for box, layer in self._drawn(t):
-            _lay_over(_part(planes, box), layer)
+        for each in self._drawn(t):
+            part = _part(planes, each.box)
+            if each.moving:
+                lay_over(part, each.texture, "normal")
+            elif each.blend == "normal":
+                part *= 1 - np.clip(each.texture[..., -1], 0, 1)
         return _interleaved(planes, self.plate.dtype)
 
-    def _over_plate(self, drawn: list[tuple[PixelBox, FloatImage]]) -> NDArray[Any]:
+    def _over_plate(self, drawn: list[_Drawn]) -> NDArray[Any]:
         """Drawn layers over the plate."""
-        frame = self.plate.copy()
-        if not drawn:
+        frame, moving = self.plate.copy(), [each.box for each in drawn if each.moving]
+        if not moving:
             return frame
-        box = _union([each for each, _ in drawn])
+        # Elsewhere the plate shows what stands still as it is.
+        box = _union(moving)
         planes = _part(self._planes, box).copy()
-        for each, layer in drawn:
-            _lay_over(_part(planes, _within(each, box)), layer)
+        for each in drawn:
+            shared = _shared(each.box, box)
+            if shared.width and shared.height:
+                texture = each.texture[_within(shared, each.box).slices]
+                lay_over(_part(planes, _within(shared, box)), texture, each.blend)
         frame[box.slices] = _interleaved(planes, frame.dtype)
         return frame
 
-    def _covered(self, drawn: list[tuple[PixelBox, FloatImage]]) -> FloatImage:
-        """Coverage by drawn layers, shape [h, w]."""
+    def _covered(self, drawn: list[_Drawn]) -> FloatImage:
+        """How much of each pixel shows drawn layers that move, shape [h, w]."""
         covered = np.zeros(self.plate.shape[:2], dtype=np.float32)
-        for box, layer in drawn:
-            part = covered[box.slices]
-            part += np.clip(layer[..., -1], 0, 1) * (1 - part)
+        for each in drawn:
+            part, alpha = covered[each.box.slices], np.clip(each.texture[..., -1], 0, 1)
+            if each.moving:
+                part += alpha * (1 - part)
+            elif each.blend == "normal":
+                part *= 1 - alpha
         return covered
 
-    def _drawn(self, t: int) -> list[tuple[PixelBox, FloatImage]]:
-        """The layers that show in a frame, from back to front, each with its box."""
+    def _drawn(self, t: int) -> list[_Drawn]:
+        """The layers that show in a frame, from back to front."""
         require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
         return self._laid(self.motion, t)
 
-    def _laid(self, motion: Motion, t: int) -> list[tuple[PixelBox, FloatImage]]:
+    def _laid(self, motion: Motion, t: int) -> list[_Drawn]:
         """The layers in a frame of any motion of the bodies."""
-        bodies = zip(self._layers, self._order, strict=True)
-        size = motion.width, motion.height
-        drawn = [layer.drawn(motion.of_body(k)[t], *size) for layer, k in bodies]
-        return [(box, layer) for box, layer in drawn if box.width and box.height]
+        size, drawn = (motion.width, motion.height), []
+        for layer, body in zip(self._layers, self._bodies, strict=True):
+            if isinstance(layer, StillLayer) or body is None:
+                drawn.append(_Drawn(layer.box, layer.texture, layer.blend, False))  # type: ignore[union-attr]
+                continue
+            box, texture = layer.drawn(motion.of_body(body)[t], *size)
+            if box.width and box.height:
+                drawn.append(_Drawn(box, texture, layer.blend, True))
+        return drawn
 
 
 def render_frames(renderer: LayeredRenderer, *, progress: Progress | None = None) -> Iterator[NDArray[Any]]:
@@ -211,17 +295,6 @@ def _part(planes: FloatImage, box: PixelBox) -> FloatImage:
     return planes[:, rows, columns]
 
 
-def _lay_over(planes: FloatImage, layer: FloatImage) -> None:
-    """Lay a layer's colours and coverage, shape [h, w, 4 or 5], over planes, shape [3 or 4, h, w], in place."""
-    *colours, alpha = cv2.split(layer)
-    np.clip(alpha, 0, 1, out=alpha)
-    beneath = 1 - alpha
-    for plane, added in zip(planes, [*colours, alpha], strict=False):
-        plane *= beneath
-        # Bicubic resampling overshoots at edges; light that is no colour times alpha would be seen as a fringe.
-        plane += np.clip(added, 0, alpha, out=added)
-
-
 def _interleaved(planes: FloatImage, dtype: np.dtype[Any]) -> NDArray[Any]:
     """Planes in 0 to 1, four of them premultiplied, shape [c, h, w], as a straight picture, shape [h, w, c]."""
     picture = np.asarray(cv2.merge(list(planes)))
@@ -234,6 +307,13 @@ def _union(boxes: Sequence[PixelBox]) -> PixelBox:
         min(box.top for box in boxes),
         max(box.right for box in boxes),
         max(box.bottom for box in boxes),
+    )
+
+
+def _shared(one: PixelBox, other: PixelBox) -> PixelBox:
+    """The pixels of both boxes; of no width or height where they have none in common."""
+    return PixelBox(
+        max(one.left, other.left), max(one.top, other.top), min(one.right, other.right), min(one.bottom, other.bottom)
     )
 
 

@@ -20,6 +20,7 @@ from ..pictures import carried_on, over, premultiplied, window_around
 from ..plate import continue_lines, fill_hole
 from .beyond_border import on_canvas
 from .cutting import Layer, _beneath, _covered
+from .still_layers import StillLayer, still_layer
 
 __all__ = ["sprite_hole", "sprite_plate", "take_sprite_apart"]
 
@@ -43,14 +44,14 @@ _ALL = np.float32(1e-4)
 
 
 def take_sprite_apart(
-    picture: FloatImage, masks: Sequence[FloatImage], meshes: Sequence[TriangleMesh], *, plate: FloatImage | None
-) -> tuple[FloatImage, list[Layer]]:
+    picture: FloatImage, masks: Sequence[FloatImage], meshes: Sequence[TriangleMesh | None], *, plate: FloatImage | None
+) -> tuple[FloatImage, list[Layer | StillLayer]]:
     """Peel the bodies off a picture with transparency, the front one first; see :func:`cutting.take_apart`.
 
     Args:
         picture: straight RGBA in 0 to 1, shape [h, w, 4].
         masks: soft mask of each body, from back to front, shape [h, w] each.
-        meshes: mesh of each body, from back to front.
+        meshes: mesh of each body, from back to front; None for what stands still in front of bodies.
         plate: what is behind all bodies, straight RGBA, shape [h, w, 4], or RGB, shape [h, w, 3], whose transparency
             is then found; None makes a clean plate.
 
@@ -65,7 +66,7 @@ def take_sprite_apart(
     if plate is None or plate.shape[2] == 3:
         plate = _filled(picture, hole, plate)
     shown, behind = premultiplied(picture), premultiplied(plate)
-    layers: list[Layer] = []
+    layers: list[Layer | StillLayer] = []
     for number in range(len(masks) - 1, -1, -1):
         beneath = np.dstack(
             [
@@ -75,14 +76,24 @@ def take_sprite_apart(
         )
         share = soft_alpha(_over_white(shown), _over_white(beneath), masks[number], supports[number])
         share = _fitting_share(share, shown[..., 3], beneath[..., 3], supports[number])
-        mesh, canvas, covered = _covered(meshes[number], share)
-        share = np.where(covered, share, np.float32(0))
-        below = fitting_plate(shown, beneath, share)
-        below[..., :3] = np.minimum(below[..., :3], below[..., 3:])
-        texture = on_canvas(shown - (1 - share[..., None]) * below, canvas)
-        layers.insert(0, Layer(mesh, canvas, np.dstack([texture, on_canvas(share, canvas)])))
-        shown = below
+        layer, shown = _peeled(shown, beneath, share, meshes[number])
+        layers = layers if layer is None else [layer, *layers]
     return shown, layers
+
+
+def _peeled(
+    shown: FloatImage, beneath: FloatImage, share: FloatImage, mesh: TriangleMesh | None
+) -> tuple[Layer | StillLayer | None, FloatImage]:
+    """The layer of one body or still part, and the premultiplied picture without it."""
+    if mesh is not None:
+        aproned, canvas, covered = _covered(mesh, share)
+        share = np.where(covered, share, np.float32(0))
+    below = fitting_plate(shown, beneath, share)
+    below[..., :3] = np.minimum(below[..., :3], below[..., 3:])
+    colour = shown - (1 - share[..., None]) * below
+    if mesh is None:
+        return still_layer(np.dstack([colour, share])), below
+    return Layer(aproned, canvas, np.dstack([on_canvas(colour, canvas), on_canvas(share, canvas)])), below
 
 
 def _regular(flat: FloatImage, opacity: FloatImage, mask: FloatImage) -> FloatImage:

@@ -27,6 +27,7 @@ Mask = NDArray[np.bool_]
 _RIM = 2
 # How many other keyframes are searched for background that neither of the two shows.
 _FURTHER_KEYFRAMES = 4
+_HALF = 0.5
 
 
 class MotionInterpolator:
@@ -79,9 +80,19 @@ def _ranks(clip: Clip, frame: int) -> NDArray[np.int32]:
     motion, (width, height) = _motion_of(clip), clip.size
     ranks, picture = np.full((height, width), -1, dtype=np.int32), PixelBox(0, 0, width, height)
     for rank, body in enumerate(layer_order(motion.bodies)):
-        ids = triangle_ids(_positions(clip, body, frame), motion.bodies[body].mesh.triangles, picture)
-        ranks[ids >= 0] = rank
+        here = triangle_ids(_positions(clip, body, frame), motion.bodies[body].mesh.triangles, picture) >= 0
+        ranks[here] = rank
+        ranks[here & _cover(clip, body)] = -1  # something still is in front, which each keyframe shows
     return ranks
+
+
+def _cover(clip: Clip, body: int) -> Mask:
+    """Where something still is in front of a body, shape [h, w] of the keyframes."""
+    width, height = clip.size
+    cover = _motion_of(clip).bodies[body].cover
+    if cover is None:
+        return np.zeros((height, width), dtype=bool)
+    return cv2.resize(cover.astype(np.float32), (width, height), interpolation=cv2.INTER_AREA) >= _HALF
 
 
 def _widened(mask: Mask, by: int = _RIM) -> NDArray[np.uint8]:
@@ -159,8 +170,9 @@ def _draw_body(
     rest = motion.bodies[pose.body].mesh.rescaled(*clip.size).vertices
     others = [_positions(clip, pose.body, first.frame), _positions(clip, pose.body, last.frame), rest]
     covered, (to_first, to_last, to_rest) = pose.maps_to(others)
-    weight_first = _visible(first, to_first, pose.rank) * np.float32(1 - place)
-    weight_last = _visible(last, to_last, pose.rank) * np.float32(place)
+    cover = _cover(clip, pose.body)
+    weight_first = _visible(first, to_first, pose.rank, cover) * np.float32(1 - place)
+    weight_last = _visible(last, to_last, pose.rank, cover) * np.float32(place)
     share = (weight_last / (weight_first + weight_last))[..., None]
     colour = _read(first.picture, to_first, cv2.INTER_CUBIC)
     colour += share * (_read(last.picture, to_last, cv2.INTER_CUBIC) - colour)
@@ -169,6 +181,7 @@ def _draw_body(
         alpha = cv2.GaussianBlur(alpha, (0, 0), 0.7)
     else:
         alpha *= _widened(covered)
+    alpha *= ~cover[pose.box.slices]
     below = picture[pose.box.slices]
     below += alpha[..., None] * (colour - below)
 
@@ -179,10 +192,11 @@ def _read(picture: FloatImage, at: FloatImage, method: int) -> FloatImage:
     return read / np.maximum(read[..., 3:], 1) if read.ndim == 3 and read.shape[2] == 4 else read
 
 
-def _visible(keyframe: _Keyframe, at: FloatImage, rank: int) -> FloatImage:
-    """1 where a keyframe shows a body's pixel, next to 0 where another body hides it or it lies off the picture."""
+def _visible(keyframe: _Keyframe, at: FloatImage, rank: int, cover: Mask) -> FloatImage:
+    """1 where a keyframe shows a body's pixel, next to 0 where anything hides it or it lies off the picture."""
     height, width = keyframe.rank.shape
     ranks = keyframe.rank.astype(np.float32)
+    ranks = np.where(cover, np.float32(np.inf), ranks)
     seen = cv2.remap(ranks, at, None, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE) <= rank
     x, y = at[..., 0], at[..., 1]
     seen &= (x > -1) & (x < width) & (y > -1) & (y < height)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.mesh import PixelBox, interpolate, triangle_ids
-from ...physics.motion import FlowSequence, Motion, layer_order
+from ...physics.motion import FlowSequence, Motion, layer_order, without_covered
 
 __all__ = ["FlowWarpError", "RestMaps"]
 
@@ -43,12 +43,16 @@ class RestMaps:
 
     def seen(self, t: int) -> FloatImage:
         """Position in the drawing of what each pixel of a frame shows [px], far outside for none, shape [h, w, 2]."""
-        positions = self.flow.motion.positions[t]
-        return np.dstack(list(interpolate(positions, self._triangles, self._rest, self._box, fill=_NOWHERE)))
+        positions, bodies = self.flow.motion.positions[t], self.flow.motion.bodies
+        seen = np.dstack(list(interpolate(positions, self._triangles, self._rest, self._box, fill=_NOWHERE)))
+        if any(body.cover is not None for body in bodies):
+            seen[~self.covered(t)] = _NOWHERE
+        return seen
 
     def covered(self, t: int) -> Mask:
-        """Where bodies are in a frame, shape [h, w]."""
-        return triangle_ids(self.flow.motion.positions[t], self._triangles, self._box) >= 0
+        """Where bodies are seen in a frame, shape [h, w]."""
+        motion = self.flow.motion
+        return without_covered(triangle_ids(motion.positions[t], self._triangles, self._box), motion.bodies) >= 0
 
 
 class FlowWarpError:

@@ -7,6 +7,7 @@ among them, so that none stays at its old place.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -54,7 +55,13 @@ class LayeredSketch:
     """
 
     def __init__(
-        self, sketch: NDArray[Any], flow: FlowSequence, *, behind: NDArray[Any] | None = None, border: int = 4
+        self,
+        sketch: NDArray[Any],
+        flow: FlowSequence,
+        *,
+        behind: NDArray[Any] | None = None,
+        own: Sequence[NDArray[Any]] | None = None,
+        border: int = 4,
     ) -> None:
         """Take a sketch apart.
 
@@ -62,6 +69,8 @@ class LayeredSketch:
             sketch: of the drawing, paper 1, lines 0, shape [h, w].
             flow: of the motion.
             behind: sketch of what is behind the bodies, of the same form; without it paper is behind them.
+            own: sketch of each body's own layer, hidden lines included, of the same form; without them nothing is
+                known of lines that something in front hides in the drawing.
             border: contour lines that reach this far out of a body belong to it [px].
 
         Raises:
@@ -81,7 +90,10 @@ class LayeredSketch:
         self._bared = owner >= 0
         beneath = np.float32(0) if behind is None else 1 - np.asarray(behind, dtype=np.float32)
         self.still = 1 - np.where(self._bared, beneath, lines)
-        self._layers = [_LineLayer.cut(lines, owner == k, flow, k) for k in order]
+        hidden = None if own is None else [1 - as_float(each) for each in own]
+        self._layers = [
+            _LineLayer.cut(lines, owner == k, flow, k, hidden=None if hidden is None else hidden[k]) for k in order
+        ]
 
     def frame(self, t: int, *, blur_sigma: float = 0.8) -> WarpedSketch:
         """The sketch of one frame.
@@ -128,13 +140,24 @@ class _LineLayer:
     texture: FloatImage
 
     @classmethod
-    def cut(cls, lines: FloatImage, owned: Mask, flow: FlowSequence, body: int) -> _LineLayer:
-        """The layer of a body from all lines and the pixels whose lines it owns, shape [h, w] each."""
+    def cut(
+        cls, lines: FloatImage, owned: Mask, flow: FlowSequence, body: int, *, hidden: FloatImage | None = None
+    ) -> _LineLayer:
+        """The layer of a body from all lines and the pixels whose lines it owns, shape [h, w] each.
+
+        Args:
+            lines: of the drawing.
+            owned: where they are the body's.
+            flow: of the motion.
+            body: its number.
+            hidden: the body's own lines, also those that something in front hides; None where they are not known.
+        """
         mesh = flow.motion.bodies[body].mesh
         whole = PixelBox(0, 0, mesh.width, mesh.height)
         opaque = owned | (triangle_ids(mesh.vertices, mesh.triangles, whole) >= 0)
         canvas = canvas_of(mesh, reach=_REACH)
-        texture = on_canvas(np.dstack([np.where(owned, lines, 0), opaque]).astype(np.float32), canvas)
+        rest = np.float32(0) if hidden is None else np.where(opaque, hidden, np.float32(0))
+        texture = on_canvas(np.dstack([np.where(owned, lines, rest), opaque]).astype(np.float32), canvas)
         return cls(body, ApronedMesh.around(mesh, texture[..., 1], canvas, reach=_REACH), canvas, texture)
 
     def drawn(self, motion: Motion, t: int) -> tuple[PixelBox, FloatImage, FloatImage]:
@@ -148,6 +171,10 @@ class _LineLayer:
         y += np.arange(box.top - self.canvas.top, box.bottom - self.canvas.top, dtype=np.float32)[:, None]
         drawn = cv2.remap(self.texture, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
         moved, opaque = cv2.split(np.clip(drawn, 0, 1))
+        cover = motion.bodies[self.body].cover
+        if cover is not None:
+            seen = ~cover[box.slices]
+            moved, opaque = moved * seen, opaque * seen
         return box, moved, opaque
 
 

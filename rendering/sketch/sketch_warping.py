@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, Literal, get_args
 
 from numpy.typing import NDArray
@@ -25,6 +25,7 @@ def warped_sketches(
     *,
     mode: WarpMode = "layered",
     behind: NDArray[Any] | None = None,
+    own: Sequence[NDArray[Any]] | None = None,
     blur_sigma: float = 0.8,
 ) -> Iterator[WarpedSketch]:
     """The sketch of one frame after the other.
@@ -36,6 +37,7 @@ def warped_sketches(
         mode: "layered" moves the lines of each body with its mesh and lays them over the still ones in depth order;
             "paper" and "softmax" splat all pixels, see :func:`~physanimator.rendering.sketch.warp_sketch`.
         behind: sketch of what is behind the bodies, which shows where they leave; only "layered" can use it.
+        own: sketch of each body's own layer, see :class:`LayeredSketch`; only "layered" can use them.
         blur_sigma: Gaussian blur of the result [px]; 0 for none.
 
     Raises:
@@ -57,7 +59,8 @@ def warped_sketches(
     require("mode", mode, mode in WARP_MODES, f"one of {', '.join(WARP_MODES)}")
     wanted = range(len(flow)) if frames is None else frames
     if mode == "layered":
-        layers = LayeredSketch(sketch, flow, behind=behind)
+        layers = LayeredSketch(sketch, flow, behind=behind, own=own)
         return (layers.frame(t, blur_sigma=blur_sigma) for t in wanted)
     require("behind", "a sketch", behind is None, "left out unless mode is layered")
+    require("own", "sketches", own is None, "left out unless mode is layered")
     return (warp_sketch(sketch, flow.flow(t), mode=mode, blur_sigma=blur_sigma) for t in wanted)

@@ -1,0 +1,45 @@
+"""Laying one layer over what is behind it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from ..artwork import Blend
+
+__all__ = ["lay_over"]
+
+FloatImage = NDArray[np.float32]
+
+
+def lay_over(planes: FloatImage, layer: FloatImage, blend: Blend = "normal") -> None:
+    """Lay a layer over planes, in place.
+
+    Args:
+        planes: RGB, or premultiplied RGBA, in 0 to 1, shape [3 or 4, h, w].
+        layer: premultiplied RGB and coverage, shape [h, w, 4]; or premultiplied RGBA and coverage, shape [h, w, 5].
+        blend: how colours meet; one of five channels knows "normal" alone.
+    """
+    if blend != "normal":
+        _blend(planes, np.clip(layer, 0, 1), blend)
+        return
+    *colours, alpha = cv2.split(layer)
+    np.clip(alpha, 0, 1, out=alpha)
+    beneath = 1 - alpha
+    for plane, added in zip(planes, [*colours, alpha], strict=False):
+        plane *= beneath
+        # Bicubic resampling overshoots at edges; light that is no colour times alpha would be seen as a fringe.
+        plane += np.clip(added, 0, alpha, out=added)
+
+
+def _blend(planes: FloatImage, layer: FloatImage, blend: Blend) -> None:
+    from ..artwork import lay_over as blended
+
+    opaque = np.ones((1, *planes.shape[1:]), dtype=np.float32)
+    below = np.ascontiguousarray(np.moveaxis(np.concatenate([planes, opaque])[:4], 0, 2))
+    blended(below, layer, blend)
+    planes[:] = np.moveaxis(below, 2, 0)[: len(planes)]

@@ -1,0 +1,166 @@
+"""What an illustration gives to the simulation and to the renderer: its moving parts, from masks or from layers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..physics.errors import InvalidInputError
+from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
+from ..physics.motion import Motion
+from ..physics.scene import Body, Scene
+from .composite import LayeredRenderer, PixelArtRenderer, behind_still, hidden_by, mask_of_layer, renderer_of
+from .matting import part_mesh
+
+if TYPE_CHECKING:
+    from .artwork import Artwork
+
+__all__ = ["Parts", "about", "coverages", "parts_of_artwork", "parts_of_picture"]
+
+Image = NDArray[Any]
+Mask = NDArray[Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """The moving parts of an illustration, from back to front.
+
+    Attributes:
+        image: the illustration, RGB or straight RGBA, uint8 or float32, shape [h, w, 3] or [h, w, 4].
+        masks: where each part is, hidden places included where they are known, 0 to 1, shape [h, w] each.
+        meshes: of the parts.
+        names: of the parts; empty for those that have none.
+        presets: name of the material that suits each; None where nothing says so.
+        covers: where something that stands still is in front of each, bool, shape [h, w]; None for nowhere.
+        renderer: makes what draws a motion of the parts.
+    """
+
+    image: Image
+    masks: tuple[Mask, ...]
+    meshes: tuple[TriangleMesh, ...]
+    names: tuple[str, ...]
+    presets: tuple[str | None, ...]
+    covers: tuple[NDArray[np.bool_] | None, ...]
+    renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
+
+    def covered(self, scene: Scene) -> Scene:
+        """The scene with what is in front of its bodies, in the order of the parts."""
+        if all(cover is None for cover in self.covers):
+            return scene
+        bodies = zip(scene.bodies, self.covers, strict=True)
+        return replace(scene, bodies=tuple(replace(body, cover=cover) for body, cover in bodies))
+
+    def bodies(self, materials: Sequence[Any]) -> list[Body]:
+        """The parts as bodies of these materials, each in front of the one before."""
+        parts = zip(self.meshes, materials, self.names, strict=True)
+        return [Body(mesh, made, layer, name) for layer, (mesh, made, name) in enumerate(parts)]
+
+
+def parts_of_picture(
+    image: Image,
+    masks: Sequence[Mask],
+    names: Sequence[str],
+    *,
+    spacing: float | None,
+    plate: Image | None,
+    in_front: Mask | None,
+    pixel_art: bool,
+) -> Parts:
+    """Parts that masks show in a flat picture.
+
+    Args:
+        image: RGB or straight RGBA.
+        masks: of the parts, 0 to 1, shape [h, w] each, from back to front.
+        names: what each mask is called in errors.
+        spacing: distance of the meshes' vertices [px]; None chooses it.
+        plate: what is behind all parts; None makes a clean plate.
+        in_front: mask of what stands still in front of all parts, 0 to 1, shape [h, w]; None for nothing. Parts go on
+            behind it.
+        pixel_art: see :class:`PixelArtRenderer`.
+
+    Raises:
+        InvalidInputError: a mask gives no mesh.
+    """
+    cover = None if in_front is None else in_front > 0.5
+    if cover is not None:
+        masks = [behind_still(mask, cover) for mask in masks]
+
+    def renderer(motion: Motion) -> LayeredRenderer | PixelArtRenderer:
+        return renderer_of(image, masks, motion, plate=plate, pixel_art=pixel_art, in_front=in_front)
+
+    seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
+    meshes = tuple(_meshed(mask, spacing, name, seen) for mask, name in zip(masks, names, strict=True))
+    count = len(masks)
+    return Parts(image, tuple(masks), meshes, ("",) * count, (None,) * count, (cover,) * count, renderer)
+
+
+def parts_of_artwork(
+    artwork: Artwork, *, move: Sequence[str] = (), still: Sequence[str] = (), spacing: float | None = None
+) -> Parts:
+    """Parts that are layers of their own.
+
+    Args:
+        artwork: the layers.
+        move: names of layers that move, whatever the table of names says.
+        still: names of layers that stand still.
+        spacing: distance of the meshes' vertices [px]; None chooses it.
+
+    Raises:
+        InvalidInputError: there is no such layer, none moves, or one gives no mesh.
+    """
+    from .artwork import flattened, moving_layers
+    from .pictures import as_picture
+
+    plans = [plan for plan in moving_layers(artwork, move=move, still=still) if plan.moves]
+    if not plans:
+        raise InvalidInputError(
+            "no layer has a name that says it moves; name those that do with --move, or the node's input move."
+            f" Got: {', '.join(artwork.names)[:300]}"
+        )
+    image = as_picture(flattened(artwork), alpha=True)
+    image = image if image[..., 3].min() < np.iinfo(np.uint8).max else np.ascontiguousarray(image[..., :3])
+    indices = [plan.index for plan in plans]
+    masks, covers = [], []
+    for index in indices:
+        masks.append(mask_of_layer(artwork, index))
+        covers.append(hidden_by(artwork, index, moving=indices))
+    meshes = tuple(_meshed(mask, spacing, f"layer {plan.name}", None) for mask, plan in zip(masks, plans, strict=True))
+    return Parts(
+        image,
+        tuple(masks),
+        meshes,
+        tuple(plan.name for plan in plans),
+        tuple(plan.preset for plan in plans),
+        tuple(covers),
+        lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
+    )
+
+
+def coverages(name: str, masks: Sequence[Mask], image: Image) -> list[Mask]:
+    """Masks as numbers from 0 to 1 of the picture's size."""
+    height, width = image.shape[:2]
+    named = [(f"{name}[{number}]", mask) for number, mask in enumerate(masks)]
+    return [fitted(coverage_of(mask, name=each), width, height, name=each) for each, mask in named]
+
+
+def _meshed(part: Mask, spacing: float | None, name: str, image: Image | None) -> TriangleMesh:
+    with about(name):
+        if image is None:
+            return mesh_from_mask(part, spacing=spacing)
+        return part_mesh(image, part, spacing=spacing)
+
+
+@contextmanager
+def about(name: str) -> Iterator[None]:
+    """Let an error tell what it is about."""
+    try:
+        yield
+    except InvalidInputError as error:
+        if not name:
+            raise
+        raise type(error)(f"{name}: {error}") from error
