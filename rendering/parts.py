@@ -13,12 +13,20 @@ from numpy.typing import NDArray
 from ..physics.errors import InvalidInputError
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
-from ..physics.scene import Body, Scene
-from .composite import LayeredRenderer, PixelArtRenderer, behind_still, hidden_by, mask_of_layer, renderer_of
+from ..physics.scene import Attachment, Body, Scene
+from .composite import (
+    LayeredRenderer,
+    PixelArtRenderer,
+    behind_still,
+    hidden_by,
+    mask_of_layer,
+    renderer_of,
+    resting_on,
+)
 from .matting import part_mesh
 
 if TYPE_CHECKING:
-    from .artwork import Artwork
+    from .artwork import Artwork, LayerPlan
 
 __all__ = ["Parts", "about", "coverages", "parts_of_artwork", "parts_of_picture"]
 
@@ -37,6 +45,8 @@ class Parts:
         names: of the parts; empty for those that have none.
         presets: name of the material that suits each; None where nothing says so.
         covers: where something that stands still is in front of each, bool, shape [h, w]; None for nowhere.
+        rests: where something that stands still is behind each, the backdrop apart, as ``covers``.
+        attachments: where each is held in an automatic scene.
         renderer: makes what draws a motion of the parts.
     """
 
@@ -46,6 +56,8 @@ class Parts:
     names: tuple[str, ...]
     presets: tuple[str | None, ...]
     covers: tuple[NDArray[np.bool_] | None, ...]
+    rests: tuple[NDArray[np.bool_] | None, ...]
+    attachments: tuple[Attachment, ...]
     renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
 
     def covered(self, scene: Scene) -> Scene:
@@ -57,8 +69,11 @@ class Parts:
 
     def bodies(self, materials: Sequence[Any]) -> list[Body]:
         """The parts as bodies of these materials, each in front of the one before."""
-        parts = zip(self.meshes, materials, self.names, strict=True)
-        return [Body(mesh, made, layer, name) for layer, (mesh, made, name) in enumerate(parts)]
+        parts = zip(self.meshes, materials, self.names, self.covers, self.rests, strict=True)
+        return [
+            Body(mesh, made, layer, name, cover=cover, rests_on=rests)
+            for layer, (mesh, made, name, cover, rests) in enumerate(parts)
+        ]
 
 
 def parts_of_picture(
@@ -96,7 +111,10 @@ def parts_of_picture(
     seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
     meshes = tuple(_meshed(mask, spacing, name, seen) for mask, name in zip(masks, names, strict=True))
     count = len(masks)
-    return Parts(image, tuple(masks), meshes, ("",) * count, (None,) * count, (cover,) * count, renderer)
+    nothing = (None,) * count
+    return Parts(
+        image, tuple(masks), meshes, ("",) * count, nothing, (cover,) * count, nothing, ("auto",) * count, renderer
+    )
 
 
 def parts_of_artwork(
@@ -125,10 +143,11 @@ def parts_of_artwork(
     image = as_picture(flattened(artwork), alpha=True)
     image = image if image[..., 3].min() < np.iinfo(np.uint8).max else np.ascontiguousarray(image[..., :3])
     indices = [plan.index for plan in plans]
-    masks, covers = [], []
+    masks, covers, rests = [], [], []
     for index in indices:
         masks.append(mask_of_layer(artwork, index))
         covers.append(hidden_by(artwork, index, moving=indices))
+        rests.append(resting_on(artwork, index, moving=indices))
     meshes = tuple(_meshed(mask, spacing, f"layer {plan.name}", None) for mask, plan in zip(masks, plans, strict=True))
     return Parts(
         image,
@@ -137,8 +156,20 @@ def parts_of_artwork(
         tuple(plan.name for plan in plans),
         tuple(plan.preset for plan in plans),
         tuple(covers),
+        tuple(rests),
+        tuple(_attachment(plan) for plan in plans),
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
     )
+
+
+def _attachment(plan: LayerPlan) -> Attachment:
+    """Where a layer is held, by the hint of its name."""
+    if plan.held == "top" and plan.preset == "hair":
+        return "crown"
+    if plan.held == "covered":
+        return "covered" if plan.preset == "hair" else "end"
+    hints: dict[str | None, Attachment] = {"top": "top", "waist": "top", "bottom": "bottom", "end": "end"}
+    return hints.get(plan.held, "auto")
 
 
 def coverages(name: str, masks: Sequence[Mask], image: Image) -> list[Mask]:

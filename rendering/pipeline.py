@@ -135,7 +135,8 @@ def animate(
         if scene is None:
             suiting = [each or "hair" for each in parts.presets]
             materials = materials_of(preset or suiting, sway, len(parts.meshes))
-            whole = _automatic(parts.bodies(materials), wind, timing, attach=attach, sway_by_size=sway is None)
+            sides = parts.attachments if attach == "auto" else attach
+            whole = _automatic(parts.bodies(materials), wind, timing, attach=sides, sway_by_size=sway is None)
         else:
             given = list(parts.meshes)
             whole = given_scene(scene, given, preset=preset, sway=sway, frame_rate=timing.frame_rate)
@@ -153,7 +154,12 @@ def animate(
 
 
 def _automatic(
-    bodies: Sequence[Body], wind: AutomaticWind, timing: Timing, *, attach: Attachment, sway_by_size: bool
+    bodies: Sequence[Body],
+    wind: AutomaticWind,
+    timing: Timing,
+    *,
+    attach: Attachment | Sequence[Attachment],
+    sway_by_size: bool,
 ) -> Scene:
     """The scene where none is given."""
     return automatic_scene(

@@ -11,6 +11,7 @@ from .pixel_box import PixelBox, bounding_box
 from .raster import barycentric, interpolate, rasterise, triangle_ids
 from .run_lengths import mask_of, runs_of
 from .triangle_mesh import UNITS_ACROSS, TriangleMesh
+from .ways import ways_along
 
 __all__ = [
     "UNITS_ACROSS",
@@ -32,5 +33,6 @@ __all__ = [
     "runs_of",
     "signed_distances",
     "triangle_ids",
+    "ways_along",
     "within_reach",
 ]
