@@ -111,9 +111,9 @@ def parts_of_picture(
     seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
     meshes = tuple(_meshed(mask, spacing, name, seen) for mask, name in zip(masks, names, strict=True))
     count = len(masks)
-    nothing = (None,) * count
+    nothing, guessed = (None,) * count, tuple[Attachment, ...](["auto"] * count)
     return Parts(
-        image, tuple(masks), meshes, ("",) * count, nothing, (cover,) * count, nothing, ("auto",) * count, renderer
+        image, tuple(masks), meshes, ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer
     )
 
 

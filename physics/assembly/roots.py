@@ -4,7 +4,7 @@ Hair is thick and lies close at its root, where many strands carry each other, a
 ribbons are knotted. A body of one stiffness bends most where it is held, so that it leaves what it lies on.
 
 The stiffness of a strip goes with the cube of its width, its weight with the width alone: pointed tips of one stiffness
-curl up. A lock of hair is a bundle of fibres, which bends alike whether it has many or few, so thin places are stiffer.
+curl up. A lock of hair is a bundle of fibres, which bends alike whether it has many or few, so thin tips are stiffer.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def distances_from_root(mesh: TriangleMesh, held: NDArray[np.bool_]) -> FloatArr
 
 
 def root_factors(mesh: TriangleMesh, held: NDArray[np.bool_], root_stiffness: float) -> FloatArray:
-    """Factor on Young's modulus of each triangle, above 1 near the root and where a part is thin, shape [t].
+    """Factor on Young's modulus of each triangle, above 1 near the root and at thin tips, shape [t].
 
     Where a part is as wide as usual it is root_stiffness^(1 - distance from the root): 1 at the farthest tip.
 
@@ -56,4 +56,4 @@ def root_factors(mesh: TriangleMesh, held: NDArray[np.bool_], root_stiffness: fl
     distances = distances_from_root(mesh, held)[mesh.triangles].mean(axis=1)
     widths = local_widths(mesh)
     slender = np.clip(np.median(widths) / widths, 1, _SLENDEREST)
-    return np.asarray(root_stiffness ** (1 - distances) * slender**2)
+    return np.asarray(root_stiffness ** (1 - distances) * slender ** (2 * distances))

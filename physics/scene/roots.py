@@ -21,7 +21,7 @@ _LARGEST_HEAD, _SHORT = 0.5, 0.22
 _FOREHEAD = 0.6  # where hair leaves the forehead, in radii of the head from its top
 _MOST = 0.5  # of hair before a face: share of its height that is held at most
 _STRAND, _OF_STRAND = 0.12, 0.2  # hair of which a head would be less than this share is a strand; what is held of it
-_AROUND = 1.5  # how far hair lies around a head that covers it [radii of the head]
+_AROUND = 1.8  # how far hair lies around a head that covers it [radii of the head]
 _TOP = 0.25  # share of a part's extent that counts as its top
 _TOUCHING = 0.5  # share of the top that has to touch something for the part to hang from it
 _DEEP = 0.35  # what is held of a contact: from this share of its depth on
@@ -48,8 +48,8 @@ def covered_root(part: PartRaster) -> BoolArray:
     if not covered.any():
         return head(part)
     top, radius = _head(covered)
-    rows, columns = np.indices(covered.shape)
-    middle = columns[covered & (rows <= top + radius)].mean()
+    rows, columns = np.mgrid[: covered.shape[0], : covered.shape[1]]
+    middle = float(np.mean(columns[covered & (rows <= top + radius)]))
     around = np.hypot(rows - top - radius, columns - middle) <= _AROUND * radius
     return part.inside & ((covered & (rows <= top + 2 * radius)) | (around & (rows <= top + radius)))
 
