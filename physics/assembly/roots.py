@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import TriangleMesh, ways_along
+from ..mesh import TriangleMesh, ways_from
 from .widths import local_widths
 
 __all__ = ["distances_from_root", "root_factors"]
@@ -29,12 +29,7 @@ def distances_from_root(mesh: TriangleMesh, held: NDArray[np.bool_]) -> FloatArr
         mesh: the shape.
         held: which vertices are held, shape [v]. In parts without any all distances are 1.
     """
-    if not held.any():
-        return np.ones(len(held))
-    from scipy.sparse.csgraph import dijkstra
-
-    graph = ways_along(mesh.vertices, mesh.triangles)
-    ways = dijkstra(graph, directed=False, indices=np.flatnonzero(held), min_only=True)
+    ways = ways_from(mesh, held)
     reached, parts = np.isfinite(ways), mesh.components
     farthest = np.zeros(int(parts.max()) + 1)
     np.maximum.at(farthest, parts[reached], ways[reached])

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from .triangle_mesh import TriangleMesh
+
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-__all__ = ["ways_along"]
+__all__ = ["ways_along", "ways_from"]
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
@@ -36,6 +38,21 @@ def ways_along(positions: FloatArray, triangles: IndexArray) -> csr_array:
     lengths = np.linalg.norm(np.diff(positions[pairs], axis=1)[:, 0], axis=1)
     size = len(positions)
     return coo_array((lengths, pairs.T), shape=(size, size)).tocsr()
+
+
+def ways_from(mesh: TriangleMesh, chosen: NDArray[np.bool_]) -> FloatArray:
+    """How far along the shape each vertex is from the nearest of those chosen [px], infinite where none is, shape [v].
+
+    Args:
+        mesh: the shape.
+        chosen: some of its vertices, shape [v].
+    """
+    if not chosen.any():
+        return np.full(len(chosen), np.inf)
+    from scipy.sparse.csgraph import dijkstra
+
+    graph = ways_along(mesh.vertices, mesh.triangles)
+    return np.asarray(dijkstra(graph, directed=False, indices=np.flatnonzero(chosen), min_only=True))
 
 
 def _sides(positions: FloatArray, start: IndexArray, end: IndexArray, points: IndexArray) -> FloatArray:

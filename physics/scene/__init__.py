@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .advising import advice, mask_advice, unused_rig_points
-from .attachment import ATTACHMENTS, Attachment
+from .attachment import ATTACHMENTS, Attachment, pins
 from .automatic import automatic_scene
 from .collider_outlines import (
     LEAST_SPACING,
@@ -41,6 +41,7 @@ __all__ = [
     "holds_of",
     "mask_advice",
     "outlines",
+    "pins",
     "region_work",
     "spacing_of",
     "unused_rig_points",

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..checks import within
 from ..errors import require
-from ..mesh import TriangleMesh, ways_along
+from ..mesh import TriangleMesh, ways_from
 from ..rig import RigPoint, vertices_of
 from .attachment import Attachment, pins
 from .automatic_wind import breeze, gusts, length_of, unit_of
@@ -101,10 +101,5 @@ def swaying_by_size(body: Body, pinned: Sequence[RigPoint], *, unit: float) -> B
 
 def _free_length(mesh: TriangleMesh, pinned: Sequence[RigPoint]) -> float:
     """How far the farthest tip of the body is from what is pinned, along the shape [px]."""
-    from scipy.sparse.csgraph import dijkstra
-
-    held = np.logical_or.reduce([vertices_of(point, mesh) for point in pinned])
-    graph = ways_along(mesh.vertices, mesh.triangles)
-    ways = dijkstra(graph, directed=False, indices=np.flatnonzero(held), min_only=True)
-    longest = float(ways[np.isfinite(ways)].max(initial=0.0))
-    return longest or length_of(mesh)
+    ways = ways_from(mesh, np.logical_or.reduce([vertices_of(point, mesh) for point in pinned]))
+    return float(ways[np.isfinite(ways)].max(initial=0.0)) or length_of(mesh)
