@@ -43,6 +43,7 @@ MAY_IMPORT = {
     "rendering/files": "physics",
     "rendering/networks": "physics",
     "rendering/pictures": "physics physics/mesh rendering/files",
+    "rendering/artwork": "physics rendering/files rendering/pictures",
     "rendering/matting": "physics physics/mesh rendering/pictures",
     "rendering/metrics/learned": "physics rendering/files rendering/networks rendering/pictures",
     "rendering/svd": "physics rendering/networks rendering/pictures",
@@ -106,7 +107,7 @@ MAY_IMPORT = {
 NOT_INSIDE = {"physics": {"PIL", "av"} | HOST | NEURAL, "rendering": HOST, "nodes": set(), "": HOST}
 """Packages that no room of a house may import."""
 
-HEAVY = {"PIL", "av", "jsonschema", "pythoncdt", "scipy", "taichi", "tqdm"} | NEURAL
+HEAVY = {"PIL", "av", "jsonschema", "psd_tools", "pythoncdt", "scipy", "taichi", "tqdm"} | NEURAL
 
 LIGHT = {"numpy", "cv2"}
 """Packages outside the standard library that any module may import at its top."""
