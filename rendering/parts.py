@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,7 @@ from .matting import part_mesh
 if TYPE_CHECKING:
     from .artwork import Artwork
 
-__all__ = ["Parts", "about", "coverages", "parts_of_artwork", "parts_of_picture"]
+__all__ = ["Parts", "about", "coverage", "coverages", "parts_of_artwork", "parts_of_picture", "picture_of"]
 
 Image = NDArray[Any]
 Mask = NDArray[Any]
@@ -113,8 +114,7 @@ def parts_of_artwork(
     Raises:
         InvalidInputError: there is no such layer, none moves, or one gives no mesh.
     """
-    from .artwork import flattened, moving_layers
-    from .pictures import as_picture
+    from .artwork import moving_layers
 
     plans = [plan for plan in moving_layers(artwork, move=move, still=still) if plan.moves]
     if not plans:
@@ -122,8 +122,7 @@ def parts_of_artwork(
             "no layer has a name that says it moves; name those that do with --move, or the node's input move."
             f" Got: {', '.join(artwork.names)[:300]}"
         )
-    image = as_picture(flattened(artwork), alpha=True)
-    image = image if image[..., 3].min() < np.iinfo(np.uint8).max else np.ascontiguousarray(image[..., :3])
+    image = picture_of(artwork)
     indices = [plan.index for plan in plans]
     masks, covers = [], []
     for index in indices:
@@ -141,11 +140,30 @@ def parts_of_artwork(
     )
 
 
+def picture_of(artwork: Artwork) -> Image:
+    """An artwork as one picture, made once: RGB, or straight RGBA where it has transparency, uint8 or float32."""
+    from .artwork import flattened
+    from .pictures import as_picture
+
+    if artwork not in _PICTURES:
+        flat = flattened(artwork)
+        opaque = flat[..., 3].min(initial=0) == np.iinfo(flat.dtype).max
+        _PICTURES[artwork] = as_picture(np.ascontiguousarray(flat[..., :3]) if opaque else flat, alpha=True)
+    return _PICTURES[artwork]
+
+
+_PICTURES: WeakKeyDictionary[Artwork, Image] = WeakKeyDictionary()
+
+
 def coverages(name: str, masks: Sequence[Mask], image: Image) -> list[Mask]:
     """Masks as numbers from 0 to 1 of the picture's size."""
+    return [coverage(f"{name}[{number}]", mask, image) for number, mask in enumerate(masks)]
+
+
+def coverage(name: str, mask: Mask, image: Image) -> Mask:
+    """A mask as numbers from 0 to 1 of the picture's size."""
     height, width = image.shape[:2]
-    named = [(f"{name}[{number}]", mask) for number, mask in enumerate(masks)]
-    return [fitted(coverage_of(mask, name=each), width, height, name=each) for each, mask in named]
+    return fitted(coverage_of(mask, name=name), width, height, name=name)
 
 
 def _meshed(part: Mask, spacing: float | None, name: str, image: Image | None) -> TriangleMesh:

@@ -48,7 +48,9 @@ MAY_IMPORT = {
     "rendering/metrics/learned": "physics rendering/files rendering/networks rendering/pictures",
     "rendering/svd": "physics rendering/networks rendering/pictures",
     "rendering/plate": "physics physics/mesh rendering/matting rendering/pictures",
-    "rendering/composite": "physics physics/mesh physics/motion rendering/matting rendering/pictures rendering/plate",
+    "rendering/composite": (
+        "physics physics/mesh physics/motion rendering/artwork rendering/matting rendering/pictures rendering/plate"
+    ),
     "rendering/overlays": (
         "physics physics/forces physics/mesh physics/motion physics/rig physics/scene rendering/pictures"
     ),
@@ -65,8 +67,8 @@ MAY_IMPORT = {
     "rendering/segmentation": "physics physics/document physics/scene rendering/pictures rendering/sketch",
     "rendering/sketch/drawings": "physics rendering/networks rendering/pictures rendering/sketch",
     "rendering": (
-        "physics physics/assembly physics/document physics/material physics/mesh physics/motion physics/scene "
-        "physics/simulation rendering/composite rendering/files rendering/inbetweens rendering/matting "
+        "physics physics/assembly physics/document physics/mesh physics/motion physics/scene "
+        "physics/simulation rendering/artwork rendering/composite rendering/files rendering/inbetweens rendering/matting "
         "rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
     ),
     "rendering/segmentation/sam": (
@@ -77,7 +79,7 @@ MAY_IMPORT = {
     ),
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
-        "physics/scene rendering rendering/composite rendering/figures rendering/files rendering/metrics "
+        "physics/scene rendering rendering/artwork rendering/composite rendering/figures rendering/files rendering/metrics "
         "rendering/metrics/learned rendering/pictures rendering/segmentation"
     ),
     # nodes: the host

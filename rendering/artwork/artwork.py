@@ -20,7 +20,7 @@ Blend = Literal["normal", "multiply", "screen", "overlay", "add"]
 Pixels = NDArray[Any]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ArtLayer:
     """One layer of an artwork.
 
@@ -70,7 +70,7 @@ class ArtLayer:
         return self.left, self.top, self.left + width, self.top + height
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Artwork:
     """An illustration in layers.
 

@@ -18,7 +18,7 @@ _READERS = {".psd": read_psd, ".psb": read_psd}
 
 def is_artwork_file(path: StrPath) -> bool:
     """Whether a name is that of a layered file, or a folder is there."""
-    return Path(path).suffix.lower() in _READERS or Path(path).is_dir()
+    return Path(path).suffix.lower() in _READERS or os.path.isdir(path)
 
 
 def load_artwork(path: StrPath) -> Artwork:

@@ -174,11 +174,22 @@ def _animate(options: argparse.Namespace) -> None:
     check_outputs(options)
     image, inputs = read_inputs(options)
     check_taken(options, image)
-    check_sizes(options, image)
+    check_sizes(options, _picture(image))
     _run(options, image, **inputs)
 
 
+def _picture(image: Any) -> Any:
+    """The picture that a flat illustration is, or that layered artwork gives."""
+    import numpy as np
+
+    from ..parts import picture_of
+
+    return image if isinstance(image, np.ndarray) else picture_of(image)
+
+
 def _measure(options: argparse.Namespace) -> None:
+    import numpy as np
+
     from ..pictures import over
     from ..pipeline import animate
     from .inputs import check_inputs, check_taken, read_inputs, read_plate
@@ -189,7 +200,7 @@ def _measure(options: argparse.Namespace) -> None:
     check_measures(options)
     image, inputs = read_inputs(options)
     check_taken(options, image)
-    image = over(image)  # clips are compared by their colours
+    image = over(image) if isinstance(image, np.ndarray) else image  # clips are compared by their colours
     plate = read_plate(options, alpha=False)
     with ExitStack() as bars:
         progress = _progress(options, bars)
@@ -211,9 +222,9 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     from .outputs import background_for, report, write_outputs
 
     plate = read_plate(options)
-    background_for(options, image)
+    background_for(options, _picture(image))
     if not (options.pixel_art or options.quiet):
-        for sentence in pixel_art_hint(image, option="--pixel-art"):
+        for sentence in pixel_art_hint(_picture(image), option="--pixel-art"):
             warn(f"physanimator: hint: {sentence}")
     with ExitStack() as bars:
         progress = _progress(options, bars)
