@@ -290,7 +290,7 @@ def test_interruption_is_status_130_and_keeps_the_earlier_file(
 
         return advance
 
-    monkeypatch.setattr("physanimator.rendering.command.commands._progress_bars", interrupting)
+    monkeypatch.setattr("physanimator.rendering.command.messages.progress_bars", interrupting)
     (folder / "out.mp4").write_bytes(b"earlier")
     before = sorted(folder.iterdir())
     assert status("animate", "girl.png", "--mask", "hair.png", "--frames", "4", "--output", "out.mp4") == 130
@@ -327,7 +327,7 @@ def test_help_names_every_preset_and_loads_nothing(capsys: Output) -> None:
     script = (
         "import runpy, sys\n"
         f"runpy.run_path({str(ROOT / 'tests' / 'conftest.py')!r})\n"
-        "from physanimator.rendering.command.commands import main\n"
+        "from physanimator.rendering.command import main\n"
         "try: main(['animate', '--help'])\n"
         "except SystemExit: pass\n"
         "print(sorted({'numpy', 'cv2', 'taichi', 'torch'} & set(sys.modules)))\n"

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from physanimator.rendering.command import EXAMPLE, main
-from physanimator.rendering.command.commands import _parser
+from physanimator.rendering.command.commands import command_parser
 from physanimator.rendering.command.files import INPUTS, OUTPUTS
 from physanimator.rendering.pictures import save_image
 
@@ -196,7 +196,7 @@ def test_bundled_example_is_kept(capsys: Output) -> None:
 def test_every_option_that_names_a_file_is_known() -> None:
     """Whoever adds an option that reads or writes a file adds it to the lists that keep files apart."""
     commands = next(
-        action.choices for action in _parser()._actions if isinstance(action, argparse._SubParsersAction)
+        action.choices for action in command_parser()._actions if isinstance(action, argparse._SubParsersAction)
     ).values()
     actions = [action for command in commands for action in command._actions]
     written = {each.dest for each in actions if str(each.metavar).startswith("OUT")}
