@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.mesh import PixelBox
+from ..pictures import StructureTensor, gradients
 
 __all__ = ["on_canvas"]
 
@@ -76,18 +77,16 @@ def _continued(image: FloatImage, rows: int) -> FloatImage:
 
 def _slopes(strip: FloatImage) -> NDArray[np.float32]:
     """How far the lines of a strip go to the right on each row further down [px], shape [w]."""
-    across, down = (
-        cv2.Scharr(strip, cv2.CV_32F, *way).reshape(strip.shape) / np.float32(32) for way in ((1, 0), (0, 1))
-    )
+    across, down = gradients(strip)
     # Rows at the strip's own border have no gradient down.
     rows = slice(1, -1) if len(strip) > 2 else slice(None)
     xx, xy, yy = (
         cv2.GaussianBlur((a * b)[rows].sum(axis=2).mean(axis=0)[None], (0, 0), _SIGMA)[0]
         for a, b in ((across, across), (across, down), (down, down))
     )
-    angle = 0.5 * np.arctan2(2 * xy, xx - yy)  # across the lines, from the x axis
-    spread = np.sqrt((xx - yy) ** 2 + 4 * xy * xy)
+    tensor = StructureTensor(xx, xy, yy)
+    spread = tensor.spread
     clear = spread * spread / np.maximum(xx + yy, 1e-12)
-    slope = np.clip(-np.tan(angle), -_STEEPEST, _STEEPEST)
+    slope = np.clip(-np.tan(tensor.across), -_STEEPEST, _STEEPEST)
     weight, total = (cv2.GaussianBlur(values[None], (0, 0), _SIGMA)[0] for values in (clear, clear * slope))
     return np.asarray(total / (weight + np.float32(_FAINT)), dtype=np.float32)

@@ -13,6 +13,7 @@ from .nearest import nearest_pixels
 from .pixel_windows import window_around
 from .pixels import as_dtype, as_float, as_grey, as_picture, as_uint8, check_picture
 from .premultiplication import premultiplied, resized, straight
+from .structure_tensor import StructureTensor, gradients
 from .transparency import WHITE, Colour, is_transparent, over
 from .video import check_output, write_animation
 
@@ -21,6 +22,7 @@ __all__ = [
     "RECORD",
     "WHITE",
     "Colour",
+    "StructureTensor",
     "as_dtype",
     "as_float",
     "as_grey",
@@ -32,6 +34,7 @@ __all__ = [
     "check_picture",
     "data_address",
     "frames_in",
+    "gradients",
     "holds_alpha",
     "is_frame_name",
     "is_transparent",

@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pictures import StructureTensor, gradients
 from .line_end import HALF_WIDTH, LEAST_REACH, LineEnd
 
 __all__ = ["DISTANCE", "line_ends"]
@@ -79,16 +80,15 @@ def line_ends(picture: FloatImage, hole: Mask) -> list[LineEnd]:
 def _structure(picture: FloatImage, known: FloatImage) -> _Field:
     """The structure tensor's eigenvectors, from known pixels alone."""
     inner = cv2.erode(known, np.ones((3, 3), np.uint8))
-    planes = []
-    dx, dy = (cv2.Scharr(picture, cv2.CV_32F, *way) / np.float32(32) * inner[..., None] for way in ((1, 0), (0, 1)))
+    dx, dy = (change * inner[..., None] for change in gradients(picture))
     weight = np.maximum(cv2.GaussianBlur(inner, (0, 0), _SIGMA), 1e-3)
-    for product in (dx * dx, dx * dy, dy * dy):
-        planes.append((cv2.GaussianBlur(product.sum(axis=2), (0, 0), _SIGMA) / weight).astype(np.float64))
-    xx, xy, yy = planes
-    spread = np.sqrt((xx - yy) ** 2 + 4 * xy * xy)
-    across = 0.5 * np.arctan2(2 * xy, xx - yy)
-    along = np.stack([-np.sin(across), np.cos(across)], axis=-1)
-    return _Field(along, np.sqrt((xx + yy + spread) / 2), spread / np.maximum(xx + yy, 1e-9))
+    xx, xy, yy = (
+        (cv2.GaussianBlur(product.sum(axis=2), (0, 0), _SIGMA) / weight).astype(np.float64)
+        for product in (dx * dx, dx * dy, dy * dy)
+    )
+    tensor = StructureTensor(xx, xy, yy)
+    spread = tensor.spread
+    return _Field(tensor.along, np.sqrt((xx + yy + spread) / 2), spread / np.maximum(xx + yy, 1e-9))
 
 
 def _ends_along(

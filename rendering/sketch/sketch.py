@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import require
-from ..pictures import as_float, as_picture
+from ..pictures import StructureTensor, as_float, as_picture
 
 __all__ = ["cleaned", "extract_sketch"]
 
@@ -129,9 +129,7 @@ def _tangents(picture: FloatImage, sigma: float) -> FloatImage:
         cv2.accumulateSquare(dy, yy)
         cv2.accumulateProduct(dx, dy, xy)
     xx, yy, xy = (_blurred(product, sigma) for product in (xx, yy, xy))
-    # The tangent is the eigenvector of the smaller eigenvalue: half the double angle, turned by a right angle.
-    angle = 0.5 * np.arctan2(2 * xy, xx - yy)
-    return np.dstack([-np.sin(angle), np.cos(angle)])
+    return np.asarray(StructureTensor(xx, xy, yy).along)
 
 
 def _smoothed_along_lines(response: FloatImage, tangents: FloatImage, length: float) -> FloatImage:

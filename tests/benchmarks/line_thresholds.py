@@ -18,13 +18,12 @@ import numpy as np
 import source_tree  # noqa: F401
 from numpy.typing import NDArray
 from physanimator.rendering.pictures import as_float, load_image
-from physanimator.rendering.plate import line_continuation, line_end, line_ends
+from physanimator.rendering.plate import line_continuation, line_end, line_ends, line_pairs
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example" / "illustration.png"
 THRESHOLDS: dict[ModuleType, str] = {
-    line_continuation: (
-        "_BEND _ASYMMETRY _DIFFERENCE _RELATIVE _LARGEST_COST _DISTINCT _ELSEWHERE _BAND _CROSSING _SHORTEST_GAP _FALL"
-    ),
+    line_continuation: "_BAND _CROSSING _FALL",
+    line_pairs: "_BEND _ASYMMETRY _DIFFERENCE _RELATIVE _LARGEST_COST _DISTINCT _ELSEWHERE _SHORTEST_GAP",
     line_ends: "_SIGMA _FAINTEST _STEEPEST _APART _STEPS _FEWEST _LINE",
     line_end: "_REST _REST_IN_MEAN _RESTING",
 }
