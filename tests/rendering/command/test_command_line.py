@@ -13,9 +13,10 @@ import av
 import numpy as np
 import physanimator
 import pytest
+from command_status import status
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import PRESETS
-from physanimator.rendering.command import EXAMPLE, main
+from physanimator.rendering.command import EXAMPLE
 from physanimator.rendering.pictures import load_image, save_image
 from PIL import Image
 
@@ -44,14 +45,6 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "broken.json").write_text('{"version": 1,')
     (tmp_path / "wrong.json").write_text(json.dumps({**scene, "strokes": [{"kind": "storm"}]}))
     return tmp_path
-
-
-def status(*arguments: str) -> int:
-    """Exit status of one command, however it ends."""
-    try:
-        return main(arguments)
-    except SystemExit as ended:
-        return int(ended.code or 0)
 
 
 def frames_of(path: str | Path) -> int:

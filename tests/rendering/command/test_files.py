@@ -11,7 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from physanimator.rendering.command import EXAMPLE, main
+from command_status import status
+from physanimator.rendering.command import EXAMPLE
 from physanimator.rendering.command.commands import command_parser
 from physanimator.rendering.command.files import INPUTS, OUTPUTS
 from physanimator.rendering.pictures import save_image
@@ -37,13 +38,6 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "points.json").write_text("[[40, 30, 1]]")
     (tmp_path / "sub").mkdir()
     return tmp_path
-
-
-def status(*arguments: str) -> int:
-    try:
-        return main(arguments)
-    except SystemExit as ended:
-        return int(ended.code or 0)
 
 
 def contents(folder: Path) -> dict[str, bytes]:
