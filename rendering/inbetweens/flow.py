@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..pictures import as_dtype, as_uint8
+from ..pictures import as_dtype, as_uint8, optical_flow
 from ..sketch import forward_warp
 from .backend import Clip, FloatImage, ModelFile
 
@@ -84,10 +84,7 @@ def _flow(start: FloatImage, end: FloatImage) -> FloatImage:
     """Displacement from one picture to another [px], shape [h, w, 2]."""
     shown = (as_uint8(picture[..., :3]) for picture in (start, end))
     greys = [cv2.cvtColor(np.ascontiguousarray(picture), cv2.COLOR_RGB2GRAY) for picture in shown]
-    if min(greys[0].shape) < 16:
-        return np.zeros((*greys[0].shape, 2), np.float32)
-    search = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM)
-    flow = search.calc(greys[0], greys[1], None)
+    flow = optical_flow(*greys)
     flow[(cv2.magnitude(*cv2.split(flow)) < _STILL) | ~_changed(start, end)] = 0
     return flow
 

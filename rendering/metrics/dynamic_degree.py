@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..pictures import as_uint8
+from ..pictures import LEAST_FLOW_SIDE, as_uint8, optical_flow
 
 __all__ = ["DynamicDegree"]
 
@@ -14,8 +14,6 @@ FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
 _STRONGEST = 0.05
-# Of a picture whose flow OpenCV can tell [px].
-_LEAST_SIDE = 16
 
 
 class DynamicDegree:
@@ -32,8 +30,8 @@ class DynamicDegree:
 
     def add(self, frame: FloatImage) -> None:
         grey = cv2.cvtColor(as_uint8(frame), cv2.COLOR_RGB2GRAY)
-        if self._previous is not None and min(grey.shape) >= _LEAST_SIDE:
-            flow = cv2.DISOpticalFlow_create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM).calc(self._previous, grey, None)
+        if self._previous is not None and min(grey.shape) >= LEAST_FLOW_SIDE:
+            flow = optical_flow(self._previous, grey)
             lengths = np.sort(np.hypot(flow[..., 0], flow[..., 1]), axis=None)
             self._degrees.append(float(lengths[-max(1, round(_STRONGEST * lengths.size)) :].mean()))
         self._previous = grey

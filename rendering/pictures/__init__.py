@@ -10,6 +10,7 @@ from .frame_folder import frames_in, is_frame_name
 from .frame_record import RECORD
 from .images import check_image_output, data_address, load_image, load_mask, save_image
 from .nearest import nearest_pixels
+from .optical_flow import LEAST_FLOW_SIDE, optical_flow
 from .pixel_windows import window_around
 from .pixels import as_dtype, as_float, as_grey, as_picture, as_uint8, check_picture
 from .premultiplication import premultiplied, resized, straight
@@ -19,6 +20,7 @@ from .video import check_output, write_animation
 
 __all__ = [
     "FORMATS",
+    "LEAST_FLOW_SIDE",
     "RECORD",
     "WHITE",
     "Colour",
@@ -41,6 +43,7 @@ __all__ = [
     "load_image",
     "load_mask",
     "nearest_pixels",
+    "optical_flow",
     "over",
     "premultiplied",
     "read_clip",

@@ -25,7 +25,7 @@ FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-# tests/benchmarks/line_thresholds.py measures half and twice each threshold on holes cut into the example and a sample:
+# tests/benchmarks/thresholds.py measures half and twice each threshold on holes cut into the example and a sample:
 # _BAND decides how much is drawn, _CROSSING and _FALL change it by a fifth at most.
 
 # The borders of a band are parallel (cosine of their angle) and no further apart than this [px].

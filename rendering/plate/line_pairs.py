@@ -14,7 +14,7 @@ FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-# tests/benchmarks/line_thresholds.py measures half and twice each threshold on holes cut into the example and a sample:
+# tests/benchmarks/thresholds.py measures half and twice each threshold on holes cut into the example and a sample:
 # _ASYMMETRY, _RELATIVE, _LARGEST_COST and _DISTINCT decide how much is drawn, from nothing to four times as much;
 # _BEND, _DIFFERENCE, _ELSEWHERE and _SHORTEST_GAP change it by a fifth at most.
 
