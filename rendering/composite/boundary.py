@@ -15,6 +15,7 @@ IndexArray = NDArray[np.int64]
 
 # Beyond the last pixel of the rim, so that resampling reads the transparent pixels next to it.
 _MARGIN = 2.0
+# No apron is narrower than a pixel, so that none of its triangles is empty [px].
 _NARROWEST = 1.0
 SHARPEST_MITRE = 2.0
 """A mitred corner lies at most this many apron widths from the boundary, however sharp the boundary turns."""

@@ -14,6 +14,7 @@ __all__ = ["CarriedPixels"]
 Places = NDArray[np.int32]
 Mask = NDArray[np.bool_]
 
+# Where the mesh is not; no picture is so wide that a place on it could be taken for this.
 _NOWHERE = -1e6
 
 

@@ -17,10 +17,16 @@ Mask = NDArray[np.bool_]
 ALL = np.float32(1e-4)
 """A share as near to 1 as this is 1: what is left could not be told from rounding."""
 
+# Alpha on the silhouette itself.
 _HALF = 0.5
-# A guessed silhouette is looked at with this much around it [px]. How sharply it may bend goes by the depth of the
-# hole, up to a limit [px]; so many times it is rounded.
+
+# Measured on holes of 14 and 30 px in the silhouettes of discs, waves, boxes and ramps (mean error of alpha 0.019):
+# half and twice _AROUND and _LARGEST_BEND change nothing, _ROUNDINGS changes it by a tenth; half of _ROUNDNESS doubles
+# it, twice takes off a seventh.
+
+# A guessed silhouette is looked at with this much around it [px].
 _AROUND = 60
+# It is rounded by a blur as wide as the hole is deep over the first of these, up to the second [px], so many times.
 _ROUNDNESS = 5.0
 _LARGEST_BEND = 12.0
 _ROUNDINGS = 12

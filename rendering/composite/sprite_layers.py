@@ -27,6 +27,7 @@ __all__ = ["sprite_hole", "sprite_plate", "take_sprite_apart"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
+# Alpha from which a pixel counts as opaque.
 _OPAQUE = 0.95
 # Colours nearer than this to the silhouette are those of its outline [px].
 _OUTLINE = 4

