@@ -13,6 +13,7 @@ __all__ = ["DynamicDegree"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
+# Share of the picture that moves most, in which the degree is measured.
 _STRONGEST = 0.05
 
 

@@ -13,6 +13,7 @@ __all__ = ["StaticDrift", "still_region"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
+# Outlines and soft edges reach this far out of a body [px].
 _BESIDE = 4
 
 

@@ -63,7 +63,7 @@ def scale_to(canvas: Canvas, width: int, height: int) -> NDArray[np.float64]:
 
 
 def thin_width(canvas: Canvas) -> int:
-    """Width of a thin line, so that overlays look alike at every resolution [px]."""
+    """Width of a thin line [px]: 1 for every 1280 px of the longer side, so that overlays look alike at every size."""
     return max(1, round(max(canvas.shape[:2]) / 1280))
 
 

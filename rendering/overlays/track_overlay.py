@@ -88,6 +88,7 @@ def draw_tracks(image: NDArray[Any], tracks: Tracks, sample: int, *, tail: int =
 def _colours(path: NDArray[np.float64]) -> list[tuple[int, int, int]]:
     """A colour for each point: far apart for neighbours in order, grey for what stands still."""
     moves = (path.max(axis=0) - path.min(axis=0)).max(axis=1) > _STILL
+    # Steps of the golden ratio: each hue falls into the widest gap that earlier ones leave.
     hues = (0.618034 * np.arange(len(moves))) % 1.0
     bright = [tuple(round(255 * part) for part in colorsys.hsv_to_rgb(hue, 0.75, 1.0)) for hue in hues]
     return [(red, green, blue) if moved else _GREY for (red, green, blue), moved in zip(bright, moves, strict=True)]

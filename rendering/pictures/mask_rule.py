@@ -20,6 +20,8 @@ __all__ = ["EMPTY", "MaskFile", "judged"]
 StrPath = str | os.PathLike[str]
 FloatPlane = NDArray[np.float32]
 
+# The masks of tests/rendering/pictures/test_mask_files.py are read the same at half and twice of _COLOURED, _FEW,
+# _CLEAR, _DARK and _FAINT.
 _COLOURED = 40  # difference of the channels from which a pixel is no grey [8-bit levels]
 _FEW = 0.05  # of what is white: so much may be coloured by accident
 _CLEAR = 0.001  # of the picture: less transparency than this is an accident

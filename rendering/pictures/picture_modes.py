@@ -70,6 +70,7 @@ def grey_numbers(picture: Image.Image, *, name: str = "picture") -> NDArray[Any]
     ranges: tuple[float, ...] = (1.0, 255.0, 65535.0) if fractions else (255.0, 65535.0, 2.0**31 - 1)
     if picture.mode.startswith("I;16") or picture.format == "PNG":
         ranges = (65535.0,)
+    # Above 1 and below 16 it may be a picture brighter than white, or a nearly black one of 255 levels.
     unclear = fractions and 1 + OVERSHOOT < high < 16
     fitting = [each for each in ranges if high <= each * (1 + OVERSHOOT if fractions and each == 1 else 1)]
     if low < (-OVERSHOOT if fractions else 0) or unclear or not fitting:

@@ -15,9 +15,11 @@ FloatImage = NDArray[np.float32]
 FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+# Larger windows are filled at half their size, which is a quarter of the work [px^2].
 _LARGEST_WINDOW = 600_000
 # Colours along the edge are averaged over this width before they are grouped [px]: a texture is one thing.
 _ALONG = 12.0
+# Colours along the edge are told apart in no more groups than this.
 _GROUPS = 8
 # Groups that differ less than about this are on one side.
 _ALIKE = 0.2

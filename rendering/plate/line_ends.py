@@ -20,6 +20,7 @@ Mask = NDArray[np.bool_]
 DISTANCE = 5
 """Lines are looked for this far outside the hole [px], where the tensor's window sees enough of them."""
 
+# A profile reaches this far, so that colours can be told to rest beside the widest line [px].
 _REACH = HALF_WIDTH + 5
 
 # Half and twice each of these, measured as in line_continuation: _FAINTEST changes how much is drawn by 40 % at most,
@@ -38,9 +39,11 @@ _APART = 6
 # Steps of one pixel along which a line is followed, and the fewest that it must run on.
 _STEPS = 24
 _FEWEST = 12
+# The strongest so many are followed: pairs are compared each with each.
 _MOST_ENDS = 160
 # The middle of a line is looked for within about this [px].
 _LINE = 4.0
+# Rounds in which the window moves to the middle that it finds.
 _CENTRINGS = 8
 
 

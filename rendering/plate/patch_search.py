@@ -22,7 +22,9 @@ _SIDE = 2 * RADIUS + 1
 _SQUARE = np.ones((_SIDE, _SIDE), np.uint8)
 # Patches are compared by this many of their principal components.
 _COMPONENTS = 12
+# The components are found from so many patches, taken at random.
 _SAMPLES = 4000
+# How often all finds are handed to the neighbours in a round.
 _SWEEPS = 2
 # What a deviation of the guide's colour counts against one of each of the patch's pixels.
 _GUIDE_WEIGHT = 0.1
@@ -122,6 +124,7 @@ class PatchSearch:
                 for neighbour in self.steps:
                     self._propagate(neighbour, stride)
             self._guess()
+        # As in Wexler et al.: the squared spread of the weights is the 75th percentile of all costs.
         scale = 2 * np.percentile(self.cost, 75) + 1e-9
         trust = np.zeros(self.usable.size, dtype=np.float32)
         trust[self.targets] = np.exp(-self.cost / scale) * self.fading
@@ -165,7 +168,7 @@ class PatchSearch:
             row = np.clip(row + shift[0], RADIUS, self.shape[0] - 1 - RADIUS)
             column = np.clip(column + shift[1], RADIUS, self.shape[1] - 1 - RADIUS)
             self._try(row * self.shape[1] + column)
-            radius /= 2.5
+            radius /= 2.5  # PatchMatch halves it; this needs a quarter fewer guesses
 
     def _try(self, source: IndexArray) -> None:
         source = np.clip(source, 0, self.usable.size - 1)

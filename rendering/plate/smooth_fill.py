@@ -18,6 +18,7 @@ Mask = NDArray[np.bool_]
 _FILL_POWER = 5.0
 # How deep in a hole the harmonic fill has taken over [px].
 _DEPTH = 100.0
+# Rounds of averaging at each scale, after the start that the coarser one gives.
 _SWEEPS = 30
 # It has taken over only where it differs by less than about this from the colours nearby.
 _AGREEMENT = 0.4
@@ -25,6 +26,7 @@ _AGREEMENT = 0.4
 _BESIDE = 6
 _FEWEST = 30
 _MOST = 4000
+# Rounds in which least squares come close to least absolute deviations.
 _REWEIGHTINGS = 12
 # A bowl is believed in if its mean deviation is less than this share of the plane's.
 _BETTER = 0.4
@@ -38,7 +40,9 @@ _LINE_DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (9, 9))
 # Where more than this share of the surroundings within about this distance [px] is like it, it is texture.
 _MOST_INK = 0.1
 _AROUND = 20.0
+# Far beyond every colour: unknown pixels must win neither a maximum nor a minimum.
 _NO_COLOUR = np.float32(9)
+# Pictures of which a side is no longer than this are solved for directly, too [px].
 _COARSEST = 8
 # Up to so many pixels the harmonic fill is solved for directly.
 _SOLVED = 16_000
