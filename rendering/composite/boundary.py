@@ -69,7 +69,10 @@ class Boundary:
         return np.concatenate([np.stack([a, b, outer_b], axis=1), np.stack([a, outer_b, outer_a], axis=1)])
 
     def leading(self, outer: FloatArray) -> tuple[IndexArray, FloatArray]:
-        """Vertices whose affine maps, the mean of both triangles at each corner, lead it, and their weights."""
+        """The vertices that each outer corner follows, shape [e, 6], and their weights, of sum 1.
+
+        They are those of the triangles on both sides of the corner, by the mean of whose affine maps it moves.
+        """
         owners = self.mesh.boundary_triangles
         corners = self.mesh.triangles[np.stack([owners, owners[self.next]])].astype(np.int64)
         weights = np.stack([barycentric(outer, self.mesh.vertices[triangle]) for triangle in corners])
@@ -78,7 +81,10 @@ class Boundary:
     def _free_width(
         self, needed: FloatArray, canvas: PixelBox, distance: NDArray[np.float32], nearest: IndexArray
     ) -> FloatArray:
-        """How far from each edge the first pixel of another strand lies [px], infinite where there is none."""
+        """How far from each edge the first pixel of another strand lies [px], infinite where there is none.
+
+        Another strand is another loop of the boundary, or a place far along the same one.
+        """
         trial = self.corners(needed)
         points = np.concatenate([self.mesh.vertices, trial])
         fragments = rasterise(points, self.quads(len(self.mesh.vertices)), canvas)

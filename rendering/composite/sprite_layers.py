@@ -150,10 +150,11 @@ def _with_strips(support: Mask, opacity: FloatImage) -> Mask:
 
 
 def _fitting_share(share: FloatImage, opacity: FloatImage, behind: FloatImage, support: Mask) -> FloatImage:
-    """How much a body covers of what is behind it: in its support at least what the alpha there leaves over.
+    """The alpha of a body between two bounds that the picture's transparency sets.
 
-    Its own transparency lets through what will be behind it elsewhere; only where it is all but opaque, and so is what
-    is behind, may it cover more.
+    Least, within its support: enough that the body over what is behind gives the alpha of the picture. Most: the alpha
+    of the picture itself, so that a see-through body lets through whatever it moves in front of; where the picture is
+    opaque, what is behind may be too, and the bound is higher.
     """
     least = np.clip((opacity - behind) / np.maximum(1 - behind, np.float32(1e-6)), 0, 1)
     most = np.where(opacity > _OPAQUE, 1 - (1 - opacity) * (1 - behind), opacity)

@@ -31,9 +31,9 @@ Mask = NDArray[np.bool_]
 # The borders of a band are parallel (cosine of their angle) and no further apart than this [px].
 _PARALLEL = 0.97
 _BAND = 24.0
-# This share of a line's way lies in the hole.
+# At least this share of a line's way lies in the hole.
 _MOSTLY = 0.8
-# Lines may cross each other where both fit as well as this.
+# Lines may cross each other where neither costs more than this.
 _CROSSING = 0.7
 # Steps along a curve and across it [px]; half a pixel leaves no pixel of a strip out.
 _SAMPLING = 0.5
@@ -97,9 +97,10 @@ def _within(curve: FloatArray, hole: Mask) -> bool:
 
 
 def _whole_bands(bridges: list[_Bridge], ends: list[LineEnd]) -> list[_Bridge]:
-    """Without the bridges beside which, at either end, a parallel line stops at the hole.
+    """Drop bridges beside which a parallel line ends at the hole and is not continued.
 
-    The colours of a band of which only one border goes on would flow out of it.
+    Both are borders of one band: with only one of them drawn through the hole, the band's colours would flow out of it.
+    Dropping one may leave its neighbour alone in turn, hence the loop.
     """
     kept = bridges
     while True:
@@ -117,7 +118,13 @@ def _beside(end: LineEnd, others: list[LineEnd]) -> bool:
 
 
 def _crosses(taken: FloatArray, pixels: tuple[IndexArray, IndexArray], cost: float) -> bool:
-    """Whether a line crosses one already taken, the costs of which are given, without both being certain."""
+    """Whether a line crosses another one and either of them fits too badly for a crossing to be believed.
+
+    Args:
+        taken: cost of the line that is drawn at each pixel so far, infinite where there is none, shape [h, w].
+        pixels: of the new line.
+        cost: of the new line.
+    """
     others = taken[pixels]
     there = np.isfinite(others)
     return bool(there.any()) and max(cost, float(others[there].max())) > _CROSSING

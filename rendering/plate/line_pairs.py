@@ -18,8 +18,9 @@ Mask = NDArray[np.bool_]
 # _ASYMMETRY, _RELATIVE, _LARGEST_COST and _DISTINCT decide how much is drawn, from nothing to four times as much;
 # _BEND, _DIFFERENCE, _ELSEWHERE and _SHORTEST_GAP change it by a fifth at most.
 
-# How much each of these counts as a cost of one: the bend of an arc, and what its two halves bend differently
-# [radians]; how much the mean colours differ (in 0 to 1), and the profiles about them, as a share of their contrast.
+# The cost of a pair is the root of a sum of squares. Each of these is where one term is 1: the bend of the arc, and the
+# difference between the bends of its two halves [radians]; the difference of the mean colours (in 0 to 1), and that of
+# the profiles about their means, as a share of their contrast.
 _BEND = np.deg2rad(40)
 _ASYMMETRY = np.deg2rad(6)
 _DIFFERENCE = 0.2
@@ -31,7 +32,7 @@ _DISTINCT = 0.6
 _ELSEWHERE = 5.0
 # Ends closer than this are one line's [px].
 _SHORTEST_GAP = 8.0
-# The middles of two ends may be found this far from each other's [px].
+# The middle of a line is found only roughly: profiles are compared shifted by each of these [px].
 _ASIDE = np.arange(-3, 3.25, 0.5)
 
 

@@ -26,9 +26,9 @@ _COMPONENTS = 12
 _SAMPLES = 4000
 # How often all finds are handed to the neighbours in a round.
 _SWEEPS = 2
-# What a deviation of the guide's colour counts against one of each of the patch's pixels.
+# Weight of a deviation from the smooth guide's colour beside that of the patch's own pixels.
 _GUIDE_WEIGHT = 0.1
-# What a pixel of distance counts against a unit of squared colour difference (colours in 0 to 1), at a patch.
+# Cost of a match's squared distance [1/px^2] beside the patch's squared colour difference (colours in 0 to 1).
 _NEARNESS = 1e-4
 # The trust in a patch fades by this factor for each pixel that it lies deeper in the hole.
 _FADING = 1.2
@@ -62,11 +62,11 @@ class Level:
 
 @dataclass(frozen=True, eq=False)
 class Finds:
-    """What patches have found.
+    """The best match found so far for the patch around each pixel (the nearest-neighbour field of PatchMatch).
 
     Attributes:
-        source: flat index of the centre of the patch that stands for the one at each pixel, shape [h, w].
-        trust: weight of that patch, 0 where there is none, shape [h, w].
+        source: flat index of the centre of the matching patch, shape [h, w].
+        trust: weight of that patch in the vote, 0 where there is none, shape [h, w].
     """
 
     source: IndexArray

@@ -21,9 +21,10 @@ Lab = NDArray[np.uint8]
 
 # A region that grows over more than this share of the picture has probably leaked: smaller steps are tried.
 _LARGEST_REGION = 0.25
-# A look averages away what is as small as a few of its own pixels: such a region was perhaps bounded by texture, and
-# was so if it grows by more than the area of a pixel does from one look to the next.
+# A region of fewer pixels than the first of these may be bounded by texture, such as one touch of the brush, not by
+# edges. It was, if the next coarser look finds one larger by more than the second: one halving quarters the pixels.
 _TEXTURE, _GROWTH = 16, 4.0
+# No look has a shorter side than this [px]; so many looks are taken, each at half the size of the one before.
 _SHORTEST = 24
 _LOOKS = 3
 _STROKES = 7

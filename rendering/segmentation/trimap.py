@@ -17,6 +17,7 @@ __all__ = ["trimap_from_points"]
 Mask = NDArray[np.bool_]
 Lab = NDArray[np.uint8]
 
+# Colours are counted in so many steps of each channel.
 _COLOUR_BINS = 24
 # Colours tell no further from the foreground's hull than this, as a share of the picture's longer side.
 _BESIDE_HULL = 0.05

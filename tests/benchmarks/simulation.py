@@ -25,10 +25,10 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import meshes
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
 from contact_cost import contact_costs
-from meshes import mesh_of_about
 from peers.problem import Advance, Problem
 from physanimator.physics.assembly import assemble, plan
 from physanimator.physics.material import Material, preset
@@ -88,11 +88,11 @@ print(time.perf_counter() - start)
 """What Taichi takes of it before any kernel."""
 
 
-def leaf_of_about(triangles: int) -> TriangleMesh:
+def mesh_of_about(triangles: int) -> TriangleMesh:
     """A leaf-shaped body, one connected part, of about so many triangles."""
     y, x = np.mgrid[0:720, 0:1280].astype(np.float32)
     mask = ((x - 640) / (240 + 60 * np.sin(y / 90))) ** 2 + ((y - 360) / 320) ** 2 < 1
-    return mesh_of_about(mask, triangles)
+    return meshes.mesh_of_about(mask, triangles)
 
 
 def solid_and_problem(mesh: TriangleMesh) -> tuple[Solid, Problem]:
@@ -191,7 +191,7 @@ def timed(function: Callable[[], Any]) -> float:
 
 def whole_second(material: Material, rounds: int) -> dict[str, float]:
     """A whole second of a body of 2,000 triangles in the automatic scene, everything included."""
-    scene = automatic_scene([Body(leaf_of_about(2_000), material)])
+    scene = automatic_scene([Body(mesh_of_about(2_000), material)])
     frames = round(scene.frame_rate) + 1
     simulate(scene, frames=2)
     times = [timed(lambda: simulate(scene, frames=frames)) * 1000 for _ in range(rounds)]
@@ -227,7 +227,7 @@ def measure(rounds: int, sizes: dict[str, int]) -> dict[str, Any]:
     differences: dict[str, dict[str, float | None]] = {name: dict.fromkeys(sizes) for name in PEERS}
     triangles = {}
     for size, count in sizes.items():
-        mesh = leaf_of_about(count)
+        mesh = mesh_of_about(count)
         solid, problem = solid_and_problem(mesh)
         contestants = {"ours": ours(solid)}
         contestants |= {name: ready for name in PEERS if (ready := peer(name, problem)) is not None}
