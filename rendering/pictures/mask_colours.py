@@ -166,6 +166,7 @@ def flat_levels(plane: FloatPlane) -> list[tuple[float, float]]:
     levels = as_uint8(plane)
     flat = ((cv2.dilate(levels, square) - cv2.erode(levels, square)) <= _WINDOWS[1][0]).astype(np.uint8)
     counts = cv2.calcHist([levels], [0], flat, [256], [0, 256]).ravel().astype(np.float64)
+    # At least four pixels, a thousandth of the plane and a fiftieth of what is brighter than black.
     least = max(4.0, 0.001 * levels.size, 0.02 * counts[9:].sum())
     found = []
     for level in np.argsort(-counts):

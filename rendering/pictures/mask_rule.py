@@ -99,6 +99,7 @@ def _by_opacity(rgb: NDArray[np.uint8], opacity: NDArray[np.uint8], called: str)
     visible = opacity >= 128
     if visible.any() and _is_grey(rgb, visible):
         grey = np.where(visible, as_float(rgb[..., 1]), np.float32(0.5))
+        # Both are areas, a hundredth of what is visible at least, and together two fifths of it.
         area = np.ones((3, 3), np.uint8)
         white, black = (
             np.count_nonzero(cv2.erode(each.astype(np.uint8), area, borderValue=0))
@@ -170,6 +171,7 @@ def _of_one_level(plane: FloatPlane) -> bool:
 def _by_colour(rgb: NDArray[np.uint8], called: str) -> MaskFile:
     """Of two colours that are all there is: white, or else the one that is neither black nor white around it."""
     colours, other = colours_of(rgb)
+    # All but half a percent, where edges meet, is one of the colours or mixed of both.
     pair = _part_and_rest(colours, rgb) if len(colours) == 2 and other < 0.005 else None
     if pair is None:
         what = "a mask, not a picture" if other > 0.05 or len(colours) >= 8 else "one part"

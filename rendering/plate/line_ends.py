@@ -64,6 +64,7 @@ def line_ends(picture: FloatImage, hole: Mask) -> list[LineEnd]:
         hole: true where colours are unknown, shape [h, w].
     """
     outside = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    # The pixels right at the hole may still be mixed with what is cut out.
     known = (outside > 1.5).astype(np.float32)
     field = _structure(picture, known)
     near = (outside <= DISTANCE).astype(np.uint8)
@@ -126,7 +127,7 @@ def _followed(
             break
         along = field.along[y, x]
         along = along * (1.0 if along @ heading >= 0 else -1.0)
-        if along @ heading < 0.8:
+        if along @ heading < 0.8:  # a line turns by less than 37 degrees within a pixel
             break
         heading = along
         position = position + heading

@@ -103,6 +103,7 @@ class Looks:
 
 
 def _noise_around(lab: Lab, point: NDArray[np.int_], size: int = 3) -> float:
+    # Noise is measured over a sixteenth of the picture around the click.
     reach = max(4, max(lab.shape) // 32)
     left, top = np.maximum(point - reach, 0)
     return noise_of(np.ascontiguousarray(lab[top : point[1] + reach + 1, left : point[0] + reach + 1]), size=size)
