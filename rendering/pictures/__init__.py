@@ -6,11 +6,11 @@ from .bilinear_splat import splat
 from .bleeding import carried_on
 from .clip_reading import read_clip
 from .container_formats import FORMATS, holds_alpha
+from .dense_flow import LEAST_FLOW_SIDE, optical_flow
 from .frame_folder import frames_in, is_frame_name
 from .frame_record import RECORD
 from .images import check_image_output, data_address, load_image, load_mask, save_image
 from .nearest import nearest_pixels
-from .optical_flow import LEAST_FLOW_SIDE, optical_flow
 from .pixel_windows import window_around
 from .pixels import as_dtype, as_float, as_grey, as_picture, as_uint8, check_picture
 from .premultiplication import premultiplied, resized, straight
