@@ -17,6 +17,9 @@ Mask = NDArray[np.bool_]
 
 # Larger windows are filled at half their size, which is a quarter of the work [px^2].
 _LARGEST_WINDOW = 600_000
+
+# Half and twice of the following, measured as in smooth_fill, change the mean error by a fortieth at most.
+
 # Colours along the edge are averaged over this width before they are grouped [px]: a texture is one thing.
 _ALONG = 12.0
 # Colours along the edge are told apart in no more groups than this.
