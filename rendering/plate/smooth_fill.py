@@ -14,8 +14,9 @@ FloatImage = NDArray[np.float32]
 FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-# tests/benchmarks/thresholds.py measures half and twice of these: in four holes of 20 to 44 px in the example they change
-# the mean error, 12.4 levels of 255, by a twentieth at most. _FEWEST, _MOST, _COARSEST and _SOLVED were left out.
+# tests/benchmarks/thresholds.py measures half and twice of these: in four holes of 20 to 44 px in the example they
+# change the mean error, 12.4 levels of 255, by a twentieth at most. _FEWEST, _MOST, _COARSEST and _SOLVED were left
+# out.
 
 # Colours count by distance to this power, more steeply than in a usual mean: what a moving part uncovers first lies
 # beside its edge, and looks like what is next to it.

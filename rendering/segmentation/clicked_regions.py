@@ -19,6 +19,10 @@ __all__ = ["Looks"]
 Mask = NDArray[np.bool_]
 Lab = NDArray[np.uint8]
 
+# tests/benchmarks/thresholds.py measures half and twice of these on painted parts: _TEXTURE, _GROWTH, _SHORTEST, _LOOKS
+# and _STROKES change no cut; _LARGEST_REGION, _SPREADS, _LEAST_CONTRAST and _BRIDGE decide single cuts, for better and
+# for worse.
+
 # A region that grows over more than this share of the picture has probably leaked: smaller steps are tried.
 _LARGEST_REGION = 0.25
 # A region of fewer pixels than the first of these may be bounded by texture, such as one touch of the brush, not by
