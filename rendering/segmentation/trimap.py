@@ -17,6 +17,9 @@ __all__ = ["trimap_from_points"]
 Mask = NDArray[np.bool_]
 Lab = NDArray[np.uint8]
 
+# tests/benchmarks/thresholds.py measures half and twice of these on painted parts: half of _COLOUR_BINS takes 0.07 off
+# the median overlap of 0.86, the others change it by less than 0.01.
+
 # Colours are counted in so many steps of each channel.
 _COLOUR_BINS = 24
 # Colours tell no further from the foreground's hull than this, as a share of the picture's longer side.
