@@ -18,7 +18,7 @@ __all__ = ["check_inputs", "check_taken", "read_inputs", "read_plate"]
 
 
 _GREY = 8  # levels by which colours may differ and still be grey, black or white
-_MASK_SHARE = 0.8
+_MASK_SHARE = 0.8  # of a grey picture in black and white: it is a mask rather than a drawing
 
 
 def check_inputs(options: argparse.Namespace) -> None:

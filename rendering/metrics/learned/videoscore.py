@@ -29,6 +29,7 @@ PROMPT_FILE = "prompt.txt"
 """In the model's folder: the question that it was trained with, with {text_prompt} where the description goes."""
 
 _MOST_FRAMES = 16
+"""What VideoScore is used with."""
 
 
 def video_score(frames: Sequence[NDArray[Any]], description: str, folder: Path) -> dict[str, float]:
