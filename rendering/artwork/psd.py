@@ -83,9 +83,10 @@ def _check_kind(document: PSDImage, name: str) -> None:
 def _sizes(document: PSDImage) -> Iterator[tuple[str, int, int]]:
     """Of the pixels that would be decoded."""
     from .psd_layers import all_layers, name_of
+    from .psd_pixels import COLOURED
 
     for layer in all_layers(document):
-        if layer.kind == "solidcolorfill":
+        if layer.kind in COLOURED and not layer.has_pixels():
             yield name_of(layer), document.width, document.height
         elif not layer.is_group():
             yield name_of(layer), layer.width, layer.height
