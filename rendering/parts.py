@@ -21,7 +21,7 @@ from .matting import part_mesh
 if TYPE_CHECKING:
     from .artwork import Artwork
 
-__all__ = ["Parts", "about", "coverage", "coverages", "parts_of_artwork", "parts_of_picture", "picture_of"]
+__all__ = ["Parts", "about", "arranged", "coverage", "coverages", "parts_of_artwork", "parts_of_picture", "picture_of"]
 
 Image = NDArray[Any]
 Mask = NDArray[Any]
@@ -116,7 +116,8 @@ def parts_of_artwork(
     """
     from .artwork import moving_layers
 
-    plans = [plan for plan in moving_layers(artwork, move=move, still=still) if plan.moves]
+    plans = [plan for plan in moving_layers(artwork, move, still) if plan.moves]
+    artwork = arranged(artwork, move, still)
     if not plans:
         raise InvalidInputError(
             "no layer has a name that says it moves; name those that do with --move, or the node's input move."
@@ -138,6 +139,27 @@ def parts_of_artwork(
         tuple(covers),
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
     )
+
+
+def arranged(artwork: Artwork, move: Sequence[str] = (), still: Sequence[str] = ()) -> Artwork:
+    """The artwork with the layers visible that are drawn: not the closed eye over the open one, but what is to move.
+
+    Args:
+        artwork: the layers.
+        move: names of layers that move.
+        still: names of layers that stand still.
+
+    Raises:
+        InvalidInputError: there is no such layer.
+    """
+    from .artwork import moving_layers
+
+    shown = [plan.shown for plan in moving_layers(artwork, move, still)]
+    layers = zip(artwork.layers, shown, strict=True)
+    if all(layer.visible == seen for layer, seen in layers):
+        return artwork
+    layers = zip(artwork.layers, shown, strict=True)
+    return replace(artwork, layers=tuple(replace(layer, visible=seen) for layer, seen in layers))
 
 
 def picture_of(artwork: Artwork) -> Image:

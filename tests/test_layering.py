@@ -43,7 +43,7 @@ MAY_IMPORT = {
     "rendering/files": "physics",
     "rendering/networks": "physics",
     "rendering/pictures": "physics physics/mesh rendering/files",
-    "rendering/artwork": "physics rendering/files rendering/pictures",
+    "rendering/artwork": "physics physics/material rendering/files rendering/pictures",
     "rendering/matting": "physics physics/mesh rendering/pictures",
     "rendering/metrics/learned": "physics rendering/files rendering/networks rendering/pictures",
     "rendering/svd": "physics rendering/networks rendering/pictures",

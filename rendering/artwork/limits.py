@@ -7,7 +7,16 @@ from collections.abc import Iterable
 from ...physics.errors import InvalidInputError
 from ...physics.limits import MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE
 
-__all__ = ["MAX_FILE_BYTES", "MAX_LAYERS", "MAX_LAYER_BYTES", "check_canvas", "check_layer_sizes"]
+__all__ = [
+    "MAX_FILE_BYTES",
+    "MAX_LAYERS",
+    "MAX_LAYER_BYTES",
+    "MAX_OFFSET",
+    "MAX_PICTURE_BYTES",
+    "MemoryCount",
+    "check_canvas",
+    "check_layer_sizes",
+]
 
 MAX_LAYERS = 1_000
 """Layers of one artwork, groups not counted."""
@@ -18,6 +27,12 @@ MAX_LAYER_BYTES = 2**31
 
 MAX_FILE_BYTES = 2**31
 """Size of a layered file [bytes]; it is in memory as a whole while a PSD is read."""
+
+MAX_PICTURE_BYTES = 2**28
+"""Size of the file of one layer, where each has its own [bytes]."""
+
+MAX_OFFSET = 10 * MAX_PICTURE_SIDE
+"""How far from the canvas a layer may lie [px]."""
 
 
 def check_canvas(width: int, height: int, name: str) -> None:
@@ -33,6 +48,36 @@ def check_canvas(width: int, height: int, name: str) -> None:
         )
 
 
+class MemoryCount:
+    """Counts layers and the memory of their pixels while they are read."""
+
+    def __init__(self, name: str) -> None:
+        """Begin with none.
+
+        Args:
+            name: what the user calls the artwork.
+        """
+        self._name = name
+        self._layers = 0
+        self._bytes = 0
+
+    def add(self, size: int) -> None:
+        """Count one layer of a size [bytes].
+
+        Raises:
+            InvalidInputError: there are too many layers, or all together are too large.
+        """
+        self._layers += 1
+        self._bytes += size
+        if self._layers > MAX_LAYERS:
+            raise InvalidInputError(f"{self._name} must have at most {MAX_LAYERS} layers. Got: more")
+        if self._bytes > MAX_LAYER_BYTES:
+            raise InvalidInputError(
+                f"{self._name} must need at most {MAX_LAYER_BYTES / 2**30:.0f} GiB for its layers; make the picture"
+                " smaller, or trim or merge layers that stand still. Got: more"
+            )
+
+
 def check_layer_sizes(sizes: Iterable[tuple[str, int, int]], sample_bytes: int, name: str) -> None:
     """Raise unless layers of these sizes may be decoded together.
 
@@ -44,15 +89,8 @@ def check_layer_sizes(sizes: Iterable[tuple[str, int, int]], sample_bytes: int, 
     Raises:
         InvalidInputError: there are too many, one is too large, or all together are.
     """
-    total = 0
-    for count, (layer, width, height) in enumerate(sizes):
-        if count >= MAX_LAYERS:
-            raise InvalidInputError(f"{name} must have at most {MAX_LAYERS} layers. Got: more")
+    count = MemoryCount(name)
+    for layer, width, height in sizes:
         if width > 0 and height > 0:
             check_canvas(width, height, f"{name}: layer {layer}")
-            total += width * height * 4 * sample_bytes
-    if total > MAX_LAYER_BYTES:
-        raise InvalidInputError(
-            f"{name} must need at most {MAX_LAYER_BYTES / 2**30:.0f} GiB for its layers; make the picture smaller, or"
-            f" trim or merge layers that stand still. Got: {total / 2**30:.1f} GiB"
-        )
+        count.add(max(width, 0) * max(height, 0) * 4 * sample_bytes)

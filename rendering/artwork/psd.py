@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import logging
 import os
-import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from ...physics.errors import InvalidInputError, PhysAnimatorError
-from ..files import check_regular
+from ...physics.errors import InvalidInputError
 from .artwork import ArtLayer, Artwork
-from .limits import MAX_FILE_BYTES, check_canvas, check_layer_sizes
+from .limits import check_canvas, check_layer_sizes
+from .reading import reading
 
 if TYPE_CHECKING:
     from psd_tools import PSDImage
@@ -40,7 +38,7 @@ def read_psd(path: StrPath) -> Artwork:
     from .psd_layers import layers_of
 
     name = f"artwork {os.fspath(path)}"
-    with _reading(path, name):
+    with reading(path, name):
         document = _opened(path)
         _check_kind(document, name)
         check_canvas(document.width, document.height, name)
@@ -83,9 +81,10 @@ def _check_kind(document: PSDImage, name: str) -> None:
 def _sizes(document: PSDImage) -> Iterator[tuple[str, int, int]]:
     """Of the pixels that would be decoded."""
     from .psd_layers import all_layers, name_of
+    from .psd_pixels import COLOURED
 
     for layer in all_layers(document):
-        if layer.kind == "solidcolorfill":
+        if layer.kind in COLOURED and not layer.has_pixels():
             yield name_of(layer), document.width, document.height
         elif not layer.is_group():
             yield name_of(layer), layer.width, layer.height
@@ -105,29 +104,3 @@ def _flat(document: PSDImage, remarks: list[str]) -> Artwork:
         pixels[..., index] = np.frombuffer(planes[min(index, colours - 1)], dtype).reshape(size)
     remark = "the file has no layers that can be read: its picture is taken as one"
     return Artwork(document.width, document.height, (ArtLayer("picture", pixels),), (*remarks, remark))
-
-
-@contextmanager
-def _reading(path: StrPath, name: str) -> Iterator[None]:
-    """Say in a sentence whatever is wrong with a file.
-
-    Raises:
-        InvalidInputError: it cannot be read.
-    """
-    check_regular(path, "artwork")
-    try:
-        if os.stat(path).st_size > MAX_FILE_BYTES:
-            raise InvalidInputError(f"{name} must have at most {MAX_FILE_BYTES / 2**30:.0f} GiB. Got: more")
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            yield
-    except (PhysAnimatorError, MemoryError):
-        raise
-    except FileNotFoundError:
-        raise InvalidInputError(f"artwork must be an existing file. Got: {path}") from None
-    except OSError as error:
-        if error.strerror is None:  # psd-tools' own, about what is in the file
-            raise InvalidInputError(f"{name} cannot be read: it is damaged ({error})") from error
-        raise InvalidInputError(f"artwork must be a readable file. Got: {path}: {error.strerror}") from None
-    except Exception as error:  # a damaged file makes the readers raise nearly anything
-        raise InvalidInputError(f"{name} cannot be read: it is damaged ({error or 'cut'})") from error

@@ -36,9 +36,23 @@ def with_masks(layer: ArtLayer, source: Layer, remarks: list[str]) -> ArtLayer:
     both = source.mask is not None and source.mask.has_real() and _BOTH_MASKS in _channels(source)
     if source.mask is not None and not source.mask.disabled:
         layer = _with_painted(layer, source, _BOTH_MASKS if both else _MASK)
-    if not both and source.has_vector_mask():
+    if not both and source.has_vector_mask() and not _drawn_already(source):
         layer = _with_drawn(layer, source, remarks)
     return layer
+
+
+def _drawn_already(source: Any) -> bool:
+    """Whether the file holds what a mask of paths does as pixels, too: in those of a shape, or as a painted mask."""
+    if source.kind == "shape" and source.has_pixels():
+        return True
+    return (
+        source.mask is not None and not source.mask.disabled and _is_drawn(source.mask) and _MASK in _channels(source)
+    )
+
+
+def _is_drawn(mask: Any) -> bool:
+    """Whether a painted mask is a mask of paths as pixels."""
+    return bool(mask.flags.user_mask_from_render)
 
 
 def _channels(source: Any) -> set[int]:
@@ -58,7 +72,7 @@ def _with_painted(layer: ArtLayer, source: Any, channel: int) -> ArtLayer:
         values = plane.astype(np.float32) / np.float32(np.iinfo(plane.dtype).max)
     else:
         values = np.zeros((0, 0), np.float32)
-    density = _density(mask)
+    density = _density(mask, drawn=_is_drawn(mask))
     return masked(layer, 1 - density * (1 - values), left, top, 1 - density * (1 - outside))
 
 
@@ -67,10 +81,12 @@ def _painted_box(mask: Any) -> tuple[int, int, int, int]:
     return data.left, data.top, data.right, data.bottom
 
 
-def _density(mask: Any) -> float:
-    """How much a mask counts, 0 to 1."""
-    parameters = mask.parameters
-    density = None if parameters is None else parameters.user_mask_density
+def _density(mask: Any, *, drawn: bool) -> float:
+    """How much the painted mask, or the one of paths, counts, 0 to 1."""
+    parameters = None if mask is None else mask.parameters
+    if parameters is None:
+        return 1.0
+    density = parameters.vector_mask_density if drawn else parameters.user_mask_density
     return 1.0 if density is None else density / 255
 
 
@@ -85,4 +101,5 @@ def _with_drawn(layer: ArtLayer, source: Any, remarks: list[str]) -> ArtLayer:
     except ImportError:  # psd-tools of Python 3.10 draws paths with another package
         remarks.append(f"layer {source.name}: its vector mask is not applied; rasterise it in the painting program")
         return layer
-    return masked(layer, np.asarray(coverage, np.float32)[..., 0], layer.left, layer.top, 0.0)
+    density = _density(source.mask, drawn=True)
+    return masked(layer, 1 - density * (1 - np.asarray(coverage, np.float32)[..., 0]), layer.left, layer.top, 0.0)

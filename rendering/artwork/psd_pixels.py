@@ -13,7 +13,10 @@ from ...physics.errors import InvalidInputError
 if TYPE_CHECKING:
     from psd_tools.api.layers import Layer
 
-__all__ = ["pixels_of", "plane_of"]
+__all__ = ["COLOURED", "pixels_of", "plane_of"]
+
+COLOURED = ("solidcolorfill", "shape")
+"""Kinds of layers that have the size of the canvas where the file says no more than their colour."""
 
 _ALPHA = -1
 """Number of the channel of a layer's alpha; the colours begin with 0."""
@@ -22,13 +25,13 @@ _ALPHA = -1
 def pixels_of(layer: Layer) -> NDArray[Any] | None:
     """Straight RGBA of a layer, uint8 or uint16, shape [h, w, 4]; None where it is of a kind that has none.
 
-    A colour fill has the size of the canvas.
+    A fill, and a shape without pixels, has the size of the canvas; masks make it smaller.
 
     Raises:
         InvalidInputError: the layer is damaged.
     """
     dtype = np.dtype(np.uint8 if layer._psd.depth == 8 else np.uint16)
-    if layer.kind == "solidcolorfill" and not layer.has_pixels():
+    if layer.kind in COLOURED and not layer.has_pixels():
         return _one_colour(layer, dtype)
     if layer.kind not in ("pixel", "type", "smartobject") and not layer.has_pixels():
         return None
@@ -69,10 +72,14 @@ def plane_of(layer: Layer, channel: int, width: int, height: int) -> NDArray[Any
 
 
 def _one_colour(layer: Any, dtype: np.dtype[Any]) -> NDArray[Any] | None:
-    """A layer of the canvas' size in the colour of a fill layer; None where that is not given as RGB or grey."""
-    described = {
-        bytes(key).strip(): float(value) for key, value in layer.data.items() if key != b"Nm  " and _number(value)
-    }
+    """A layer of the canvas' size in the colour of a fill or shape; None where that is not given as RGB or grey."""
+    from psd_tools.constants import Tag
+
+    fill = layer.tagged_blocks.get_data(Tag.SOLID_COLOR_SHEET_SETTING)
+    parts = None if fill is None else fill.get(b"Clr ")
+    if parts is None:
+        return None
+    described = {bytes(key).strip(): float(value) for key, value in parts.items() if _number(value)}
     grey = described.get(b"Gry")
     if grey is not None:
         colour = [255 * (1 - grey / 100)] * 3

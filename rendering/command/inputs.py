@@ -99,10 +99,12 @@ def read_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
     """
     from ..artwork import is_artwork_file
     from ..options import LayerChoice, Touching
+    from ..parts import arranged
 
     scene = _scene(options)
     if is_artwork_file(options.image):
-        artwork = _artwork(options.image)
+        with named_as("--move or --still", "layer"):
+            artwork = arranged(_artwork(options.image), options.move, options.still)
         width, height = artwork.width, artwork.height
         image: Any = artwork
         parts: dict[str, Any] = {"layers": LayerChoice(options.move, options.still)}
