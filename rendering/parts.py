@@ -39,6 +39,7 @@ class Parts:
         presets: name of the material that suits each; None where nothing says so.
         covers: where something that stands still is in front of each, bool, shape [h, w]; None for nowhere.
         renderer: makes what draws a motion of the parts.
+        own: each part alone, straight RGBA, shape [h, w, 4] each; empty where only masks are known.
     """
 
     image: Image
@@ -48,6 +49,7 @@ class Parts:
     presets: tuple[str | None, ...]
     covers: tuple[NDArray[np.bool_] | None, ...]
     renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
+    own: tuple[Image, ...] = ()
 
     def covered(self, scene: Scene) -> Scene:
         """The scene with what is in front of its bodies, in the order of the parts."""
@@ -114,7 +116,7 @@ def parts_of_artwork(
     Raises:
         InvalidInputError: there is no such layer, none moves, or one gives no mesh.
     """
-    from .artwork import moving_layers
+    from .artwork import flattened, moving_layers
 
     plans = [plan for plan in moving_layers(artwork, move, still) if plan.moves]
     artwork = arranged(artwork, move, still)
@@ -138,6 +140,7 @@ def parts_of_artwork(
         tuple(plan.preset for plan in plans),
         tuple(covers),
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
+        tuple(flattened(artwork, [replace(artwork.layers[index], blend="normal")]) for index in indices),
     )
 
 
@@ -169,7 +172,7 @@ def picture_of(artwork: Artwork) -> Image:
 
     if artwork not in _PICTURES:
         flat = flattened(artwork)
-        opaque = flat[..., 3].min(initial=0) == np.iinfo(flat.dtype).max
+        opaque = bool((flat[..., 3] == np.iinfo(flat.dtype).max).all())
         _PICTURES[artwork] = as_picture(np.ascontiguousarray(flat[..., :3]) if opaque else flat, alpha=True)
     return _PICTURES[artwork]
 

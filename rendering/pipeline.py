@@ -149,7 +149,7 @@ def animate(
         motion = simulate(whole, frames=timing.frames, progress=hears, max_minutes=max_minutes)
     with timed(seconds, "prepare"):
         renderer = parts.renderer(motion)
-    return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds)
+    return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds, parts.own)
 
 
 def _automatic(

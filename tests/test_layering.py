@@ -68,8 +68,8 @@ MAY_IMPORT = {
     "rendering/sketch/drawings": "physics rendering/networks rendering/pictures rendering/sketch",
     "rendering": (
         "physics physics/assembly physics/document physics/mesh physics/motion physics/scene "
-        "physics/simulation rendering/artwork rendering/composite rendering/files rendering/inbetweens rendering/matting "
-        "rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
+        "physics/simulation rendering/artwork rendering/composite rendering/files rendering/inbetweens "
+        "rendering/matting rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
     ),
     "rendering/segmentation/sam": (
         "physics rendering/files rendering/networks rendering/pictures rendering/segmentation"

@@ -51,7 +51,7 @@ def picture_of(file: IO[bytes], name: str) -> NDArray[Any]:
 def _of_8_bits(data: bytes) -> NDArray[Any]:
     from PIL import Image
 
-    from ..pictures.picture_files import in_srgb
+    from ..pictures.picture_modes import in_srgb
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

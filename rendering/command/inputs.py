@@ -49,8 +49,8 @@ def _check_layers_alone(options: argparse.Namespace) -> None:
     for name in ("mask", "points", "in_front", "plate", "pixel_art"):
         if getattr(options, name, None):
             raise InvalidInputError(
-                f"IMAGE must be a flat picture where {option_of(name)} is given. Got: {options.image[:80]}, whose layers"
-                " are parts of their own"
+                f"IMAGE must be a flat picture where {option_of(name)} is given. Got: {options.image[:80]}, whose"
+                " layers are parts of their own"
             )
 
 
