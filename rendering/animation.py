@@ -138,6 +138,43 @@ class Animation:
             raise InvalidInputError("frames in layers need layered artwork. Got: pixel art")
         return self.renderer.artwork(self.first + t)
 
+    def save_layers(self, folder: StrPath, *, width: int | None = None, progress: StageProgress | None = None) -> None:
+        """Write each layer of layered artwork as a sequence of its own, for painters: ``OUT/01 hair/frame_0000.png``.
+
+        Layers that stand still have one frame. All frames are RGBA as large as the canvas.
+
+        Args:
+            folder: where to; it is made where it is missing.
+            width: width of the written frames [px]; that of the illustration when None.
+            progress: called after each frame with the stage "render".
+
+        Raises:
+            InvalidInputError: the illustration is no layered artwork, or one of the folders holds frames that
+                PhysAnimator did not write.
+        """
+        from .artwork import layer_on_canvas
+        from .layer_sequences import check_layer_sequences, layer_folders
+
+        artwork = self.layers(0)
+        moving = self.renderer.moving_layers  # type: ignore[union-attr]
+        check_layer_sequences(artwork, folder)
+        os.makedirs(folder, exist_ok=True)
+        folders = layer_folders(artwork, folder)
+        counts = [len(self) if index in moving else 1 for index in range(len(artwork.layers))]
+        done = 0
+        for index, (place, count) in enumerate(zip(folders, counts, strict=True)):
+
+            def drawn(index: int = index, count: int = count) -> Iterator[Image]:
+                nonlocal done
+                for t in range(count):
+                    bent = self.renderer.artwork(self.first + t, only=index)  # type: ignore[union-attr]
+                    yield layer_on_canvas(bent.layers[index], bent)
+                    done += 1
+                    if progress is not None:
+                        progress("render", done, sum(counts))
+
+            self.write(drawn(), f"{place}/", width=width)
+
     def sketches(self, *, progress: StageProgress | None = None) -> Iterator[Image]:
         """The line drawing of the illustration, warped along the motion: float32 0..1, shape [h, w], lines dark."""
         from ..physics.motion import FlowSequence

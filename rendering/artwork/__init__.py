@@ -9,7 +9,7 @@ from .layers_dictionary import from_layers_dictionary, to_layers_dictionary
 from .limits import MAX_LAYER_BYTES, MAX_LAYERS
 from .loading import is_artwork_file, load_artwork
 from .naming import LayerPlan, Rule, moving_layers, rule_of
-from .png_writing import check_layer_folder, save_layer_pngs
+from .png_writing import check_layer_folder, layer_on_canvas, png_names, save_layer_pngs
 from .psd import read_psd
 from .psd_writing import check_psd_output, save_psd
 from .see_through import from_see_through
@@ -30,9 +30,11 @@ __all__ = [
     "is_artwork_file",
     "laid_together",
     "lay_over",
+    "layer_on_canvas",
     "load_artwork",
     "moving_layers",
     "planes_of",
+    "png_names",
     "read_psd",
     "rule_of",
     "save_layer_pngs",

@@ -16,7 +16,7 @@ from ..files import check_folder_place, replacing
 from .artwork import ArtLayer, Artwork
 from .flattening import as_whole_numbers
 
-__all__ = ["check_layer_folder", "png_names", "save_layer_pngs"]
+__all__ = ["check_layer_folder", "layer_on_canvas", "png_names", "save_layer_pngs"]
 
 StrPath = str | os.PathLike[str]
 
@@ -45,7 +45,7 @@ def save_layer_pngs(artwork: Artwork, folder: StrPath) -> list[Path]:
     place.mkdir(exist_ok=True)
     paths = []
     for name, layer in zip(png_names(artwork), artwork.layers, strict=True):
-        data = _encoded(_on_canvas(layer, artwork))
+        data = _encoded(layer_on_canvas(layer, artwork))
         with replacing(place / name) as temporary:
             temporary.write_bytes(data)
         paths.append(place / name)
@@ -79,7 +79,8 @@ def _plain(name: str) -> str:
     return kept[:_LONGEST].strip(" .") or "layer"
 
 
-def _on_canvas(layer: ArtLayer, artwork: Artwork) -> NDArray[Any]:
+def layer_on_canvas(layer: ArtLayer, artwork: Artwork) -> NDArray[Any]:
+    """A layer alone as large as the canvas, with its opacity: straight RGBA, shape [height, width, 4]."""
     result = np.zeros((artwork.height, artwork.width, 4), artwork.dtype)
     left, top, right, bottom = layer.box
     x0, x1, y0, y1 = max(left, 0), min(right, artwork.width), max(top, 0), min(bottom, artwork.height)

@@ -95,12 +95,13 @@ def _figure(options: argparse.Namespace) -> None:
 
 def _animate(options: argparse.Namespace) -> None:
     from .inputs import check_inputs, check_taken, read_inputs
-    from .outputs import check_outputs, check_sizes
+    from .outputs import check_layers, check_outputs, check_sizes
 
     check_inputs(options)
     check_outputs(options)
     image, inputs = read_inputs(options)
     check_taken(options, image)
+    check_layers(options, image)
     check_sizes(options, _picture(image))
     _run(options, image, **inputs)
 

@@ -146,8 +146,17 @@ class LayeredRenderer:
         renderer._artwork, renderer._sources = artwork, sources
         return renderer
 
-    def artwork(self, t: int) -> Artwork:
+    @property
+    def moving_layers(self) -> list[int]:
+        """Indices of the layers of an artwork that move; none where the illustration is flat."""
+        return sorted({source for source in self._sources if source is not None})
+
+    def artwork(self, t: int, *, only: int | None = None) -> Artwork:
         """Frame ``t`` of layered artwork as layers again: those that move bent, the others as they are.
+
+        Args:
+            t: number of the frame.
+            only: index of the layer that is wanted; others that move may be anywhere. None for all.
 
         Raises:
             InvalidInputError: there is no such frame, or the renderer is none of layered artwork.
@@ -160,7 +169,7 @@ class LayeredRenderer:
         layers = list(self._artwork.layers)
         pieces: dict[int, list[tuple[PixelBox, FloatImage]]] = {}
         for piece, body, source in zip(self._layers, self._bodies, self._sources, strict=True):
-            if source is not None:
+            if source is not None and only in (None, source):
                 pieces.setdefault(source, []).append(_placed(piece, body, self.motion, t))
         for index, drawn_pieces in pieces.items():
             layers[index] = bent(layers[index], drawn_pieces, self.motion.width, self.motion.height)
