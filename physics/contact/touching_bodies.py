@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from ..assembly import System, drive
 from ..material import RestShape
-from ..runtime import taichi_runtime
+from ..runtime import LANES, taichi_runtime
 from ..scene import Contact, Scene
-from ..solver import Drive, Solid, State, drive_group, solid_group, state_group
+from ..solver import Drive, Solid, State, counters, drive_group, launch_faster, solid_group, state_group
 from .kernels import build_contact_kernel
 from .surface import ContactSurface, contact_surface
 
@@ -90,4 +90,12 @@ def _advance(touching: _Touching, state: State, acting: Drive) -> None:
     kernel = taichi_runtime.compiled(build_contact_kernel)
     solid, surface, options = touching
     groups = solid_group(solid), state_group(state), drive_group(acting), surface._asdict(), options._asdict()
-    kernel.advance(*kernel.packed(*groups))
+    packs, ticks, blocks = kernel.packed(*groups), len(acting.first_particles) - 1, np.diff(solid.starts[:, 1])
+
+    def launch(threads: int) -> None:
+        highest = np.zeros(ticks * len(blocks), dtype=np.float32)
+        steps = np.zeros((ticks, len(blocks) + 1), dtype=np.int32)
+        kernel.advance(threads, counters(int(solid.substeps.max()), ticks), highest, steps, *packs)
+
+    work = float(LANES * ticks * (blocks * solid.substeps).sum())
+    launch_faster(launch, kernel="contact", triangles=LANES * int(blocks.sum()), work=work)

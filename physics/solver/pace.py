@@ -7,8 +7,13 @@ wait for its turn to end, and one thread alone is up to three times as fast.
 from __future__ import annotations
 
 import math
+import os
+import time
+from collections.abc import Callable
 
-__all__ = ["Pace"]
+from .sharing import MOST_THREADS, TRIANGLES_PER_THREAD
+
+__all__ = ["Pace", "launch_faster", "most_threads"]
 
 _TRY_AGAIN = 16  # launches after which the slower way is tried once more
 _LATEST = 0.5  # weight of the latest launch
@@ -35,3 +40,31 @@ class Pace:
             return
         before, now = self._speeds[shared], work / max(seconds, 1e-9)
         self._speeds[shared] = now if before == math.inf else before + _LATEST * (now - before)
+
+
+_paces: dict[tuple[str, int], Pace] = {}  # by kernel and size of the work; used on the Taichi thread only
+
+
+def most_threads(triangles: int) -> int:
+    """Threads that may share so many triangles: as many as processors that this process may use, but not too many."""
+    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return max(1, min(available, MOST_THREADS, triangles // TRIANGLES_PER_THREAD))
+
+
+def launch_faster(launch: Callable[[int], None], *, kernel: str, triangles: int, work: float) -> None:
+    """Launch a kernel with one thread or with several, whichever was faster lately.
+
+    Args:
+        launch: called with the number of threads.
+        kernel: whose speed it is that was measured.
+        triangles: that threads may share.
+        work: triangle updates of the launch.
+    """
+    threads = most_threads(triangles)
+    if threads == 1:
+        launch(1)
+        return
+    pace = _paces.setdefault((kernel, triangles.bit_length()), Pace())
+    shared, start = pace.share(), time.perf_counter()
+    launch(threads if shared else 1)
+    pace.learn(shared=shared, work=work, seconds=time.perf_counter() - start)
