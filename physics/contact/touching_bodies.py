@@ -8,7 +8,7 @@ energy.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,10 @@ from ..material import RestShape
 from ..runtime import LANES, taichi_runtime
 from ..scene import Contact, Scene
 from ..solver import Drive, Solid, State, counters, drive_group, launch_faster, solid_group, state_group
-from .kernels import build_contact_kernel
 from .surface import ContactSurface, contact_surface
+
+if TYPE_CHECKING:
+    from .kernels import ContactKernel
 
 __all__ = ["TouchingBodies"]
 
@@ -86,8 +88,14 @@ class TouchingBodies:
         return recording.records
 
 
+def _kernel(_taichi: Any) -> ContactKernel:
+    from .kernels import build_contact_kernel  # which imports Taichi
+
+    return build_contact_kernel()
+
+
 def _advance(touching: _Touching, state: State, acting: Drive) -> None:
-    kernel = taichi_runtime.compiled(build_contact_kernel)
+    kernel = taichi_runtime.compiled(_kernel)
     solid, surface, options = touching
     groups = solid_group(solid), state_group(state), drive_group(acting), surface._asdict(), options._asdict()
     packs, ticks, blocks = kernel.packed(*groups), len(acting.first_particles) - 1, np.diff(solid.starts[:, 1])

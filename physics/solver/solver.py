@@ -5,7 +5,7 @@ The state is the displacement u = x - X rather than the position, so that F = I 
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from ..runtime import LANES, aligned, check_aligned, taichi_runtime
 from .arguments import drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
-from .kernels import Kernels, build_kernels
-from .pace import launch_faster, most_threads
-from .sharing import counters
+from .pace import counters, launch_faster, most_threads
+
+if TYPE_CHECKING:
+    from .kernels import Kernels
 
 __all__ = ["CALM", "Drive", "Solid", "State", "WindTable", "advance", "internal_forces"]
 
@@ -47,8 +48,14 @@ def internal_forces(solid: Solid, displacement: NDArray[np.float32]) -> NDArray[
     return force
 
 
+def _kernels(_taichi: Any) -> Kernels:
+    from .kernels import build_kernels  # which imports Taichi
+
+    return build_kernels()
+
+
 def _advance(solid: Solid, state: State, drive: Drive) -> None:
-    kernels = taichi_runtime.compiled(build_kernels)
+    kernels = taichi_runtime.compiled(_kernels)
     packs = kernels.packed(solid_group(solid), state_group(state), drive_group(drive))
     work = np.diff(solid.starts[:, 1]) * solid.substeps
     parts = np.argsort(-work, kind="stable").astype(np.int32)  # the most work first, so that threads end together
@@ -89,4 +96,4 @@ def _triangles(solid: Solid, part: int) -> int:
 
 
 def _internal_forces(solid: Solid, arrays: tuple[NDArray[Any], ...]) -> None:
-    taichi_runtime.compiled(build_kernels).forces(solid.corners, solid.elements, *arrays)
+    taichi_runtime.compiled(_kernels).forces(solid.corners, solid.elements, *arrays)
