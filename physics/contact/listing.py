@@ -11,7 +11,7 @@ import taichi as ti
 from ..solver.kernel_types import any_value, int2, vec2, vec4
 from .edge_hash import bucket, cell_of, fill_hash, middle
 from .functions import edge_ends, offset_from_edge, rest_position
-from .surface import LONGEST, MARGIN, RADIUS, SPACING
+from .surface import FAR, LONGEST, MARGIN, RADIUS, SPACING
 
 __all__ = [
     "INSIDE_DEPTH",
@@ -28,7 +28,6 @@ __all__ = [
 TOLERANCE = 0.05  # [mean edges] added to distances, for speed that is gained between two searches
 INSIDE_DEPTH = 0.5  # [mean edges] behind an edge, from where on a point counts as inside
 _INSIDE_RADIUS = 2.0  # [mean edges] within which edges are searched for a point that may be inside: the deepest contact
-_FAR = 1e6  # [side], farther than anything
 
 
 @ti.func
@@ -92,7 +91,7 @@ def find_boxes(surface: any_value):
     """Bounding box of each part; returns whether all points are known to be outside."""
     boxes = ti.static(surface.boxes)
     for part in range(boxes.shape[0]):
-        boxes[part] = vec4(_FAR, _FAR, 0.0 - _FAR, 0.0 - _FAR)
+        boxes[part] = vec4(FAR, FAR, 0.0 - FAR, 0.0 - FAR)
     all_outside = True
     for n in range(surface.points.shape[0]):
         p, part = surface.positions[n], surface.point_parts[n]
@@ -159,7 +158,7 @@ def list_candidates(surface: any_value, solid: any_value, options: any_value):
                     far, body = reach + surface.middles[e][2], surface.middles[e][3]
                     near = (p - middle(surface, e)).norm_sqr() < far * far and body != other_than
                     count = count + ti.cast(near, ti.i32)
-        nearest_square, kept = _FAR, first
+        nearest_square, kept = FAR, first
         for c in range(first, count):
             e = candidates[c]
             candidates[kept] = e

@@ -10,6 +10,7 @@ from ..solver.kernel_types import any_value, int2, vec4
 from .functions import edge_ends, edge_parameter, normal_of, offset_from_edge
 from .listing import INSIDE_DEPTH, TOLERANCE, known_outside, listed_position, overlaps_nothing, search_radii
 from .surface import (
+    FAR,
     FASTEST,
     GOT_INSIDE,
     LIST_LENGTH,
@@ -23,7 +24,6 @@ from .surface import (
 
 __all__ = ["list_contacts"]
 
-_FAR = 1e6  # [side], farther than anything
 # A vertex that is deeper behind an edge than this is left alone: the nearest way out of a thin part may be another.
 _DEEPEST = 2.0  # [mean edges]
 _DEEPEST_SELF = 0.6  # [mean edges], behind an edge of its own part
@@ -100,7 +100,7 @@ def add_contact(surface: any_value, options: any_value, n: ti.i32, e: ti.i32, ti
 def list_contacts(surface: any_value, options: any_value):
     """List the contacts of all points; returns the square of the distance to the nearest candidate."""
     memory = ti.static(surface.memory)
-    time, nearest_square = memory[TIME], _FAR
+    time, nearest_square = memory[TIME], FAR
     ahead = 2.0 * memory[FASTEST] * time
     inner, outer = search_radii(surface, options)
     inner = ti.max(inner, options.thickness + ahead)

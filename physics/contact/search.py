@@ -17,6 +17,7 @@ from .listing import build_hash, coarsest_spacing, list_candidates, listed_posit
 from .narrow_phase import list_contacts
 from .surface import (
     CONTACTS,
+    FAR,
     FASTEST,
     GAP,
     GOT_INSIDE,
@@ -38,7 +39,6 @@ __all__ = ["find_contacts"]
 _MARGIN_TICKS = 24.0  # [ticks] for which the margin lasts at the present speed
 _LARGEST_MARGIN = 3.0  # [mean edges]
 _VALID_DISTANCE = 0.25  # [mean edges] that vertices may move until contacts are searched for again
-_FAR = 1e6  # [side], farther than anything
 
 _NOTHING, _CONTACTS_ONLY, _CANDIDATES_TOO = 0.0, 1.0, 2.0  # what a search has to do: values of SEARCH
 
@@ -115,7 +115,7 @@ def end_search(surface: any_value, options: any_value):
                 0.0,
             )  # so that the next search lists candidates within the wider radius
     memory[GAP] = memory[GAP] - 2.0 * memory[FASTEST] * memory[TIME]
-    finest = _FAR
+    finest = FAR
     for part in range(surface.measures.shape[0]):
         finest = ti.min(finest, surface.measures[part][SPACING])
     memory[VALID_FOR] = _VALID_DISTANCE * finest / ti.max(memory[FASTEST], 1e-6)

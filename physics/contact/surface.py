@@ -15,6 +15,7 @@ from ..scene import Contact, Scene, outlines, window_of
 __all__ = [
     "CANDIDATES",
     "CONTACTS",
+    "FAR",
     "FASTEST",
     "GAP",
     "GOT_INSIDE",
@@ -40,6 +41,9 @@ __all__ = [
 FloatArray = NDArray[np.float64]
 Float32Array = NDArray[np.float32]
 Int32Array = NDArray[np.int32]
+
+FAR = 1e6
+"""Farther than anything [side]."""
 
 LIST_LENGTH = 4
 """Most contacts of one vertex, each with another part."""

@@ -17,13 +17,21 @@ from ..assembly import System, drive
 from ..material import RestShape
 from ..runtime import LANES, taichi_runtime
 from ..scene import Contact, Scene
-from ..solver import Drive, Solid, State, counters, drive_group, launch_faster, solid_group, state_group
+from ..solver import Drive, Solid, State, counters, drive_group, launch_faster, most_threads, solid_group, state_group
 from .surface import ContactSurface, contact_surface
 
 if TYPE_CHECKING:
     from .kernels import ContactKernel
 
 __all__ = ["TouchingBodies"]
+
+
+_TRIANGLES_PER_THREAD = 600
+"""A smaller share is not worth a thread's while.
+
+Two threads compute four blobs that pile up, 1,532 triangles together, and the example's 5,659 1.35 times as fast as
+one, where no other program has the processors; the 816 of a curl that folds on itself little faster, if at all.
+"""
 
 
 class ContactOptions(NamedTuple):
@@ -105,5 +113,6 @@ def _advance(touching: _Touching, state: State, acting: Drive) -> None:
         steps = np.zeros((ticks, len(blocks) + 1), dtype=np.int32)
         kernel.advance(threads, counters(int(solid.substeps.max()), ticks), highest, steps, *packs)
 
-    work = float(LANES * ticks * (blocks * solid.substeps).sum())
-    launch_faster(launch, kernel="contact", triangles=LANES * int(blocks.sum()), work=work)
+    triangles, work = LANES * int(blocks.sum()), float(LANES * ticks * (blocks * solid.substeps).sum())
+    threads = most_threads(triangles, _TRIANGLES_PER_THREAD)
+    launch_faster(launch, threads=threads, kernel="contact", triangles=triangles, work=work)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .arguments import PackedArguments, argument_packs, array_types, drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
-from .pace import counters, launch_faster
+from .pace import counters, launch_faster, most_threads
 from .solver import advance
 from .stepping import (
     SAFETY,
@@ -35,6 +35,7 @@ __all__ = [
     "drive_group",
     "frequency_limits",
     "launch_faster",
+    "most_threads",
     "solid_group",
     "squared_frequencies",
     "state_group",

@@ -1,6 +1,6 @@
-"""Whether threads that share a part get on faster than one: measured, since it changes with what else a machine does.
+"""Whether threads that share their work get on faster than one: measured, since other programs change it.
 
-Threads that share a part wait for each other in every substep. Where another program has one of the processors, they
+Threads that share parts wait for each other in every substep. Where another program has one of the processors, they
 wait for its turn to end, and one thread alone is up to three times as fast.
 """
 
@@ -19,7 +19,7 @@ from .stepping import MOST_REFINEMENT
 __all__ = ["FIRST_PHASE", "Pace", "counters", "launch_faster", "most_threads"]
 
 TRIANGLES_PER_THREAD = 1_000
-"""A smaller share is not worth a thread's while: all threads wait for each other twice in every substep.
+"""A smaller share of a part is not worth a thread's while: all threads wait for each other twice in every substep.
 
 Two threads compute 2,000 triangles 1.4 times as fast as one, 10,000 1.5 times and 50,000 1.6 times, where no other
 program has the processors.
@@ -36,7 +36,7 @@ _LATEST = 0.5  # weight of the latest launch
 
 
 class Pace:
-    """The speed of both ways in the last launches of a part."""
+    """The speed of both ways, shared and not, in the last launches of a kernel on work of one size."""
 
     def __init__(self) -> None:
         self._speeds = {True: math.inf, False: math.inf}  # what is untried may be the fastest
@@ -44,7 +44,7 @@ class Pace:
         self._compiled = {True: False, False: False}
 
     def share(self) -> bool:
-        """Whether to share the part in the next launch."""
+        """Whether to share the work in the next launch."""
         self._launches += 1
         faster = self._speeds[True] >= self._speeds[False]
         return faster != (self._launches % _TRY_AGAIN == 0)
@@ -61,22 +61,27 @@ class Pace:
 _paces: dict[tuple[str, int], Pace] = {}  # by kernel and size of the work; used on the Taichi thread only
 
 
-def most_threads(triangles: int) -> int:
-    """Threads that may share so many triangles: as many as processors that this process may use, but not too many."""
+def most_threads(triangles: int, share: int = TRIANGLES_PER_THREAD) -> int:
+    """Threads that may compute so many triangles: at most one for each processor that this process may use.
+
+    Args:
+        triangles: of all threads together.
+        share: triangles of a thread, at least.
+    """
     available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return max(1, min(available, MOST_THREADS, triangles // TRIANGLES_PER_THREAD))
+    return max(1, min(available, MOST_THREADS, triangles // share))
 
 
-def launch_faster(launch: Callable[[int], None], *, kernel: str, triangles: int, work: float) -> None:
+def launch_faster(launch: Callable[[int], None], *, threads: int, kernel: str, triangles: int, work: float) -> None:
     """Launch a kernel with one thread or with several, whichever was faster lately.
 
     Args:
         launch: called with the number of threads.
+        threads: that there may be.
         kernel: whose speed it is that was measured.
-        triangles: that threads may share.
+        triangles: on which it works; others have other speeds.
         work: triangle updates of the launch.
     """
-    threads = most_threads(triangles)
     if threads == 1:
         launch(1)
         return

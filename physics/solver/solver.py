@@ -82,7 +82,8 @@ def _advance_largest(kernels: Kernels, part: int, solid: Solid, drive: Drive, pa
         else:
             kernels.advance(np.array([part], dtype=np.int32), *packs)
 
-    launch_faster(launch, kernel="one part", triangles=triangles, work=float(triangles * solid.substeps[part] * ticks))
+    threads, work = most_threads(triangles), float(triangles * solid.substeps[part] * ticks)
+    launch_faster(launch, threads=threads, kernel="one part", triangles=triangles, work=work)
 
 
 def _advance_shared(kernels: Kernels, part: int, threads: int, solid: Solid, ticks: int, packs: list[Any]) -> None:

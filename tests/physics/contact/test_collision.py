@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from physanimator.physics.assembly import assemble
-from physanimator.physics.contact import TouchingBodies, contact_surface
+from physanimator.physics.contact import TouchingBodies, contact_surface, touching_bodies
 from physanimator.physics.contact.surface import CONTACTS
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.forces import EnergyStroke
@@ -124,9 +124,9 @@ def test_the_motion_is_the_same_with_any_number_of_threads(threads: int, monkeyp
     bodies = (Body(fine, SOFT), Body(disc(*CENTRES[0]), SOFT), Body(disc(*CENTRES[3]), SOFT), far)
     scene = Scene(bodies, (pull(256, 256, 6.0),), contact=Contact(), gravity=(0.0, 0.1))
     monkeypatch.setattr(pace.Pace, "share", lambda _: True)
-    monkeypatch.setattr(pace, "most_threads", lambda _: 1)
+    monkeypatch.setattr(touching_bodies, "most_threads", lambda *_: 1)
     alone = simulate(scene, frames=24)
-    monkeypatch.setattr(pace, "most_threads", lambda _: threads)
+    monkeypatch.setattr(touching_bodies, "most_threads", lambda *_: threads)
     shared = simulate(scene, frames=24)
     assert max(deepest(shared, frame) for frame in (12, 23)) == 0
     np.testing.assert_array_equal(shared.positions, alone.positions)
