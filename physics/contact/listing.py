@@ -131,45 +131,67 @@ def build_hash(surface: any_value, options: any_value):
 
 
 @ti.func
+def add_edges_around(surface: any_value, options: any_value, n: ti.i32, reach: ti.f32, first: ti.i32):
+    """Write the edges in the nine cells around a point, as far as they may be within reach, behind the first
+    candidates; returns the number of all.
+    """
+    heads, candidates = ti.static((surface.heads, surface.candidates))
+    p, count, buckets = surface.positions[n], first, heads.shape[0] - 1
+    other_than = ti.cast(surface.bodies[surface.point_parts[n]], ti.f32)
+    if options.self_contact == 1:
+        other_than = -2.0
+    x, y = cell_of(p, cell_size(surface))
+    for c in range(6):
+        # Three rows of three cells, each one or two runs of buckets: after the last bucket comes the first.
+        k = bucket(x - 1, y + c // 2 - 1, buckets)
+        begin, end = k, ti.min(k + 3, buckets)
+        if c % 2 == 1:
+            begin, end = 0, ti.max(k + 3 - buckets, 0)
+        for s in range(heads[begin], heads[end]):
+            e = surface.order[s][0]
+            if count < candidates.shape[0]:  # further candidates are left out where the room is used up
+                candidates[count] = e
+                far, body = reach + surface.middles[e][2], surface.middles[e][3]
+                near = (p - middle(surface, e)).norm_sqr() < far * far and body != other_than
+                count = count + ti.cast(near, ti.i32)
+    return count
+
+
+@ti.func
+def keep_within_reach(
+    surface: any_value, solid: any_value, options: any_value, n: ti.i32, reach: ti.f32, first: ti.i32, end: ti.i32
+):
+    """Of a point's candidates from the first one on, keep those within reach that it may touch.
+
+    Returns where they end now, and the square of the distance to the nearest.
+    """
+    candidates = ti.static(surface.candidates)
+    nearest_square, kept = FAR, first
+    i, own, p = surface.points[n], surface.point_parts[n], surface.positions[n]
+    for c in range(first, end):
+        e = candidates[c]
+        candidates[kept] = e
+        a, b = edge_ends(surface, e)
+        square = offset_from_edge(p, a, b).norm_sqr()
+        near = square < reach * reach
+        if near and options.self_contact == 1:
+            near = may_touch(surface, solid, i, own, e, options)
+        if near:
+            nearest_square = ti.min(nearest_square, square)
+            kept = kept + 1
+    return kept, nearest_square
+
+
+@ti.func
 def list_candidates(surface: any_value, solid: any_value, options: any_value):
     """List for each point the edges within its search radius and the margin."""
-    heads, memory, candidates = ti.static(surface.heads, surface.memory, surface.candidates)
-    size, buckets = cell_size(surface), heads.shape[0] - 1
     inner, outer = search_radii(surface, options)
-    count, room = 0, candidates.shape[0]
+    count = 0
     for n in range(surface.points.shape[0]):
-        first = count
-        i, own, p = surface.points[n], surface.point_parts[n], surface.positions[n]
-        reach = ti.select(known_outside(surface, n), outer, inner) + memory[MARGIN]
-        other_than = ti.cast(surface.bodies[own], ti.f32)
-        if options.self_contact == 1:
-            other_than = -2.0
-        x, y = cell_of(p, size)
-        for c in range(ti.select(near_a_box(surface, options, n, reach), 6, 0)):
-            # Three rows of three cells, each one or two runs of buckets: after the last bucket comes the first.
-            k = bucket(x - 1, y + c // 2 - 1, buckets)
-            begin, end = k, ti.min(k + 3, buckets)
-            if c % 2 == 1:
-                begin, end = 0, ti.max(k + 3 - buckets, 0)
-            for s in range(heads[begin], heads[end]):
-                e = surface.order[s][0]
-                if count < room:  # further candidates are left out where the room is used up
-                    candidates[count] = e
-                    far, body = reach + surface.middles[e][2], surface.middles[e][3]
-                    near = (p - middle(surface, e)).norm_sqr() < far * far and body != other_than
-                    count = count + ti.cast(near, ti.i32)
-        nearest_square, kept = FAR, first
-        for c in range(first, count):
-            e = candidates[c]
-            candidates[kept] = e
-            a, b = edge_ends(surface, e)
-            square = offset_from_edge(p, a, b).norm_sqr()
-            near = square < reach * reach
-            if near and options.self_contact == 1:
-                near = may_touch(surface, solid, i, own, e, options)
-            if near:
-                nearest_square = ti.min(nearest_square, square)
-                kept = kept + 1
-        count = kept
+        first, p, nearest_square = count, surface.positions[n], FAR
+        reach = ti.select(known_outside(surface, n), outer, inner) + surface.memory[MARGIN]
+        if near_a_box(surface, options, n, reach):
+            count = add_edges_around(surface, options, n, reach, first)
+            count, nearest_square = keep_within_reach(surface, solid, options, n, reach, first, count)
         surface.candidate_ranges[n] = int2(first, count)
         surface.listed[n] = vec4(p[0], p[1], ti.sqrt(nearest_square), surface.listed[n][3])

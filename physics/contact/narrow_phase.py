@@ -97,6 +97,48 @@ def add_contact(surface: any_value, options: any_value, n: ti.i32, e: ti.i32, ti
 
 
 @ti.func
+def nearest_edges(surface: any_value, n: ti.i32, reach: ti.f32):
+    """The parts of a point's candidate edges within reach, -1 for none; the nearest edge of each; the square of the
+    distance to the nearest candidate of all.
+    """
+    p, span, nearest_square = surface.positions[n], surface.candidate_ranges[n], FAR
+    parts, best, nearest = _slots_of_parts(-1), _slots_of_distances(0.0), _slots_of_parts(-1)
+    for c in range(span[0], span[1]):
+        e = surface.candidates[c]
+        a, b = edge_ends(surface, e)
+        distance = offset_from_edge(p, a, b).norm_sqr()
+        nearest_square = ti.min(nearest_square, distance)
+        if distance < reach * reach:
+            part, taken = surface.edge_parts[e], False
+            for j in ti.static(range(LIST_LENGTH)):
+                if (not taken) and (parts[j] == part or parts[j] < 0):
+                    taken = True
+                    if parts[j] < 0 or distance < best[j]:
+                        parts[j], best[j], nearest[j] = part, distance, e
+    return parts, nearest, nearest_square
+
+
+@ti.func
+def list_contacts_of(surface: any_value, options: any_value, n: ti.i32, reach: ti.f32):
+    """List the contacts of a point; returns the square of the distance to its nearest candidate."""
+    parts, nearest, nearest_square = nearest_edges(surface, n, reach)
+    near, inside, was_outside = False, False, known_outside(surface, n)
+    for j in ti.static(range(LIST_LENGTH)):
+        if parts[j] >= 0:
+            near = True
+            if not clearly_apart(surface, options, n, nearest[j], surface.memory[TIME]):
+                signed = add_contact(surface, options, n, nearest[j], surface.memory[TIME])
+                if signed < 0.0 - INSIDE_DEPTH * surface.measures[parts[j]][SPACING]:
+                    inside = True
+    if inside and was_outside:
+        surface.listed[n][3] = 0.0
+        surface.memory[GOT_INSIDE] = 1.0
+    if near and not inside and not was_outside and overlaps_nothing(surface, n):
+        surface.listed[n][3] = 1.0
+    return nearest_square
+
+
+@ti.func
 def list_contacts(surface: any_value, options: any_value):
     """List the contacts of all points; returns the square of the distance to the nearest candidate."""
     memory = ti.static(surface.memory)
@@ -104,41 +146,16 @@ def list_contacts(surface: any_value, options: any_value):
     ahead = 2.0 * memory[FASTEST] * time
     inner, outer = search_radii(surface, options)
     inner = ti.max(inner, options.thickness + ahead)
-    # The radius of a point that was outside at the last search reaches as far as it has moved since: so an edge
-    # that it has crossed meanwhile is still found.
+    # The radius of a point that was outside at the last search reaches as far as it has moved since: so an edge that it
+    # has crossed meanwhile is still found.
     outer = outer + ti.max(2.0 * memory[FASTEST] * ti.max(time, TICK), 2.0 * memory[MOVED_SINCE_SEARCH])
     for n in range(surface.points.shape[0]):
         surface.contact_counts[n] = 0
-        span, p, was_outside = surface.candidate_ranges[n], surface.positions[n], known_outside(surface, n)
-        reach = ti.select(was_outside, outer, inner)
-        nearest_possible = surface.listed[n][2] - (p - listed_position(surface, n)).norm() - memory[MOVED_SINCE_LISTING]
+        span, moved = surface.candidate_ranges[n], (surface.positions[n] - listed_position(surface, n)).norm()
+        reach = ti.select(known_outside(surface, n), outer, inner)
+        nearest_possible = surface.listed[n][2] - moved - memory[MOVED_SINCE_LISTING]
         if span[0] < span[1] and nearest_possible > reach:
             nearest_square = ti.min(nearest_square, nearest_possible * nearest_possible)
         elif span[0] < span[1]:
-            parts, best, nearest = _slots_of_parts(-1), _slots_of_distances(0.0), _slots_of_parts(-1)
-            for c in range(span[0], span[1]):
-                e = surface.candidates[c]
-                a, b = edge_ends(surface, e)
-                distance = offset_from_edge(p, a, b).norm_sqr()
-                nearest_square = ti.min(nearest_square, distance)
-                if distance < reach * reach:
-                    part, taken = surface.edge_parts[e], False
-                    for j in ti.static(range(LIST_LENGTH)):
-                        if (not taken) and (parts[j] == part or parts[j] < 0):
-                            taken = True
-                            if parts[j] < 0 or distance < best[j]:
-                                parts[j], best[j], nearest[j] = part, distance, e
-            near, inside = False, False
-            for j in ti.static(range(LIST_LENGTH)):
-                if parts[j] >= 0:
-                    near = True
-                    if not clearly_apart(surface, options, n, nearest[j], time):
-                        signed = add_contact(surface, options, n, nearest[j], time)
-                        if signed < 0.0 - INSIDE_DEPTH * surface.measures[parts[j]][SPACING]:
-                            inside = True
-            if inside and was_outside:
-                surface.listed[n][3] = 0.0
-                memory[GOT_INSIDE] = 1.0
-            if near and not inside and not was_outside and overlaps_nothing(surface, n):
-                surface.listed[n][3] = 1.0
+            nearest_square = ti.min(nearest_square, list_contacts_of(surface, options, n, reach))
     return nearest_square
