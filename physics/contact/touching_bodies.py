@@ -108,11 +108,12 @@ def _advance(touching: _Touching, state: State, acting: Drive) -> None:
     groups = solid_group(solid), state_group(state), drive_group(acting), surface._asdict(), options._asdict()
     packs, ticks, blocks = kernel.packed(*groups), len(acting.first_particles) - 1, np.diff(solid.starts[:, 1])
 
-    def launch(threads: int) -> None:
+    def launch(threads: int) -> float:
         highest = np.zeros(ticks * len(blocks), dtype=np.float32)
         steps = np.zeros((ticks, len(blocks) + 1), dtype=np.int32)
         kernel.advance(threads, counters(int(solid.substeps.max()), ticks), highest, steps, *packs)
+        return float(LANES * (np.abs(steps[:, :-1]) @ blocks).sum())  # parts that touch take more than is planned
 
-    triangles, work = LANES * int(blocks.sum()), float(LANES * ticks * (blocks * solid.substeps).sum())
+    triangles = LANES * int(blocks.sum())
     threads = most_threads(triangles, _TRIANGLES_PER_THREAD)
-    launch_faster(launch, threads=threads, kernel="contact", triangles=triangles, work=work)
+    launch_faster(launch, threads=threads, kernel="contact", triangles=triangles)

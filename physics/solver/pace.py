@@ -72,22 +72,21 @@ def most_threads(triangles: int, share: int = TRIANGLES_PER_THREAD) -> int:
     return max(1, min(available, MOST_THREADS, triangles // share))
 
 
-def launch_faster(launch: Callable[[int], None], *, threads: int, kernel: str, triangles: int, work: float) -> None:
+def launch_faster(launch: Callable[[int], float], *, threads: int, kernel: str, triangles: int) -> None:
     """Launch a kernel with one thread or with several, whichever was faster lately.
 
     Args:
-        launch: called with the number of threads.
+        launch: called with the number of threads; returns the triangle updates that it has done.
         threads: that there may be.
         kernel: whose speed it is that was measured.
         triangles: on which it works; others have other speeds.
-        work: triangle updates of the launch.
     """
     if threads == 1:
         launch(1)
         return
     pace = _paces.setdefault((kernel, triangles.bit_length()), Pace())
     shared, start = pace.share(), time.perf_counter()
-    launch(threads if shared else 1)
+    work = launch(threads if shared else 1)
     pace.learn(shared=shared, work=work, seconds=time.perf_counter() - start)
 
 

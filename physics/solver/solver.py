@@ -76,14 +76,14 @@ def _advance_largest(kernels: Kernels, part: int, solid: Solid, drive: Drive, pa
     """Advance a large part on one thread or on several."""
     triangles, ticks = _triangles(solid, part), len(drive.first_particles) - 1
 
-    def launch(threads: int) -> None:
+    def launch(threads: int) -> float:
         if threads > 1:
             _advance_shared(kernels, part, threads, solid, ticks, packs)
         else:
             kernels.advance(np.array([part], dtype=np.int32), *packs)
+        return float(triangles * solid.substeps[part] * ticks)
 
-    threads, work = most_threads(triangles), float(triangles * solid.substeps[part] * ticks)
-    launch_faster(launch, threads=threads, kernel="one part", triangles=triangles, work=work)
+    launch_faster(launch, threads=most_threads(triangles), kernel="one part", triangles=triangles)
 
 
 def _advance_shared(kernels: Kernels, part: int, threads: int, solid: Solid, ticks: int, packs: list[Any]) -> None:
