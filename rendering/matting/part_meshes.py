@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError
-from ...physics.mesh import TriangleMesh, mesh_from_mask
+from ...physics.mesh import TriangleMesh, mesh_from_mask, refuse_noise
 from ..pictures import as_float, is_transparent, over
 from .regularisation import regular_mask
 
@@ -59,6 +59,7 @@ def part_mesh(
         >>> mesh.width, mesh.height
         (60, 60)
     """
+    refuse_noise(np.asarray(mask, dtype=np.float32))  # in which the search for edges would take long
     meshed = partial(mesh_from_mask, spacing=spacing, elements_across=elements_across)
     shown = shown_part(image, mask)
     if ((shown > _HALF) == (np.asarray(mask) > _HALF)).all():

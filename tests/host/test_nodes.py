@@ -189,18 +189,23 @@ def test_a_mesh_ends_where_the_picture_shows_the_part_to_end(host: Any) -> None:
         prompt |= {name: ours("MaskToMesh", **inputs), f"{name}_seen": core("PreviewImage", images=[name, 1])}
     outputs, ribbon_mask = host.run(prompt), example("mask_ribbon.png") > 127
     away = cv2.distanceTransform((~ribbon_mask).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    reach = {}
+    beyond = {}
     for name in ("fitted", "pixels"):
         (seen,) = pictures(host, outputs, f"{name}_seen")
-        reach[name] = away[np.abs(seen - example("illustration.png")).max(axis=2) > 30].max()
-    assert reach["fitted"] < 4
-    assert reach["pixels"] > 6
+        beyond[name] = (away[np.abs(seen - example("illustration.png")).max(axis=2) > 30] > 5).sum()
+    assert beyond["pixels"] > 1000
+    assert beyond["fitted"] < 0.3 * beyond["pixels"]
 
 
 def test_in_betweens_cut_parts_where_the_picture_shows_them_to_end(host: Any) -> None:
-    """A grown mask must not carry what is around the part along."""
-    prompt = grown_ribbon(9) | {"frames": core("PreviewImage", images=["render", 0])}
-    prompt["mesh"]["inputs"]["image"] = ["example", 0]
+    """A blurred mask must not make the part translucent between the keyframes."""
+    prompt = ribbon(9) | {
+        "frames": core("PreviewImage", images=["render", 0]),
+        "sharp": core("MaskToImage", mask=["example", 2]),
+        "blurred": core("ImageBlur", image=["sharp", 0], blur_radius=12, sigma=6.0),
+        "soft": core("ImageToMask", image=["blurred", 0], channel="red"),
+    }
+    prompt["mesh"]["inputs"] |= {"mask": ["soft", 0], "image": ["example", 0]}
     for name, given in (("given", {}), ("fitted", {"image": ["example", 0]})):
         usual = {"images": ["render", 0], "images_are": "all frames", "every": 8, "backend": "motion"}
         prompt[name] = ours("Interpolate", **usual, motion=["simulate", 0], **given)
@@ -208,7 +213,7 @@ def test_in_betweens_cut_parts_where_the_picture_shows_them_to_end(host: Any) ->
     outputs = host.run(prompt)
     rendered = pictures(host, outputs, "frames")[4]
     error = {name: np.abs(pictures(host, outputs, f"{name}_seen")[4] - rendered).mean() for name in ("given", "fitted")}
-    assert error["fitted"] < 0.8 * error["given"]
+    assert error["fitted"] < 0.5 * error["given"]
 
 
 def test_in_betweens_want_the_picture_of_their_motion(host: Any) -> None:
