@@ -13,6 +13,7 @@ from physanimator.physics.mesh.contours import perimeter_of
 from physanimator.physics.mesh.masks import continued, with_sound_details
 from physanimator.physics.mesh.spacing import SpacingField, spacing_field
 from physanimator.physics.mesh.triangulation import CrossingEdgesError, morton_order, triangulate
+from physanimator.physics.scene import Collider
 from scipy.spatial import cKDTree
 
 
@@ -391,8 +392,9 @@ def test_specks_are_dropped_and_pinholes_filled() -> None:
 )
 def test_noise_is_refused(share: float, said: str) -> None:
     mask = np.random.default_rng(0).random((400, 500)) < share
-    with pytest.raises(MeshingError, match=rf"^mask must show parts in even white. Got: \d+ specks {said}, as noise"):
-        mesh_from_mask(mask)
+    for refusing in (mesh_from_mask, Collider.from_mask):
+        with pytest.raises(MeshingError, match=rf"^mask must show parts in even white. Got: \d+ specks {said}, as"):
+            refusing(mask)
 
 
 @pytest.mark.parametrize("kind", ["salted", "dithered", "hatched", "many leaves"])
