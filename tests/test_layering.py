@@ -98,7 +98,7 @@ MAY_IMPORT = {
     "nodes": (
         "nodes/host nodes/models nodes/preview physics physics/document physics/forces physics/material "
         "physics/mesh physics/motion physics/rig physics/scene physics/simulation rendering/composite "
-        "rendering/control rendering/inbetweens rendering/metrics rendering/metrics/learned "
+        "rendering/control rendering/inbetweens rendering/matting rendering/metrics rendering/metrics/learned "
         "rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
     ),
     # the entry points
