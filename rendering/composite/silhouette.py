@@ -35,15 +35,17 @@ _ROUNDINGS = 12
 def continued_silhouette(opacity: FloatImage, hole: Mask) -> FloatImage:
     """Alpha in a hole, shape [h, w]: silhouettes that enter and leave it go on, else that of the nearest pixel.
 
-    The edge is rounded where it bends more sharply than a part behind would, and one pixel wide.
+    Where the picture is transparent, so is what is behind it. The edge is rounded where it bends more sharply than a
+    part behind would, and one pixel wide.
     """
     continued, window = opacity.copy(), window_around(hole, margin=_AROUND)
     around, inside = opacity[window], hole[window]
     lined, lines = continue_lines(thrice(around), inside)
-    opaque, known = lined[..., 0] >= _HALF, ~inside | lines
+    transparent = around < _HALF
+    opaque, known = (lined[..., 0] >= _HALF) & ~transparent, ~inside | lines | transparent
     solid, clear = known & opaque, known & ~opaque
     if not (solid.any() and clear.any()):
-        continued[hole] = solid.any()
+        continued[hole] = np.minimum(continued[hole], solid.any())
         return continued
     to_solid, to_clear = (
         cv2.distanceTransform((~each).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE) for each in (solid, clear)
@@ -52,7 +54,7 @@ def continued_silhouette(opacity: FloatImage, hole: Mask) -> FloatImage:
     shape = _rounded((to_solid < to_clear).astype(np.float32), known, bend)
     slope = np.float32(np.sqrt(2 * np.pi))
     soft = np.clip(_HALF + (cv2.GaussianBlur(shape, (0, 0), 1.0) - _HALF) * slope, 0, 1)
-    continued[window] = np.where(inside, np.where(soft > 1 - ALL, np.float32(1), soft), around)
+    continued[window] = np.where(inside, np.minimum(np.where(soft > 1 - ALL, np.float32(1), soft), around), around)
     return continued
 
 
