@@ -11,7 +11,7 @@ from .host import chosen
 if TYPE_CHECKING:
     from ..rendering.composite import Background
 
-__all__ = ["background_chosen", "background_inputs"]
+__all__ = ["background_chosen", "background_inputs", "image_alpha_input"]
 
 _CHOICES = ("picture", "transparent", "parts", "colour")
 
@@ -29,12 +29,7 @@ def background_inputs() -> list[Any]:
             " opaque picture the moving parts alone. parts: the moving parts alone. With transparent and parts, frames"
             " have an alpha channel, which Save Image and Save Animated WEBP write and Create Video does not take.",
         ),
-        io.Mask.Input(
-            "image_alpha",
-            optional=True,
-            tooltip="White where the illustration is transparent: the mask of Load Image, whose picture has lost its"
-            " alpha. Not needed for pictures of four channels.",
-        ),
+        image_alpha_input(),
         io.Boolean.Input(
             "pixel_art",
             default=False,
@@ -42,6 +37,16 @@ def background_inputs() -> list[Any]:
             tooltip="Move whole pixels (or blocks, where each pixel of the art is one) and mix no colours.",
         ),
     ]
+
+
+def image_alpha_input() -> Any:
+    """The optional input image_alpha, for a node whose input image may have lost its transparency."""
+    return io.Mask.Input(
+        "image_alpha",
+        optional=True,
+        tooltip="White where the illustration is transparent: the mask of Load Image, whose picture has lost its"
+        " alpha. Not needed for pictures of four channels.",
+    )
 
 
 def background_chosen(choice: dict[str, Any] | None) -> Background:

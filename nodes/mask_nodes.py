@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from comfy_api.latest import io, ui
 
 from ..physics.document import parse_points
 from ..physics.errors import InvalidInputError, MeshingError
+from .background_inputs import image_alpha_input
 from .host import (
     batch_of_masks,
     batch_of_pictures,
@@ -18,6 +20,7 @@ from .host import (
     default_of,
     mask_of,
     picture_of,
+    picture_with_alpha,
     refusal,
     sent_inputs,
     shown_with,
@@ -198,7 +201,15 @@ class MaskToMesh(io.ComfyNode):
                 io.Image.Input(
                     "image",
                     optional=True,
-                    tooltip="The illustration. Connect it to check the mask's size and to see the mesh on the picture.",
+                    tooltip="The illustration. Connect it: the mesh then ends where the picture shows the part to end,"
+                    " which is where Render cuts it out, and not where a blurred, grown or hand-painted mask does.",
+                ),
+                image_alpha_input(),
+                io.Boolean.Input(
+                    "pixel_art",
+                    default=False,
+                    optional=True,
+                    tooltip="As in Render, which then moves the very pixels of the mask: so does the mesh.",
                 ),
             ],
             outputs=[
@@ -215,17 +226,23 @@ class MaskToMesh(io.ComfyNode):
         elements_across: int,
         mask_index: int,
         image: torch.Tensor | None = None,
+        image_alpha: torch.Tensor | None = None,
+        pixel_art: bool = False,
     ) -> io.NodeOutput:
         from ..physics.mesh import fitted, mesh_from_mask
         from ..physics.scene import mask_advice
+        from ..rendering.matting import part_mesh
         from ..rendering.overlays import draw_wireframe
+        from ..rendering.pictures import over
 
         coverage = mask_of(mask, index=mask_index)
-        picture = np.repeat(coverage[..., None], 3, axis=2) if image is None else picture_of(image)
+        given = image is not None
+        picture = picture_with_alpha(image, image_alpha) if given else np.repeat(coverage[..., None], 3, axis=2)
         if not (coverage > 0.5).any():
             raise MeshingError(_EMPTY)
         coverage = fitted(coverage, picture.shape[1], picture.shape[0])
         told = tell_user(cls, mask_advice(coverage))
-        mesh = mesh_from_mask(coverage, spacing=spacing or None, elements_across=elements_across)
-        preview = batch_of_pictures([draw_wireframe(picture, mesh)], 1)
+        meshed = partial(part_mesh, picture) if given and not pixel_art else mesh_from_mask
+        mesh = meshed(coverage, spacing=spacing or None, elements_across=elements_across)
+        preview = batch_of_pictures([draw_wireframe(over(picture), mesh)], 1)
         return io.NodeOutput(MaskedMesh(mesh, coverage), preview, ui=shown_with(ui.PreviewImage(preview), told))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from comfy_api.latest import io
 
 from ..physics.errors import require
-from .background_inputs import background_chosen, background_inputs
+from .background_inputs import background_chosen, background_inputs, image_alpha_input
 from .host import (
     all_told,
     announce_batch,
@@ -208,6 +208,13 @@ class Interpolate(io.ComfyNode):
                     tooltip="Frame numbers of the keyframes, from 0, with commas between them, instead of every n-th."
                     " Empty: every n-th.",
                 ),
+                io.Image.Input(
+                    "image",
+                    optional=True,
+                    tooltip="The illustration. Connect it beside motion: parts then end where the picture shows them to"
+                    " end, as in Render, and not where a blurred, grown or hand-painted mask does.",
+                ),
+                image_alpha_input(),
             ],
             outputs=[io.Image.Output(display_name="frames", tooltip="Keyframes and in-betweens.")],
         )
@@ -233,6 +240,8 @@ class Interpolate(io.ComfyNode):
         backend: dict[str, Any],
         motion: MaskedMotion | None = None,
         keyframes_at: str = "",
+        image: torch.Tensor | None = None,
+        image_alpha: torch.Tensor | None = None,
     ) -> io.NodeOutput:
         from ..rendering.inbetweens import BACKENDS, interpolate
 
@@ -249,12 +258,27 @@ class Interpolate(io.ComfyNode):
             indices,
             backend=tooncrafter_backend(choice) if drawn_by_model else name,
             motion=known,
-            masks=motion.masks if motion else (),
+            masks=_shown_masks(motion, image, image_alpha),
             sketches=() if sketches is None else list(pictures_of(sketches, name="sketches")),
             find_file=find_model_file,
             progress=None if drawn_by_model else host_progress(),
         )
         return io.NodeOutput(batch_of_pictures(frames, indices[-1] + 1), ui=told or None)
+
+
+def _shown_masks(
+    motion: MaskedMotion | None, image: torch.Tensor | None, image_alpha: torch.Tensor | None
+) -> list[NDArray[Any]]:
+    """The masks of a motion, with their edges where the picture has them if there is one."""
+    from ..rendering.matting import shown_part
+
+    if motion is None or image is None:
+        return [] if motion is None else list(motion.masks)
+    picture, known = picture_with_alpha(image, image_alpha), motion.motion
+    got = f"{picture.shape[1]} x {picture.shape[0]} px"
+    size = f"{known.width} x {known.height} px"
+    require("image", got, picture.shape[:2] == (known.height, known.width), f"of the motion's size, {size}")
+    return [shown_part(picture, mask) for mask in motion.masks]
 
 
 def _numbers_of(keyframes_at: str, images_are: str | None) -> tuple[int, ...]:

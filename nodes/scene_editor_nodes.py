@@ -12,6 +12,7 @@ import numpy as np
 from comfy_api.latest import io, ui
 
 from ..physics.errors import require
+from .background_inputs import image_alpha_input
 from .host import batch_of_pictures, checked_document, picture_with_alpha, refusal
 from .host.wires import BodiesWire, MaskedBody
 from .preview import STORE, PreviewBodies
@@ -51,6 +52,7 @@ class SceneEditor(io.ComfyNode):
                     tooltip="The illustration without its moving parts, which the preview shows behind them. One is"
                     " made when none is connected.",
                 ),
+                image_alpha_input(),
             ],
             outputs=scene_outputs(),
         )
@@ -66,11 +68,12 @@ class SceneEditor(io.ComfyNode):
         bodies: tuple[MaskedBody, ...],
         image: torch.Tensor | None = None,
         plate: torch.Tensor | None = None,
+        image_alpha: torch.Tensor | None = None,
     ) -> io.NodeOutput:
         from ..physics.document import checked_scene_over
 
         drawn = checked_scene_over(checked_document(scene), [item.body for item in bodies])
-        shown = None if image is None else _shown(image, drawn.width, drawn.height, "image")
+        shown = None if image is None else _shown(image, drawn.width, drawn.height, "image", image_alpha)
         behind = None if plate is None else _shown(plate, drawn.width, drawn.height, "plate")
         info = {
             "key": STORE.put(_kept(bodies, shown)),
@@ -84,9 +87,9 @@ class SceneEditor(io.ComfyNode):
         return scene_output(drawn, bodies, ui={"physanimator_editor": [info]})
 
 
-def _shown(image: torch.Tensor, width: int, height: int, name: str) -> np.ndarray:
+def _shown(image: torch.Tensor, width: int, height: int, name: str, alpha: torch.Tensor | None = None) -> np.ndarray:
     """A picture of the bodies' size as bytes, uint8, shape [h, w, 3], or [h, w, 4] where it has transparency."""
-    picture = picture_with_alpha(image, name=name)
+    picture = picture_with_alpha(image, alpha, name=name)
     got = f"{picture.shape[1]} x {picture.shape[0]} px"
     require(name, got, picture.shape[:2] == (height, width), f"of the bodies' size, {width} x {height} px")
     from ..rendering.pictures import as_uint8

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..physics.errors import InvalidInputError, require
 from ..physics.mesh import coverage_of
 from ..physics.motion import Motion
 from ..physics.scene import Scene
@@ -21,6 +22,7 @@ from .files import check_text_output, write_text
 from .pictures import check_output, holds_alpha, is_transparent, over, resized, write_animation
 
 if TYPE_CHECKING:
+    from .artwork import Artwork
     from .composite import LayeredRenderer, PixelArtRenderer
 
 __all__ = ["Animation", "StageProgress", "timed"]
@@ -45,6 +47,7 @@ class Animation:
         motion: where every vertex is in every frame.
         renderer: draws the frames.
         first: number of the motion's first frame that is shown; the ones before let the motion settle in.
+        own: each part alone, straight RGBA as large as the illustration; empty where it is known from masks alone.
         seconds: how long each stage took [s], by its name, in the order of the work.
     """
 
@@ -55,6 +58,7 @@ class Animation:
     renderer: LayeredRenderer | PixelArtRenderer
     first: int = 0
     seconds: dict[str, float] = field(default_factory=dict)
+    own: tuple[Image, ...] = ()
 
     def __len__(self) -> int:
         """Number of frames that are shown."""
@@ -118,6 +122,59 @@ class Animation:
             pictures = (shown_frame(self.renderer, t, chosen) for t in self.shown)
         return self._measured("render", pictures, progress)
 
+    def layers(self, t: int) -> Artwork:
+        """Frame ``t`` of layered artwork as layers again, for painting programs.
+
+        Args:
+            t: number of the frame that is shown, from 0.
+
+        Raises:
+            InvalidInputError: there is no such frame, or the illustration is no layered artwork.
+        """
+        from .composite import PixelArtRenderer
+
+        require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
+        if isinstance(self.renderer, PixelArtRenderer):
+            raise InvalidInputError("frames in layers need layered artwork. Got: pixel art")
+        return self.renderer.artwork(self.first + t)
+
+    def save_layers(self, folder: StrPath, *, width: int | None = None, progress: StageProgress | None = None) -> None:
+        """Write each layer of layered artwork as a sequence of its own, for painters: ``OUT/01 hair/frame_0000.png``.
+
+        Layers that stand still have one frame. All frames are RGBA as large as the canvas.
+
+        Args:
+            folder: where to; it is made where it is missing.
+            width: width of the written frames [px]; that of the illustration when None.
+            progress: called after each frame with the stage "render".
+
+        Raises:
+            InvalidInputError: the illustration is no layered artwork, or one of the folders holds frames that
+                PhysAnimator did not write.
+        """
+        from .artwork import layer_on_canvas
+        from .layer_sequences import check_layer_sequences, layer_folders
+
+        artwork = self.layers(0)
+        moving = self.renderer.moving_layers  # type: ignore[union-attr]
+        check_layer_sequences(artwork, folder)
+        os.makedirs(folder, exist_ok=True)
+        folders = layer_folders(artwork, folder)
+        counts = [len(self) if index in moving else 1 for index in range(len(artwork.layers))]
+        done = 0
+        for index, (place, count) in enumerate(zip(folders, counts, strict=True)):
+
+            def drawn(index: int = index, count: int = count) -> Iterator[Image]:
+                nonlocal done
+                for t in range(count):
+                    bent = self.renderer.artwork(self.first + t, only=index)  # type: ignore[union-attr]
+                    yield layer_on_canvas(bent.layers[index], bent)
+                    done += 1
+                    if progress is not None:
+                        progress("render", done, sum(counts))
+
+            self.write(drawn(), f"{place}/", width=width)
+
     def sketches(self, *, progress: StageProgress | None = None) -> Iterator[Image]:
         """The line drawing of the illustration, warped along the motion: float32 0..1, shape [h, w], lines dark."""
         from ..physics.motion import FlowSequence
@@ -125,7 +182,8 @@ class Animation:
 
         def drawn() -> Iterator[Image]:
             sketch, behind = extract_sketch(over(self.image)), extract_sketch(over(self.renderer.plate))
-            warped = warped_sketches(sketch, FlowSequence(self.motion), self.shown, behind=behind)
+            own = [extract_sketch(over(part)) for part in self.own] or None
+            warped = warped_sketches(sketch, FlowSequence(self.motion), self.shown, behind=behind, own=own)
             yield from (each.sketch for each in warped)
 
         return self._measured("sketch", drawn(), progress)
@@ -256,7 +314,8 @@ class Animation:
 
         indices = [self.first + t for t in keyframe_indices(len(self), every)]
         keyframes = [shown_frame(self.renderer, t, background) for t in indices]
-        shown = [shown_part(self.image, coverage_of(mask)) for mask in self.masks]
+        masks = [coverage_of(mask) for mask in self.masks]
+        shown = masks if self.own else [shown_part(self.image, mask) for mask in masks]
         yield from interpolate(keyframes, indices, motion=self.motion, masks=shown)
 
     def _measured(self, stage: str, pictures: Iterable[T], progress: StageProgress | None) -> Iterator[T]:

@@ -16,7 +16,10 @@ from .drawing_checks import check_count
 __all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "AutomaticWind", "LayerChoice", "Timing", "Touching", "Watch"]
 
 DEFAULT_FRAMES = 72
+"""Three seconds at the default frame rate."""
+
 DEFAULT_FRAME_RATE = 24.0
+"""Of film [frames/s]."""
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +29,7 @@ from .matting import part_mesh
 if TYPE_CHECKING:
     from .artwork import Artwork, LayerPlan
 
-__all__ = ["Parts", "about", "coverages", "parts_of_artwork", "parts_of_picture"]
+__all__ = ["Parts", "about", "arranged", "coverage", "coverages", "parts_of_artwork", "parts_of_picture", "picture_of"]
 
 Image = NDArray[Any]
 Mask = NDArray[Any]
@@ -48,6 +49,7 @@ class Parts:
         rests: where something that stands still is behind each, the backdrop apart, as ``covers``.
         attachments: where each is held in an automatic scene.
         renderer: makes what draws a motion of the parts.
+        own: each part alone, straight RGBA, shape [h, w, 4] each; empty where only masks are known.
     """
 
     image: Image
@@ -59,6 +61,7 @@ class Parts:
     rests: tuple[NDArray[np.bool_] | None, ...]
     attachments: tuple[Attachment, ...]
     renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
+    own: tuple[Image, ...] = ()
 
     def covered(self, scene: Scene) -> Scene:
         """The scene with what is in front of its bodies, in the order of the parts."""
@@ -112,9 +115,7 @@ def parts_of_picture(
     meshes = tuple(_meshed(mask, spacing, name, seen) for mask, name in zip(masks, names, strict=True))
     count = len(masks)
     nothing, guessed = (None,) * count, tuple[Attachment, ...](["auto"] * count)
-    return Parts(
-        image, tuple(masks), meshes, ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer
-    )
+    return Parts(image, tuple(masks), meshes, ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer)
 
 
 def parts_of_artwork(
@@ -132,16 +133,15 @@ def parts_of_artwork(
         InvalidInputError: there is no such layer, none moves, or one gives no mesh.
     """
     from .artwork import flattened, moving_layers
-    from .pictures import as_picture
 
-    plans = [plan for plan in moving_layers(artwork, move=move, still=still) if plan.moves]
+    plans = [plan for plan in moving_layers(artwork, move, still) if plan.moves]
+    artwork = arranged(artwork, move, still)
     if not plans:
         raise InvalidInputError(
             "no layer has a name that says it moves; name those that do with --move, or the node's input move."
             f" Got: {', '.join(artwork.names)[:300]}"
         )
-    image = as_picture(flattened(artwork), alpha=True)
-    image = image if image[..., 3].min() < np.iinfo(np.uint8).max else np.ascontiguousarray(image[..., :3])
+    image = picture_of(artwork)
     indices = [plan.index for plan in plans]
     masks, covers, rests = [], [], []
     for index in indices:
@@ -159,6 +159,7 @@ def parts_of_artwork(
         tuple(rests),
         tuple(_attachment(plan) for plan in plans),
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
+        tuple(flattened(artwork, [replace(artwork.layers[index], blend="normal")]) for index in indices),
     )
 
 
@@ -172,11 +173,51 @@ def _attachment(plan: LayerPlan) -> Attachment:
     return hints.get(plan.held, "auto")
 
 
+def arranged(artwork: Artwork, move: Sequence[str] = (), still: Sequence[str] = ()) -> Artwork:
+    """The artwork with the layers visible that are drawn: not the closed eye over the open one, but what is to move.
+
+    Args:
+        artwork: the layers.
+        move: names of layers that move.
+        still: names of layers that stand still.
+
+    Raises:
+        InvalidInputError: there is no such layer.
+    """
+    from .artwork import moving_layers
+
+    shown = [plan.shown for plan in moving_layers(artwork, move, still)]
+    layers = zip(artwork.layers, shown, strict=True)
+    if all(layer.visible == seen for layer, seen in layers):
+        return artwork
+    layers = zip(artwork.layers, shown, strict=True)
+    return replace(artwork, layers=tuple(replace(layer, visible=seen) for layer, seen in layers))
+
+
+def picture_of(artwork: Artwork) -> Image:
+    """An artwork as one picture, made once: RGB, or straight RGBA where it has transparency, uint8 or float32."""
+    from .artwork import flattened
+    from .pictures import as_picture
+
+    if artwork not in _PICTURES:
+        flat = flattened(artwork)
+        opaque = bool((flat[..., 3] == np.iinfo(flat.dtype).max).all())
+        _PICTURES[artwork] = as_picture(np.ascontiguousarray(flat[..., :3]) if opaque else flat, alpha=True)
+    return _PICTURES[artwork]
+
+
+_PICTURES: WeakKeyDictionary[Artwork, Image] = WeakKeyDictionary()
+
+
 def coverages(name: str, masks: Sequence[Mask], image: Image) -> list[Mask]:
     """Masks as numbers from 0 to 1 of the picture's size."""
+    return [coverage(f"{name}[{number}]", mask, image) for number, mask in enumerate(masks)]
+
+
+def coverage(name: str, mask: Mask, image: Image) -> Mask:
+    """A mask as numbers from 0 to 1 of the picture's size."""
     height, width = image.shape[:2]
-    named = [(f"{name}[{number}]", mask) for number, mask in enumerate(masks)]
-    return [fitted(coverage_of(mask, name=each), width, height, name=each) for each, mask in named]
+    return fitted(coverage_of(mask, name=name), width, height, name=name)
 
 
 def _meshed(part: Mask, spacing: float | None, name: str, image: Image | None) -> TriangleMesh:

@@ -24,7 +24,7 @@ from ..physics.scene import Attachment, Body, Collider, Contact, Scene, automati
 from ..physics.simulation import loop_frames, simulate
 from .animation import Animation, StageProgress, timed
 from .options import DEFAULT_FRAME_RATE, DEFAULT_FRAMES, AutomaticWind, LayerChoice, Timing, Touching, Watch
-from .parts import about, coverages, parts_of_artwork, parts_of_picture
+from .parts import about, coverage, coverages, parts_of_artwork, parts_of_picture
 from .pictures import as_picture, over
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ def animate(
         image = as_picture(image, alpha=True)
         plate = _checked_plate(plate, image)
         masks = coverages("masks", () if masks is None else masks, image)
-        front = None if in_front is None else coverages("in_front", [in_front], image)[0]
+        front = None if in_front is None else coverage("in_front", in_front, image)
         colliders = coverages("colliders", touching.colliders, image)
         with timed(seconds, "segment"):
             cut = (*masks, *_segmented(over(image), points or ()))
@@ -150,7 +150,7 @@ def animate(
         motion = simulate(whole, frames=timing.frames, progress=hears, max_minutes=max_minutes)
     with timed(seconds, "prepare"):
         renderer = parts.renderer(motion)
-    return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds)
+    return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds, parts.own)
 
 
 def _automatic(

@@ -43,11 +43,14 @@ MAY_IMPORT = {
     "rendering/files": "physics",
     "rendering/networks": "physics",
     "rendering/pictures": "physics physics/mesh rendering/files",
+    "rendering/artwork": "physics physics/material rendering/files rendering/pictures",
     "rendering/matting": "physics physics/mesh rendering/pictures",
     "rendering/metrics/learned": "physics rendering/files rendering/networks rendering/pictures",
     "rendering/svd": "physics rendering/networks rendering/pictures",
     "rendering/plate": "physics physics/mesh rendering/matting rendering/pictures",
-    "rendering/composite": "physics physics/mesh physics/motion rendering/matting rendering/pictures rendering/plate",
+    "rendering/composite": (
+        "physics physics/mesh physics/motion rendering/artwork rendering/matting rendering/pictures rendering/plate"
+    ),
     "rendering/overlays": (
         "physics physics/forces physics/mesh physics/motion physics/rig physics/scene rendering/pictures"
     ),
@@ -64,9 +67,9 @@ MAY_IMPORT = {
     "rendering/segmentation": "physics physics/document physics/scene rendering/pictures rendering/sketch",
     "rendering/sketch/drawings": "physics rendering/networks rendering/pictures rendering/sketch",
     "rendering": (
-        "physics physics/assembly physics/document physics/material physics/mesh physics/motion physics/scene "
-        "physics/simulation rendering/composite rendering/files rendering/inbetweens rendering/matting "
-        "rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
+        "physics physics/assembly physics/document physics/mesh physics/motion physics/scene "
+        "physics/simulation rendering/artwork rendering/composite rendering/files rendering/inbetweens "
+        "rendering/matting rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
     ),
     "rendering/segmentation/sam": (
         "physics rendering/files rendering/networks rendering/pictures rendering/segmentation"
@@ -76,7 +79,8 @@ MAY_IMPORT = {
     ),
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
-        "physics/scene rendering rendering/composite rendering/figures rendering/files rendering/metrics "
+        "physics/scene rendering rendering/artwork rendering/composite rendering/figures rendering/files "
+        "rendering/metrics "
         "rendering/metrics/learned rendering/pictures rendering/segmentation"
     ),
     # nodes: the host
@@ -94,7 +98,7 @@ MAY_IMPORT = {
     "nodes": (
         "nodes/host nodes/models nodes/preview physics physics/document physics/forces physics/material "
         "physics/mesh physics/motion physics/rig physics/scene physics/simulation rendering/composite "
-        "rendering/control rendering/inbetweens rendering/metrics rendering/metrics/learned "
+        "rendering/control rendering/inbetweens rendering/matting rendering/metrics rendering/metrics/learned "
         "rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
     ),
     # the entry points
@@ -106,7 +110,7 @@ MAY_IMPORT = {
 NOT_INSIDE = {"physics": {"PIL", "av"} | HOST | NEURAL, "rendering": HOST, "nodes": set(), "": HOST}
 """Packages that no room of a house may import."""
 
-HEAVY = {"PIL", "av", "jsonschema", "pythoncdt", "scipy", "taichi", "tqdm"} | NEURAL
+HEAVY = {"PIL", "av", "jsonschema", "psd_tools", "pythoncdt", "scipy", "taichi", "tqdm"} | NEURAL
 
 LIGHT = {"numpy", "cv2"}
 """Packages outside the standard library that any module may import at its top."""

@@ -18,7 +18,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 DATA = ("physics/document/*.schema.json", "nodes/web/**/*", "workflows/**/*")
-DATA_SUFFIXES = {".css", ".html", ".jpg", ".js", ".json", ".md", ".png", ".svg", ".webp"}
+DATA_SUFFIXES = {".css", ".html", ".jpg", ".js", ".json", ".md", ".png", ".psd", ".svg", ".webp"}
 
 
 @pytest.fixture(scope="module")

@@ -27,6 +27,8 @@ _BENDING = 0.8  # share of the mode's strain energy that counts as where it bend
 # Area that bends as a share of the area that moves. A strip held at one end has 0.7; parts of drawings had 0.16 to 1,
 # and a lock on a neck of some pixels 0.02. Any bound from 0.03 to 0.15 tells them apart.
 _HINGE = 0.07
+# What hangs on a joint with most of the free area is the part itself, such as a plant on its stalk, not a lock of it.
+_WHOLE = 0.5  # a strip held at one end moves 0.6 of its area
 _STEP = 4.0  # on the modulus of what bends, each time
 _MOST_STEPS = 8  # 4^8: the cube of a neck 40 times too thin
 
@@ -43,6 +45,7 @@ def joint_factors(rest: RestShape, poisson_ratio: float, density: ArrayLike, hel
     factors = np.ones(len(rest.triangles))
     if held.all() or not held.any():
         return factors
+    free = rest.areas[~held[rest.triangles].all(axis=1)].sum()
     for _ in range(_MOST_STEPS):
         checkpoint()
         mu, lam = lame_parameters(factors, poisson_ratio)
@@ -52,7 +55,8 @@ def joint_factors(rest: RestShape, poisson_ratio: float, density: ArrayLike, hel
         moves = np.zeros((len(held), 2))
         moves[~held] = mode.reshape(-1, 2)
         bending = _bending(rest, moves, mu, lam)
-        if rest.areas[bending].sum() >= _HINGE * _moving_area(rest, moves):
+        moving = _moving_area(rest, moves)
+        if rest.areas[bending].sum() >= _HINGE * moving or moving >= _WHOLE * free:
             return factors
         factors[bending] *= _STEP
     return factors

@@ -15,6 +15,7 @@ from ..scene import Contact, Scene, outlines, window_of
 __all__ = [
     "CANDIDATES",
     "CONTACTS",
+    "FAR",
     "FASTEST",
     "GAP",
     "GOT_INSIDE",
@@ -24,12 +25,10 @@ __all__ = [
     "MOVED_SINCE_LISTING",
     "MOVED_SINCE_SEARCH",
     "NEAREST_SQUARE",
-    "NEXT_STEPS",
     "RADIUS",
     "SEARCH",
     "SPACING",
     "SPEED",
-    "STEPPING",
     "STEPS",
     "TIME",
     "TOUCHING",
@@ -42,6 +41,9 @@ __all__ = [
 FloatArray = NDArray[np.float64]
 Float32Array = NDArray[np.float32]
 Int32Array = NDArray[np.int32]
+
+FAR = 1e6
+"""Farther than anything [side]."""
 
 LIST_LENGTH = 4
 """Most contacts of one vertex, each with another part."""
@@ -70,7 +72,7 @@ CANDIDATES = 96
 SPACING, SPEED = range(2)
 """Places of the numbers in ``ContactSurface.measures``."""
 
-TOUCHING, STEPPING, STEPS, NEXT_STEPS = range(4)
+TOUCHING, STEPS = range(2)
 """Places of the numbers in ``ContactSurface.activity``."""
 
 
@@ -105,9 +107,8 @@ class ContactSurface(NamedTuple):
         contacts: pairs of a point and the edge that it may touch, int32, shape [c, 2].
         contact_data: normal (2), parameter along the edge, and distance to keep [side] of each contact, float32, shape
             [c, 4].
-        activity: of each part 1 if it may touch another within a tick, by the latest search; 1 if it steps in intervals
-            in the present tick; its substeps in it (0 for colliders); and those that it needs in the next one, int32,
-            shape [p, 4].
+        activity: of each part 1 if it may touch another within a tick, by the latest search, and its substeps in the
+            present tick (0 for colliders), int32, shape [p, 2].
         memory: numbers that the kernel keeps from search to search, at the places named above, float32, shape [14].
     """
 
@@ -185,7 +186,7 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         contact_counts=np.zeros(len(points), np.int32),
         contacts=np.zeros((room, 2), np.int32),
         contact_data=np.zeros((room, 4), np.float32),
-        activity=np.tile(np.array([1, 0, 0, 0], np.int32), (len(bodies), 1)),
+        activity=np.tile(np.array([1, 0], np.int32), (len(bodies), 1)),
         memory=np.array([0.0, -1.0, *[0.0] * 12], np.float32),
     )
     return surface, still

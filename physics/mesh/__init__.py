@@ -5,7 +5,7 @@ from __future__ import annotations
 from .boundary import boundary_edges
 from .contours import area_of, contours_at_half, resampled
 from .cutting import cut_along
-from .masks import coverage_of, fitted, may_be_inverted
+from .masks import coverage_of, fitted, may_be_inverted, refuse_noise
 from .meshing import mesh_from_mask
 from .outline_distances import signed_distances, within_reach
 from .pixel_box import PixelBox, bounding_box
@@ -31,6 +31,7 @@ __all__ = [
     "may_be_inverted",
     "mesh_from_mask",
     "rasterise",
+    "refuse_noise",
     "resampled",
     "runs_of",
     "signed_distances",

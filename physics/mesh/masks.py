@@ -17,6 +17,7 @@ __all__ = [
     "distance_to_zero",
     "fitted",
     "may_be_inverted",
+    "refuse_noise",
     "with_sound_details",
     "without_specks",
 ]
@@ -26,6 +27,9 @@ Coverage = NDArray[np.float32]
 
 _ASPECT_TOLERANCE = 0.01
 _NEARLY_ALL = 0.9
+# Areas below this are specks [px^2]; so many of them are noise, where most of their colour is narrower than 3 px.
+_SPECK, _MANY_SPECKS = 16, 1000
+_MOSTLY = 0.5
 # A disc of radius r leaves a square corner uncovered up to 0.41 r away; such corners are not thin parts.
 _CORNER = 0.5
 _PIXELATION = 0.25
@@ -117,6 +121,23 @@ def may_be_inverted(coverage: Coverage) -> bool:
     share = float(inside.mean())
     border = np.concatenate([inside[0], inside[-1], inside[:, 0], inside[:, -1]])
     return share > _NEARLY_ALL or (share > 0.5 and float(border.mean()) > 0.5)
+
+
+def refuse_noise(coverage: Coverage) -> None:
+    """
+    Raises:
+        MeshingError: the mask is noise: white or black is hardly more than specks of the other's, by the thousand.
+    """
+    inside = (coverage > 0.5).astype(np.uint8)
+    for colour, plane in (("white", inside), ("black", 1 - inside)):
+        opened = cv2.morphologyEx(plane, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8), borderValue=0)
+        if cv2.countNonZero(opened) >= _MOSTLY * cv2.countNonZero(plane):
+            continue
+        specks = int(np.count_nonzero(_parts(plane > 0, connectivity=4)[1] < _SPECK))
+        if specks > _MANY_SPECKS:
+            raise MeshingError(
+                f"mask must show parts in even white. Got: {specks} specks of {colour}, as noise makes them"
+            )
 
 
 def largest_area(coverage: Coverage) -> int:

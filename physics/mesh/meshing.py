@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import MeshingError, require
 from ..process_end import working
 from .contours import area_of, contours_at_half, resampled, smoothed
-from .masks import continued, coverage_of, fitted, largest_area, with_sound_details, without_specks
+from .masks import continued, coverage_of, fitted, largest_area, refuse_noise, with_sound_details, without_specks
 from .spacing import GAP_FACTOR, SpacingField, spacing_field
 from .triangle_mesh import UNITS_ACROSS, TriangleMesh
 from .triangulation import CrossingEdgesError, interior_seeds, morton_order, triangulate
@@ -81,8 +81,8 @@ def mesh_from_mask(
 
     Raises:
         InvalidInputError: an option is out of range.
-        MeshingError: the mask is unusable, holds no white part that is large enough, does not have the picture's
-            proportions, or would need too many triangles.
+        MeshingError: the mask is unusable or noise, holds no white part that is large enough, does not have the
+            picture's proportions, or would need too many triangles.
 
     Examples:
         >>> import numpy as np
@@ -101,7 +101,9 @@ def mesh_from_mask(
     width = coverage.shape[1] if width is None else width
     for name, size in (("width", width), ("height", height)):
         require(name, size, size >= 1, "at least 1 px")
-    coverage = _without_specks(fitted(coverage, width, height), smallest_part)
+    coverage = fitted(coverage, width, height)
+    refuse_noise(coverage)
+    coverage = _without_specks(coverage, smallest_part)
     low, high, length = _box(coverage)
     corner, times = np.zeros(2), 1
     if length < _SMALL:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..fields import Field, Input, check_fields, described
+from ..mesh import refuse_noise
 from ..points import Scale
 from ..rig import MaskRegion
 from .shapes import Shape, shape_field
@@ -80,7 +81,12 @@ class Collider:
 
     @staticmethod
     def from_mask(mask: NDArray[np.bool_]) -> Collider:
-        """The collider that a mask paints, bool, shape [h, w]."""
+        """The collider that a mask paints, bool, shape [h, w].
+
+        Raises:
+            MeshingError: the mask is noise, whose outlines would take minutes.
+        """
+        refuse_noise(np.asarray(mask, dtype=np.float32))
         return Collider(MaskRegion(mask))
 
     def rescaled(self, scale: Scale) -> Collider:

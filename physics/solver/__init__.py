@@ -4,9 +4,18 @@ from __future__ import annotations
 
 from .arguments import PackedArguments, argument_packs, array_types, drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
-from .kernel_functions import SPEED_FLOOR, STEP_LIMIT, build_functions
+from .pace import counters, launch_faster, most_threads
 from .solver import advance
-from .stepping import SAFETY, TICK, frequency_limits, squared_frequencies, substeps, vertex_frequencies
+from .stepping import (
+    SAFETY,
+    SPEED_FLOOR,
+    STEP_LIMIT,
+    TICK,
+    frequency_limits,
+    squared_frequencies,
+    substeps,
+    vertex_frequencies,
+)
 
 __all__ = [
     "CALM",
@@ -22,9 +31,11 @@ __all__ = [
     "advance",
     "argument_packs",
     "array_types",
-    "build_functions",
+    "counters",
     "drive_group",
     "frequency_limits",
+    "launch_faster",
+    "most_threads",
     "solid_group",
     "squared_frequencies",
     "state_group",

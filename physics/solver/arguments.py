@@ -22,7 +22,7 @@ def array_types(ti: Any) -> SimpleNamespace:
         scalars2=array(dtype=ti.f32, ndim=2),
         scalars3=array(dtype=ti.f32, ndim=3),
         integers=array(dtype=ti.i32, ndim=1),
-        integers4=array(dtype=vector(4, ti.i32), ndim=1),
+        integers2=array(dtype=ti.i32, ndim=2),
         vectors=array(dtype=vector(2, ti.f32), ndim=1),
         vectors2=array(dtype=vector(2, ti.f32), ndim=2),
         vectors4=array(dtype=vector(4, ti.f32), ndim=1),

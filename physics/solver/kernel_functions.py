@@ -3,123 +3,95 @@
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
 
-from types import SimpleNamespace
-from typing import Any
+import taichi as ti
 
-from .elastic_functions import BLOCK_MASK, build_elastic_functions
-from .external_functions import build_begin_vertices
-from .handle_functions import build_handle_functions
-from .stepping import TICK
+from .elastic_functions import BLOCK_MASK, add_forces
+from .handle_functions import affine, goal, place, pulled, tether
+from .kernel_types import any_value, vec2
+from .stepping import SPEED_FLOOR, TICK
 
-__all__ = ["SPEED_FLOOR", "STEP_LIMIT", "build_functions"]
-
-SPEED_FLOOR = 5.0
-"""Speed that is never cut [side/s]."""
-
-STEP_LIMIT = 0.25
-"""Part of its smallest altitude that a vertex faster than ``SPEED_FLOOR`` moves in a substep at most."""
+__all__ = ["move_vertices", "record", "take_step"]
 
 
-def build_functions(ti: Any) -> SimpleNamespace:
-    """The functions that kernels are made of, by name; they take ``Solid``, ``State`` and ``Drive`` whole."""
-    vec2, any_value = ti.types.vector(2, ti.f32), ti.template()
-    elastic, handles = build_elastic_functions(ti), build_handle_functions(ti)
-    add_forces, begin_vertices = elastic.add_forces, build_begin_vertices(ti)
-    place, affine, goal, pulled, tether = handles.place, handles.affine, handles.goal, handles.pulled, handles.tether
+@ti.func
+def move(
+    i: ti.i32,
+    tick: ti.i32,
+    step: ti.i32,
+    count: ti.i32,
+    solid: any_value,
+    state: any_value,
+    drive: any_value,
+):
+    """One of the substeps of a vertex in a tick: v' = exp(-alpha dt) (v + dt (f / m + a)), u' = u + dt v'."""
+    u, v = ti.static(state.displacement, state.velocity)
+    vertex, handle, grip = solid.vertices[i], solid.handles[i], solid.grips[i]
+    begin, end, dt = step / ti.cast(count, ti.f32), (step + 1.0) / count, TICK / count
+    if handle < 0 or grip > 0.0:
+        force = vec2(0.0, 0.0)
+        for slot in range(solid.first_slots[i], solid.first_slots[i + 1]):
+            force = force + state.force_pairs[solid.slots[slot]]
+        speed = state.decay[i] * (v[i] + dt * (vertex[2] * force + state.push[i]))
+        if grip > 0.0:
+            before = goal(place(vertex), tick, handle, begin, drive)
+            after = goal(place(vertex), tick, handle, end, drive)
+            speed = pulled(speed, u[i], before, after, grip, dt)
+        squared_speed = speed.norm_sqr()
+        if squared_speed > SPEED_FLOOR * SPEED_FLOOR:
+            limit = ti.max(solid.step_limits[i] / dt, SPEED_FLOOR)
+            speed = speed * ti.min(limit / ti.sqrt(squared_speed), 1.0)
+        v[i] = speed
+        u[i] = u[i] + dt * speed
+    else:
+        v[i] = affine(place(vertex), drive.rig_rates, tick + 1, handle)
+        u[i] = goal(place(vertex), tick, handle, end, drive)
 
-    @ti.func
-    def move(
-        i: ti.i32,
-        tick: ti.i32,
-        step: ti.i32,
-        count: ti.i32,
-        solid: any_value,
-        state: any_value,
-        drive: any_value,
-    ):
-        """One of the substeps of a vertex in a tick: v' = exp(-alpha dt) (v + dt (f / m + a)), u' = u + dt v'."""
-        u, v = ti.static(state.displacement, state.velocity)
-        vertex, handle, grip = solid.vertices[i], solid.handles[i], solid.grips[i]
-        begin, end, dt = step / ti.cast(count, ti.f32), (step + 1.0) / count, TICK / count
-        if handle < 0 or grip > 0.0:
-            force = vec2(0.0, 0.0)
-            for slot in range(solid.first_slots[i], solid.first_slots[i + 1]):
-                force = force + state.force_pairs[solid.slots[slot]]
-            speed = state.decay[i] * (v[i] + dt * (vertex[2] * force + state.push[i]))
-            if grip > 0.0:
-                before = goal(place(vertex), tick, handle, begin, drive)
-                after = goal(place(vertex), tick, handle, end, drive)
-                speed = pulled(speed, u[i], before, after, grip, dt)
-            squared_speed = speed.norm_sqr()
-            if squared_speed > SPEED_FLOOR * SPEED_FLOOR:
-                limit = ti.max(solid.step_limits[i] / dt, SPEED_FLOOR)
-                speed = speed * ti.min(limit / ti.sqrt(squared_speed), 1.0)
-            v[i] = speed
-            u[i] = u[i] + dt * speed
-        else:
-            v[i] = affine(place(vertex), drive.rig_rates, tick + 1, handle)
-            u[i] = goal(place(vertex), tick, handle, end, drive)
 
-    @ti.func
-    def begin_tick(part: ti.i32, tick: ti.i32, count: ti.i32, solid: any_value, state: any_value, drive: any_value):
-        """External acceleration of the vertices of a part in a tick, and their damping in one of its substeps."""
-        begin_vertices(solid.starts[part][0], solid.starts[part + 1][0], tick, count, solid, state, drive)
+@ti.func
+def move_vertices(
+    first: ti.i32,
+    end: ti.i32,
+    tick: ti.i32,
+    step: ti.i32,
+    count: ti.i32,
+    solid: any_value,
+    state: any_value,
+    drive: any_value,
+):
+    """One of the substeps of vertices in a tick, once the forces on their triangles are known.
 
-    @ti.func
-    def move_vertices(
-        first: ti.i32,
-        end: ti.i32,
-        tick: ti.i32,
-        step: ti.i32,
-        count: ti.i32,
-        solid: any_value,
-        state: any_value,
-        drive: any_value,
-    ):
-        """One of the substeps of vertices in a tick, once the forces on their triangles are known.
-
-        Tethers have a loop of their own, which costs nothing where there are none.
-        """
+    Tethers have a loop of their own, which costs nothing where there are none.
+    """
+    for i in range(first, end):
+        move(i, tick, step, count, solid, state, drive)
+    if solid.anchors.shape[0] > 0:
         for i in range(first, end):
-            move(i, tick, step, count, solid, state, drive)
-        if solid.anchors.shape[0] > 0:
-            for i in range(first, end):
-                tether(i, tick, step, count, solid, state, drive)
+            tether(i, tick, step, count, solid, state, drive)
 
-    @ti.func
-    def take_step(
-        part: ti.i32,
-        tick: ti.i32,
-        step: ti.i32,
-        count: ti.i32,
-        solid: any_value,
-        state: any_value,
-        drive: any_value,
-    ):
-        """One of the substeps of a part in a tick."""
-        first, end = solid.starts[part], solid.starts[part + 1]
-        for n in range(first[1] & BLOCK_MASK, end[1] & BLOCK_MASK):
-            add_forces(solid, state, n)
-        move_vertices(first[0], end[0], tick, step, count, solid, state, drive)
 
-    @ti.func
-    def record(first: ti.i32, last: ti.i32, tick: ti.i32, state: any_value, drive: any_value):
-        """Store displacements after a tick, if it is one of those that are recorded."""
-        records = ti.static(state.records)
-        if records.shape[0] > 0:
-            every = (drive.first_particles.shape[0] - 1) // records.shape[0]
-            if (tick + 1) % every == 0:
-                for i in range(first, last):
-                    records[(tick + 1) // every - 1, i] = state.displacement[i]
+@ti.func
+def take_step(
+    part: ti.i32,
+    tick: ti.i32,
+    step: ti.i32,
+    count: ti.i32,
+    solid: any_value,
+    state: any_value,
+    drive: any_value,
+):
+    """One of the substeps of a part in a tick."""
+    first, end = solid.starts[part], solid.starts[part + 1]
+    for n in range(first[1] & BLOCK_MASK, end[1] & BLOCK_MASK):
+        add_forces(solid, state, n)
+    move_vertices(first[0], end[0], tick, step, count, solid, state, drive)
 
-    return SimpleNamespace(
-        add_forces=add_forces,
-        highest_frequency=elastic.highest_frequency,
-        steps_for=elastic.steps_for,
-        planned_steps=elastic.planned_steps,
-        begin_vertices=begin_vertices,
-        begin_tick=begin_tick,
-        move_vertices=move_vertices,
-        take_step=take_step,
-        record=record,
-    )
+
+@ti.func
+def record(first: ti.i32, last: ti.i32, tick: ti.i32, state: any_value, drive: any_value):
+    """Store displacements after a tick, if it is one of those that are recorded."""
+    records = ti.static(state.records)
+    if records.shape[0] > 0:
+        every = (drive.first_particles.shape[0] - 1) // records.shape[0]
+        if (tick + 1) % every == 0:
+            for i in range(first, last):
+                records[(tick + 1) // every - 1, i] = state.displacement[i]

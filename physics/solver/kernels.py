@@ -11,9 +11,14 @@ or a large one on several (``sharing``).
 
 from typing import Any, NamedTuple
 
+import taichi as ti
+
 from .arguments import PackedArguments, argument_packs, array_types
-from .kernel_functions import build_functions
-from .sharing import build_advance_shared
+from .elastic_functions import add_forces, planned_steps
+from .external_functions import begin_vertices
+from .kernel_functions import record, take_step
+from .kernel_types import any_value
+from .sharing import Shared, advance_with_others
 
 __all__ = ["Kernels", "build_kernels"]
 
@@ -36,20 +41,21 @@ class _Elastic(NamedTuple):
     corner_forces: Any
 
 
-def build_kernels(ti: Any) -> Kernels:
-    """The kernels, compiled for Taichi's present program when first launched."""
-    types, packs, functions = array_types(ti), argument_packs(ti), build_functions(ti)
-    planned_steps, begin_tick, take_step = functions.planned_steps, functions.begin_tick, functions.take_step
-    add_forces, record = functions.add_forces, functions.record
+@ti.func
+def advance_part(part: ti.i32, solid: any_value, state: any_value, drive: any_value):
+    """All ticks of a launch for one part."""
+    first, end = solid.starts[part][0], solid.starts[part + 1][0]
+    for tick in range(drive.first_particles.shape[0] - 1):
+        count = planned_steps(part, solid, state)
+        begin_vertices(first, end, tick, count, solid, state, drive)
+        for step in range(count):
+            take_step(part, tick, step, count, solid, state, drive)
+        record(first, end, tick, state, drive)
 
-    @ti.func
-    def advance_part(part: ti.i32, solid: ti.template(), state: ti.template(), drive: ti.template()):
-        for tick in range(drive.first_particles.shape[0] - 1):
-            count = planned_steps(part, solid, state)
-            begin_tick(part, tick, count, solid, state, drive)
-            for step in range(count):
-                take_step(part, tick, step, count, solid, state, drive)
-            record(solid.starts[part][0], solid.starts[part + 1][0], tick, state, drive)
+
+def build_kernels() -> Kernels:
+    """The kernels, compiled for Taichi's present program when first launched."""
+    types, packs = array_types(ti), argument_packs(ti)
 
     @ti.kernel
     def advance(parts: types.integers, solid: packs.solid, state: packs.state, drive: packs.drive):
@@ -58,11 +64,25 @@ def build_kernels(ti: Any) -> Kernels:
             advance_part(parts[n], solid, state, drive)
 
     @ti.kernel
+    def advance_shared(
+        part: ti.i32,
+        threads: ti.i32,
+        counters: types.integers,
+        highest: types.scalars,
+        solid: packs.solid,
+        state: packs.state,
+        drive: packs.drive,
+    ):
+        ti.loop_config(block_dim=1)
+        for _ in range(threads):
+            advance_with_others(part, ti.static(Shared(solid, state, drive, counters, highest)))
+
+    @ti.kernel
     def forces(corners: types.index_blocks, elements: types.blocks, u: types.vectors, corner_forces: types.pair_blocks):
         ti.loop_config(serialize=True)
         for n in range(corners.shape[0]):
             elastic = ti.static(_Elastic(corners, elements, u, corner_forces))
             add_forces(elastic, elastic, n)
 
-    shared = build_advance_shared(ti, types, packs, functions)
-    return Kernels(advance, shared, PackedArguments(packs.solid, packs.state, packs.drive), forces)
+    packed = PackedArguments(packs.solid, packs.state, packs.drive)
+    return Kernels(advance, advance_shared, packed, forces)

@@ -5,9 +5,7 @@ The state is the displacement u = x - X rather than the position, so that F = I 
 
 from __future__ import annotations
 
-import os
-import time
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,14 +13,12 @@ from numpy.typing import NDArray
 from ..runtime import LANES, aligned, check_aligned, taichi_runtime
 from .arguments import drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
-from .elastic_functions import MOST_REFINEMENT
-from .kernels import Kernels, build_kernels
-from .pace import Pace
-from .sharing import LARGE, MOST_THREADS, TRIANGLES_PER_THREAD, phases_of
+from .pace import counters, launch_faster, most_threads
+
+if TYPE_CHECKING:
+    from .kernels import Kernels
 
 __all__ = ["CALM", "Drive", "Solid", "State", "WindTable", "advance", "internal_forces"]
-
-_paces: dict[int, Pace] = {}  # by the size of the part; used on the Taichi thread only
 
 
 def advance(solid: Solid, state: State, drive: Drive) -> None:
@@ -52,8 +48,14 @@ def internal_forces(solid: Solid, displacement: NDArray[np.float32]) -> NDArray[
     return force
 
 
+def _kernels(_taichi: Any) -> Kernels:
+    from .kernels import build_kernels  # which imports Taichi
+
+    return build_kernels()
+
+
 def _advance(solid: Solid, state: State, drive: Drive) -> None:
-    kernels = taichi_runtime.compiled(build_kernels)
+    kernels = taichi_runtime.compiled(_kernels)
     packs = kernels.packed(solid_group(solid), state_group(state), drive_group(drive))
     work = np.diff(solid.starts[:, 1]) * solid.substeps
     parts = np.argsort(-work, kind="stable").astype(np.int32)  # the most work first, so that threads end together
@@ -66,36 +68,33 @@ def _advance(solid: Solid, state: State, drive: Drive) -> None:
 
 
 def _may_be_shared(solid: Solid, part: int, work: NDArray[Any]) -> bool:
-    """Whether a part is large enough, and all others would have to wait for it in the end."""
-    triangles = LANES * int(solid.starts[part + 1, 1] - solid.starts[part, 1])
-    return triangles >= LARGE and 2 * work[part] > work.sum() and _processors() > 1
+    """Whether a part is large enough for several threads, and all others would have to wait for it in the end."""
+    return most_threads(_triangles(solid, part)) > 1 and bool(2 * work[part] > work.sum())
 
 
 def _advance_largest(kernels: Kernels, part: int, solid: Solid, drive: Drive, packs: list[Any]) -> None:
-    """Advance a large part on one thread or on several, whichever was faster lately."""
-    work, ticks = int(solid.starts[part + 1, 1] - solid.starts[part, 1]), len(drive.first_particles) - 1
-    pace = _paces.setdefault(work.bit_length(), Pace())
-    shared, start = pace.share(), time.perf_counter()
-    if shared:
-        threads = min(_processors(), LANES * work // TRIANGLES_PER_THREAD)
-        _advance_shared(kernels, part, max(threads, 2), solid, ticks, packs)
-    else:
-        kernels.advance(np.array([part], dtype=np.int32), *packs)
-    done = float(work * solid.substeps[part] * ticks)
-    pace.learn(shared=shared, work=done, seconds=time.perf_counter() - start)
+    """Advance a large part on one thread or on several."""
+    triangles, ticks = _triangles(solid, part), len(drive.first_particles) - 1
+
+    def launch(threads: int) -> float:
+        if threads > 1:
+            _advance_shared(kernels, part, threads, solid, ticks, packs)
+        else:
+            kernels.advance(np.array([part], dtype=np.int32), *packs)
+        return float(triangles * solid.substeps[part] * ticks)
+
+    launch_faster(launch, threads=most_threads(triangles), kernel="one part", triangles=triangles)
 
 
 def _advance_shared(kernels: Kernels, part: int, threads: int, solid: Solid, ticks: int, packs: list[Any]) -> None:
-    phases = phases_of(ticks, int(solid.substeps[part]), MOST_REFINEMENT)
-    counters, highest = np.zeros(1 + phases, dtype=np.int32), np.zeros(ticks, dtype=np.float32)
-    kernels.advance_shared(part, threads, counters, highest, *packs)
+    highest = np.zeros(ticks, dtype=np.float32)
+    kernels.advance_shared(part, threads, counters(int(solid.substeps[part]), ticks), highest, *packs)
 
 
-def _processors() -> int:
-    """Most threads that share a part: one for each processor that this process may use, but not too many."""
-    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return min(available, MOST_THREADS)
+def _triangles(solid: Solid, part: int) -> int:
+    """Triangles of a part, in whole blocks."""
+    return LANES * int(solid.starts[part + 1, 1] - solid.starts[part, 1])
 
 
 def _internal_forces(solid: Solid, arrays: tuple[NDArray[Any], ...]) -> None:
-    taichi_runtime.compiled(build_kernels).forces(solid.corners, solid.elements, *arrays)
+    taichi_runtime.compiled(_kernels).forces(solid.corners, solid.elements, *arrays)

@@ -15,7 +15,10 @@ from ..material import RestShape, gradient_products
 
 __all__ = [
     "MASS_BUDGET",
+    "MOST_REFINEMENT",
     "SAFETY",
+    "SPEED_FLOOR",
+    "STEP_LIMIT",
     "TICK",
     "frequency_limits",
     "squared_frequencies",
@@ -34,6 +37,15 @@ It is the same at every frame rate, and common frame rates divide it: so the mot
 
 SAFETY = 0.9
 """The step as a part of the largest stable one: room for what deformation adds to the frequencies within a tick."""
+
+MOST_REFINEMENT = 4
+"""Large deformation stiffens triangles; a tick then takes up to this many times its planned substeps."""
+
+SPEED_FLOOR = 5.0
+"""Speed that is never cut [side/s]."""
+
+STEP_LIMIT = 0.25
+"""Part of its smallest altitude that a vertex faster than ``SPEED_FLOOR`` moves in a substep at most."""
 
 MASS_BUDGET = 0.0007
 """Mass that may be added to a connected part to slow its stiffest spots, as a part of its own.

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from .commands import EXAMPLE, main
+from .example import EXAMPLE
+from .exit_status import main
 
 __all__ = [
     "EXAMPLE",

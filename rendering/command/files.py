@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Iterator, Sequence
+from itertools import islice
 from pathlib import Path
 
 from ...physics.errors import InvalidInputError
@@ -17,6 +18,7 @@ __all__ = ["CLIPS", "INPUTS", "OUTPUTS", "check_apart", "coming_folders", "named
 INPUTS = (
     "image",
     "mask",
+    "in_front",
     "points",
     "scene",
     "collider",
@@ -35,6 +37,8 @@ OUTPUTS = (*CLIPS, "save_tracks", "save_motion", "save_svg")
 """Every option that names something to write."""
 
 _Identity = tuple[int, int]
+
+_MOST_READ = 20_000  # files of a folder that are looked at: more frames than a clip may have
 
 
 def named(options: argparse.Namespace, names: Sequence[str]) -> Iterator[tuple[str, str]]:
@@ -73,7 +77,8 @@ def check_apart(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) ->
     for option, path in outputs:
         with named_as(option, "output"):
             place_of(path)
-    inputs = [*named(options, INPUTS), *(("the bundled example", os.fspath(path)) for path in bundled)]
+    given = [(option, path) for option, each in named(options, INPUTS) for path in _read(each)]
+    inputs = [*given, *(("the bundled example", os.fspath(path)) for path in bundled)]
     read = {identity: each for each in inputs if (identity := _identity(Path(each[1]))) is not None}
     for option, path in outputs:
         for place in _replaced(path):
@@ -85,6 +90,13 @@ def check_apart(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) ->
                 )
     _check_distinct(outputs)
     _check_among_frames(outputs)
+
+
+def _read(path: str) -> Iterator[str]:
+    """What is read of a path: the file, or the folder and what lies in it."""
+    yield path
+    if os.path.isdir(path):
+        yield from (entry.path for entry in islice(os.scandir(path), _MOST_READ))
 
 
 def _check_among_frames(outputs: Sequence[tuple[str, str]]) -> None:

@@ -11,13 +11,14 @@ from .names import named_as
 
 if TYPE_CHECKING:
     from ...physics.scene import Contact
+    from ..artwork import Artwork
     from ..options import AutomaticWind
 
 __all__ = ["check_inputs", "check_taken", "read_inputs", "read_plate"]
 
 
 _GREY = 8  # levels by which colours may differ and still be grey, black or white
-_MASK_SHARE = 0.8
+_MASK_SHARE = 0.8  # of a grey picture in black and white: it is a mask rather than a drawing
 
 
 def check_inputs(options: argparse.Namespace) -> None:
@@ -27,12 +28,30 @@ def check_inputs(options: argparse.Namespace) -> None:
         InvalidInputError: the message names the options.
     """
     from ...physics.errors import InvalidInputError
+    from ..artwork import is_artwork_file
 
-    if not options.mask and not options.points:
+    if is_artwork_file(options.image):
+        _check_layers_alone(options)
+    elif options.move or options.still:
+        raise InvalidInputError("--move and --still need layered artwork as IMAGE. Got: a flat picture")
+    elif not options.mask and not options.points:
         raise InvalidInputError(f"{options.command} needs --mask or --points to know what moves. Got: neither")
     automatic = (options.attach, options.wind, options.wind_angle, options.turbulence)
     if options.scene is not None and any(said is not None for said in automatic):
         raise InvalidInputError("--attach, --wind, --wind-angle and --turbulence work without --scene. Got: both")
+
+
+def _check_layers_alone(options: argparse.Namespace) -> None:
+    """Refuse options that say again, or otherwise, what layers say."""
+    from ...physics.errors import InvalidInputError
+    from .names import option_of
+
+    for name in ("mask", "points", "in_front", "plate", "pixel_art"):
+        if getattr(options, name, None):
+            raise InvalidInputError(
+                f"IMAGE must be a flat picture where {option_of(name)} is given. Got: {options.image[:80]}, whose"
+                " layers are parts of their own"
+            )
 
 
 def check_taken(options: argparse.Namespace, image: Any) -> None:
@@ -51,7 +70,7 @@ def check_taken(options: argparse.Namespace, image: Any) -> None:
     from .messages import warn
 
     option = getattr(options, "image_after", None)
-    if option is None:
+    if option is None or not isinstance(image, np.ndarray):
         return
     colours = image[..., :3].astype(np.int16)
     grey = np.ptp(colours, axis=2).max() <= _GREY
@@ -78,12 +97,24 @@ def read_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
     Raises:
         InvalidInputError: a file cannot be read.
     """
-    from ..options import Touching
+    from ..artwork import is_artwork_file
+    from ..options import LayerChoice, Touching
+    from ..parts import arranged
 
     scene = _scene(options)
-    image = _picture(options.image, "IMAGE")
-    height, width = image.shape[:2]
+    if is_artwork_file(options.image):
+        with named_as("--move or --still", "layer"):
+            artwork = arranged(_artwork(options.image), options.move, options.still)
+        width, height = artwork.width, artwork.height
+        image: Any = artwork
+        parts: dict[str, Any] = {"layers": LayerChoice(options.move, options.still)}
+    else:
+        image = _picture(options.image, "IMAGE")
+        height, width = image.shape[:2]
+        front = None if options.in_front is None else _mask(options.in_front, "--in-front", width, height)
+        parts = {"in_front": front}
     return image, {
+        **parts,
         "masks": [_mask(path, "--mask", width, height) for path in options.mask],
         "points": [_points(path, width, height) for path in options.points],
         "scene": scene,
@@ -112,6 +143,17 @@ def _picture(path: str, option: str, *, alpha: bool = True) -> Any:
 
     with named_as(option, "picture"):
         return load_image(path, alpha=alpha)
+
+
+def _artwork(path: str) -> Artwork:
+    """Layered artwork, after saying on standard error what of it is not shown as its own program shows it."""
+    from ..artwork import load_artwork
+
+    with named_as("IMAGE", "artwork"):
+        found = load_artwork(path)
+    for sentence in found.warnings:
+        print(f"physanimator: warning: {sentence}", file=sys.stderr)
+    return found
 
 
 def _mask(path: str, option: str, width: int, height: int) -> Any:

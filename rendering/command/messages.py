@@ -71,7 +71,7 @@ def progress_bars(stack: ExitStack) -> StageProgress | None:
 
 
 class _Tolerant:
-    """A stream whose faults are nobody's business."""
+    """A stream that swallows the errors of writing to it, such as those of a closed pipe."""
 
     def __init__(self, stream: IO[str]) -> None:
         self._stream = stream
@@ -99,7 +99,7 @@ def _tell(text: str, stream: IO[str] | None) -> None:
 
 
 def _silence(stream: IO[str] | None) -> None:
-    """Lead a stream that is closed at its other end to nowhere: the end of the process would stumble over it."""
+    """Point a stream that nobody reads any more at the null device: Python writes what is left of it as it exits."""
     with suppress(OSError, ValueError, AttributeError):
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, stream.fileno())  # type: ignore[union-attr]

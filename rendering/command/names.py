@@ -15,6 +15,7 @@ _OPTIONS = {
     "every": "--interpolate",
     "frame_rate": "--fps",
     "image": "IMAGE",
+    "in_front": "--in-front",
     "max_minutes": "--max-minutes",
     "sway_frequency": "--sway",
     "wind_angle": "--wind-angle",

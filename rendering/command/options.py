@@ -80,13 +80,14 @@ def _add_picture(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "image",
         metavar="IMAGE",
-        help="the illustration (PNG, JPEG, WebP); best written first: where it is missing, the last value of --mask,"
+        help="the illustration (PNG, JPEG, WebP), or layered artwork (.psd, .psb, .ora, a folder of PNG files from back"
+        " to front); best written first: where it is missing, the last value of --mask,"
         " --preset or --collider is it, if just one of them has more than one value",
     )
 
 
 def _add_parts(parser: argparse.ArgumentParser) -> None:
-    parts = parser.add_argument_group("what moves (at least one)")
+    parts = parser.add_argument_group("what moves (at least one, unless the picture is in layers)")
     parts.add_argument(
         "--mask",
         metavar="MASK",
@@ -101,6 +102,23 @@ def _add_parts(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         help="clicks on one part: lines of x,y,label (1 on the part, 0 beside it) or JSON; may be repeated",
+    )
+    parts.add_argument(
+        "--in-front",
+        metavar="MASK",
+        help="mask of what stands still in front of all parts, such as an arm before hair, read as --mask is; the parts"
+        " go on behind it",
+    )
+    parts.add_argument(
+        "--move",
+        metavar="LAYER",
+        action="extend",
+        nargs="+",
+        default=[],
+        help="names of layers that move, beside those whose names say so (see physanimator layers FILE)",
+    )
+    parts.add_argument(
+        "--still", metavar="LAYER", action="extend", nargs="+", default=[], help="names of layers that stand still"
     )
 
 
@@ -168,6 +186,7 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
         help="what is there where nothing moves. picture: all of the picture, opaque, its transparent places white."
         " A colour (a CSS name, #rgb or #rrggbb): the same on that colour. transparent: all of the picture with its own"
         " transparency; of an opaque picture the moving parts alone. parts: the moving parts alone, on transparency."
+        " layers: each layer of layered artwork as a sequence of its own, OUT/01 hair/frame_0000.png."
         " (default: a transparent picture keeps its transparency, except in .mp4; of an opaque one parts for .webm,"
         " else picture)",
     )

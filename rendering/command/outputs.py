@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ...physics.assembly import SimulationPlan
     from ..animation import Animation, StageProgress
 
-__all__ = ["background_for", "check_outputs", "check_sizes", "report", "write_outputs"]
+__all__ = ["background_for", "check_layers", "check_outputs", "check_sizes", "report", "write_outputs"]
 
 _TRACKED = ("--track-points", "--track-static", "--track-frames")
 _TEXTS = {"save_tracks": ".json", "save_motion": ".json", "save_svg": ".svg"}
@@ -41,13 +41,15 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     from ...physics.scene import check_scene_rate
     from ..composite import Background, background_of
     from ..drawing_checks import check_drawing
-    from ..files import suffix_of
+    from ..files import is_folder_name, suffix_of
     from .files import check_apart
 
     check_apart(options, bundled=bundled)
     # Frames in .webm have an alpha channel whatever the illustration is, unless something else is said.
     usual = Background("parts" if suffix_of(options.output) == ".webm" else "picture")
-    said = background_of(options.background) if options.background else usual
+    said = background_of(options.background) if options.background and not in_layers(options) else usual
+    if in_layers(options) and not is_folder_name(options.output):
+        raise InvalidInputError(f"--background layers needs --output to end in '/'. Got: {options.output}")
     _check_clips(options, alpha=said.has_alpha)
     with named_as("--interpolate", "every"):
         check_drawing(transparent=said.has_alpha, every=options.interpolate, pixel_art=options.pixel_art)
@@ -62,6 +64,35 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     for option, name, number in zip(_TRACKED, ("points", "static_points", "frames"), tracked, strict=True):
         with named_as(option, name):
             check_track_options(**{name: number})
+
+
+def in_layers(options: argparse.Namespace) -> bool:
+    """Whether each layer is to be written as a sequence of its own."""
+    return bool(options.background) and options.background.strip().lower() == "layers"
+
+
+def check_layers(options: argparse.Namespace, image: Any) -> None:
+    """Refuse layers as sequences where there are none, or where they cannot be written, before any work.
+
+    Args:
+        options: of the command.
+        image: the illustration, an array or layered artwork.
+
+    Raises:
+        InvalidInputError: see above.
+    """
+    import numpy as np
+
+    from ...physics.errors import InvalidInputError, require
+    from ..layer_sequences import check_layer_sequences
+
+    if not in_layers(options):
+        return
+    if isinstance(image, np.ndarray):
+        raise InvalidInputError("--background layers needs layered artwork as IMAGE. Got: a flat picture")
+    require("--interpolate", options.interpolate, options.interpolate == 1, "1 with --background layers")
+    with named_as("--output", "output", "folder"):
+        check_layer_sequences(image, options.output)
 
 
 def check_sizes(options: argparse.Namespace, image: NDArray[Any]) -> None:
@@ -111,7 +142,9 @@ def write_outputs(options: argparse.Namespace, animation: Animation, progress: S
     drawn = {"save_sketch": animation.sketches, "save_flow": animation.flows, "preview": animation.previews}
     for name in writing_order(options):
         path = getattr(options, name)
-        if name == "output":
+        if name == "output" and in_layers(options):
+            animation.save_layers(path, width=options.width, progress=progress)
+        elif name == "output":
             animation.save(
                 path,
                 background=background_for(options, animation.image),
@@ -178,6 +211,8 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
     from ..files import suffix_of
     from ..pictures import holds_alpha, is_transparent
 
+    if in_layers(options):
+        return "transparent"
     if options.background is not None:
         return str(options.background)
     usual = usual_background(

@@ -6,18 +6,22 @@ not reach, specks and faint glows, stand still just behind it, so that at rest t
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.mesh import PixelBox, TriangleMesh
-from ..artwork import ArtLayer, Artwork, planes_of
+from ..artwork import ArtLayer, Artwork, Blend, planes_of
+from ..artwork import lay_over as blended
+from ..pictures import straight
 from .cutting import Layer, covered_by
 from .laying import lay_over
 from .still_layers import StillLayer, still_layer
 
-__all__ = ["hidden_by", "layers_of", "mask_of_layer", "resting_on", "texture_over"]
+__all__ = ["bent", "hidden_by", "layers_of", "mask_of_layer", "resting_on", "texture_over"]
 
 FloatImage = NDArray[np.float32]
 
@@ -26,7 +30,9 @@ _HALF = 0.5
 _BACKDROP = 0.8  # a layer that fills this share of the canvas is what all stands before
 
 
-def layers_of(artwork: Artwork, meshes: Mapping[int, TriangleMesh]) -> tuple[FloatImage, list[Layer | StillLayer]]:
+def layers_of(
+    artwork: Artwork, meshes: Mapping[int, TriangleMesh]
+) -> tuple[FloatImage, list[Layer | StillLayer], list[int | None]]:
     """The background and the layers over it, from back to front.
 
     Args:
@@ -35,38 +41,68 @@ def layers_of(artwork: Artwork, meshes: Mapping[int, TriangleMesh]) -> tuple[Flo
 
     Returns:
         What stands still behind all that moves, in 0 to 1: RGB where it is opaque, shape [h, w, 3], else premultiplied
-        RGBA, shape [h, w, 4]; and the layers over it.
+        RGBA, shape [h, w, 4]; the layers over it; and for each the index of the layer that moves of which it is a part,
+        None where it is of none.
     """
     whole = PixelBox(0, 0, artwork.width, artwork.height)
-    planes = np.zeros((4, artwork.height, artwork.width), dtype=np.float32)
-    layers: list[Layer | StillLayer] = []
-    run: FloatImage | None = None  # of still layers in front of the last that moves, premultiplied, shape [4, h, w]
-
-    def end_run() -> None:
-        nonlocal run
-        if run is not None:
-            _append(layers, still_layer(np.moveaxis(run, 0, 2)))
-        run = None
-
+    planes = np.zeros((artwork.height, artwork.width, 4), dtype=np.float32)
+    pieces, run = _Pieces(), None
     for index, layer in enumerate(artwork.layers):
         if index in meshes:
-            end_run()
+            pieces.add(run)
             moving, left_over = _moving(layer, meshes[index], whole)
-            _append(layers, still_layer(left_over, layer.blend))
-            layers.append(moving)
+            pieces.add(left_over, layer.blend, index)
+            pieces.layers.append(moving)
+            pieces.sources.append(index)
+            run = None
         elif layer.visible and layer.opacity > 0:
             texture = texture_over(layer, whole)
-            if not any(isinstance(each, Layer) for each in layers):
-                lay_over(planes, texture, layer.blend)
+            if not any(isinstance(each, Layer) for each in pieces.layers):
+                blended(planes, texture, layer.blend)
             elif layer.blend == "normal":
                 run = np.zeros_like(planes) if run is None else run
-                lay_over(run, texture, "normal")
+                blended(run, texture)
             else:
-                end_run()
-                _append(layers, still_layer(texture, layer.blend))
-    end_run()
-    background = np.moveaxis(planes, 0, 2)
-    return (background[..., :3] if planes[3].min() >= _OPAQUE else background), layers
+                pieces.add(run)
+                pieces.add(texture, layer.blend)
+                run = None
+    pieces.add(run)
+    return (planes[..., :3] if planes[..., 3].min() >= _OPAQUE else planes), pieces.layers, pieces.sources
+
+
+class _Pieces:
+    """Layers from back to front, and of which moving layer each is a part."""
+
+    def __init__(self) -> None:
+        self.layers: list[Layer | StillLayer] = []
+        self.sources: list[int | None] = []
+
+    def add(self, texture: FloatImage | None, blend: Blend = "normal", source: int | None = None) -> None:
+        """One that stands still, of a texture of the canvas' size; nothing where it is empty."""
+        layer = None if texture is None else still_layer(texture, blend)
+        if layer is not None:
+            self.layers.append(layer)
+            self.sources.append(source)
+
+
+def bent(layer: ArtLayer, pieces: Sequence[tuple[PixelBox, FloatImage]], width: int, height: int) -> ArtLayer:
+    """A layer as it is in one frame, of pieces laid over one another, cut to where it shows.
+
+    Args:
+        layer: at rest.
+        pieces: boxes of the canvas and premultiplied RGBA there, from back to front.
+        width: of the canvas [px].
+        height: of the canvas [px].
+    """
+    planes = np.zeros((4, height, width), dtype=np.float32)
+    for box, texture in pieces:
+        rows, columns = box.slices
+        lay_over(planes[:, rows, columns], texture)
+    left, top, across, down = cv2.boundingRect((planes[3] > 0).astype(np.uint8))
+    shown = straight(np.ascontiguousarray(np.moveaxis(planes, 0, 2)[top : top + down, left : left + across]))
+    kind = layer.pixels.dtype
+    pixels = np.rint(shown * np.float32(np.iinfo(kind).max)).astype(kind)
+    return replace(layer, pixels=pixels, left=left, top=top, opacity=1.0, visible=True)
 
 
 def mask_of_layer(artwork: Artwork, index: int) -> FloatImage:
@@ -142,8 +178,3 @@ def _moving(layer: ArtLayer, mesh: TriangleMesh, whole: PixelBox) -> tuple[Layer
     texture = texture_over(layer, canvas)
     left_over = np.where(covered[..., None], np.float32(0), at_rest)
     return Layer(aproned, canvas, texture, layer.blend), left_over
-
-
-def _append(layers: list[Layer | StillLayer], layer: StillLayer | None) -> None:
-    if layer is not None:
-        layers.append(layer)

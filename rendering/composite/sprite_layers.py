@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 from ...physics.errors import InvalidInputError
 from ...physics.mesh import TriangleMesh
 from ..matting import FAINT, SQUARE, WIDE, fitting_plate, grown, mixed_rim, regular_mask, soft_alpha, with_outline
-from ..pictures import carried_on, over, premultiplied, window_around
-from ..plate import continue_lines, fill_hole
+from ..pictures import carried_on, over, premultiplied
+from ..plate import fill_hole
 from .beyond_border import on_canvas
-from .cutting import Layer, _beneath, _covered
+from .cutting import Layer, aproned, picture_beneath
+from .silhouette import ALL, continued_silhouette, thrice
 from .still_layers import StillLayer, still_layer
 
 __all__ = ["sprite_hole", "sprite_plate", "take_sprite_apart"]
@@ -27,20 +28,12 @@ __all__ = ["sprite_hole", "sprite_plate", "take_sprite_apart"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
+# Alpha from which a pixel counts as opaque.
 _OPAQUE = 0.95
-_HALF = 0.5
 # Colours nearer than this to the silhouette are those of its outline [px].
 _OUTLINE = 4
 # Strips beside a mask that are no wider than this belong to it when nothing but transparency lies beyond [px].
 _STRIP = 3
-# A guessed silhouette is looked at with this much around it [px]. How sharply it may bend goes by the depth of the
-# hole, up to a limit [px]; so many times it is rounded.
-_AROUND = 60
-_ROUNDNESS = 5.0
-_LARGEST_BEND = 12.0
-_ROUNDINGS = 12
-# A share as near to 1 as this is 1: what is left could not be told from rounding.
-_ALL = np.float32(1e-4)
 
 
 def take_sprite_apart(
@@ -70,8 +63,8 @@ def take_sprite_apart(
     for number in range(len(masks) - 1, -1, -1):
         beneath = np.dstack(
             [
-                _beneath(shown[..., :3], behind[..., :3], masks, supports, number),
-                _beneath(_thrice(shown[..., 3]), _thrice(behind[..., 3]), masks, supports, number)[..., 0],
+                picture_beneath(shown[..., :3], behind[..., :3], masks, supports, number),
+                picture_beneath(thrice(shown[..., 3]), thrice(behind[..., 3]), masks, supports, number)[..., 0],
             ]
         )
         share = soft_alpha(_over_white(shown), _over_white(beneath), masks[number], supports[number])
@@ -86,14 +79,14 @@ def _peeled(
 ) -> tuple[Layer | StillLayer | None, FloatImage]:
     """The layer of one body or still part, and the premultiplied picture without it."""
     if mesh is not None:
-        aproned, canvas, covered = _covered(mesh, share)
+        wider, canvas, covered = aproned(mesh, share)
         share = np.where(covered, share, np.float32(0))
     below = fitting_plate(shown, beneath, share)
     below[..., :3] = np.minimum(below[..., :3], below[..., 3:])
     colour = shown - (1 - share[..., None]) * below
     if mesh is None:
         return still_layer(np.dstack([colour, share])), below
-    return Layer(aproned, canvas, np.dstack([on_canvas(colour, canvas), on_canvas(share, canvas)])), below
+    return Layer(wider, canvas, np.dstack([on_canvas(colour, canvas), on_canvas(share, canvas)])), below
 
 
 def _regular(flat: FloatImage, opacity: FloatImage, mask: FloatImage) -> FloatImage:
@@ -136,7 +129,7 @@ def _filled(picture: FloatImage, hole: Mask, given: FloatImage | None) -> FloatI
     """The picture with its hole filled, straight RGBA; with colours that are given instead, if they are."""
     if not hole.any():
         return picture
-    opacity = np.where(hole, _continued_silhouette(picture[..., 3], hole), picture[..., 3])
+    opacity = np.where(hole, continued_silhouette(picture[..., 3], hole), picture[..., 3])
     colours = _filled_colours(picture, hole) if given is None else given
     return np.dstack([np.where(hole[..., None], colours, picture[..., :3]), opacity])
 
@@ -154,41 +147,6 @@ def _filled_colours(picture: FloatImage, hole: Mask) -> FloatImage:
     return fill_hole(around, hole)
 
 
-def _continued_silhouette(opacity: FloatImage, hole: Mask) -> FloatImage:
-    """Alpha in a hole, shape [h, w]: silhouettes that enter and leave it go on, else that of the nearest pixel.
-
-    The edge is rounded where it bends more sharply than a part behind would, and one pixel wide.
-    """
-    continued, window = opacity.copy(), window_around(hole, margin=_AROUND)
-    around, inside = opacity[window], hole[window]
-    lined, lines = continue_lines(_thrice(around), inside)
-    opaque, known = lined[..., 0] >= _HALF, ~inside | lines
-    solid, clear = known & opaque, known & ~opaque
-    if not (solid.any() and clear.any()):
-        continued[hole] = solid.any()
-        return continued
-    to_solid, to_clear = (
-        cv2.distanceTransform((~each).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE) for each in (solid, clear)
-    )
-    bend = float(np.clip(np.minimum(to_solid, to_clear).max() / _ROUNDNESS, 1, _LARGEST_BEND))
-    shape = _rounded((to_solid < to_clear).astype(np.float32), known, bend)
-    slope = np.float32(np.sqrt(2 * np.pi))
-    soft = np.clip(_HALF + (cv2.GaussianBlur(shape, (0, 0), 1.0) - _HALF) * slope, 0, 1)
-    continued[window] = np.where(inside, np.where(soft > 1 - _ALL, np.float32(1), soft), around)
-    return continued
-
-
-def _rounded(shape: FloatImage, known: Mask, bend: float) -> FloatImage:
-    """A shape with its edge shortened where it is unknown, the faster the more it bends.
-
-    Source: Merriman, Bence and Osher, "Diffusion Generated Motion by Mean Curvature" (1992).
-    """
-    for _ in range(_ROUNDINGS):
-        blurred = cv2.GaussianBlur(shape, (0, 0), bend)
-        shape = np.where(known, shape, (blurred > _HALF).astype(np.float32))
-    return shape
-
-
 def _with_strips(support: Mask, opacity: FloatImage) -> Mask:
     """A part with the narrow strips between it and transparency, which a mask that is a little too small leaves."""
     rest = (opacity > FAINT) & ~support
@@ -203,21 +161,18 @@ def _with_strips(support: Mask, opacity: FloatImage) -> Mask:
 
 
 def _fitting_share(share: FloatImage, opacity: FloatImage, behind: FloatImage, support: Mask) -> FloatImage:
-    """How much a body covers of what is behind it: in its support at least what the alpha there leaves over.
+    """The alpha of a body between two bounds that the picture's transparency sets.
 
-    Its own transparency lets through what will be behind it elsewhere; only where it is all but opaque, and so is what
-    is behind, may it cover more.
+    Least, within its support: enough that the body over what is behind gives the alpha of the picture. Most: the alpha
+    of the picture itself, so that a see-through body lets through whatever it moves in front of; where the picture is
+    opaque, what is behind may be too, and the bound is higher.
     """
     least = np.clip((opacity - behind) / np.maximum(1 - behind, np.float32(1e-6)), 0, 1)
     most = np.where(opacity > _OPAQUE, 1 - (1 - opacity) * (1 - behind), opacity)
     share = np.minimum(np.where(support, np.maximum(share, least), share), most)
-    return np.where(share > 1 - _ALL, np.float32(1), share)
+    return np.where(share > 1 - ALL, np.float32(1), share)
 
 
 def _over_white(image: FloatImage) -> FloatImage:
     """Premultiplied RGBA over white, shape [h, w, 3]."""
     return np.asarray(image[..., :3] + (1 - image[..., 3:]), dtype=np.float32)
-
-
-def _thrice(plane: FloatImage) -> FloatImage:
-    return np.repeat(plane[..., None], 3, axis=2)

@@ -25,6 +25,7 @@ FloatImage = NDArray[np.float32]
 
 # What VACE's control videos show where the model shall paint.
 _UNKNOWN = 0.5
+# What is uncovered by no more than this, 5 levels of 255, counts as covered.
 _HOLE = 0.02
 
 

@@ -3,17 +3,8 @@
 from __future__ import annotations
 
 from .atomic import naming_place, putting_in_place, replacing
-from .places import (
-    StrPath,
-    check_file_place,
-    check_folder_place,
-    check_replaceable,
-    is_folder_name,
-    is_read_only,
-    place_of,
-    same_name,
-    suffix_of,
-)
+from .path_names import StrPath, is_folder_name, same_name, suffix_of
+from .places import check_file_place, check_folder_place, check_replaceable, is_read_only, place_of
 from .regular import check_regular
 from .signals import ending_signals, hear_signals, ignore_signals, uninterrupted
 from .text_files import check_text_output, write_text

@@ -10,7 +10,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ...physics.errors import InvalidInputError
-from .places import StrPath, check_replaceable
+from .path_names import StrPath
+from .places import check_replaceable
 from .signals import uninterrupted
 from .unfinished import made_beside
 

@@ -2,49 +2,16 @@
 
 from __future__ import annotations
 
-import ntpath
 import os
 import stat
-import unicodedata
 from collections.abc import Collection
 from pathlib import Path
 
 from ...physics.errors import InvalidInputError
+from .path_names import StrPath, spelled
 from .unfinished import made_beside
 
-__all__ = [
-    "StrPath",
-    "check_file_place",
-    "check_folder_place",
-    "check_replaceable",
-    "check_windows_name",
-    "is_folder_name",
-    "is_read_only",
-    "place_of",
-    "same_name",
-    "suffix_of",
-]
-
-StrPath = str | os.PathLike[str]
-
-_RESERVED = {"CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"} | {
-    f"{port}{n}" for port in ("COM", "LPT") for n in "123456789¹²³"
-}
-_FORBIDDEN = '<>:"|?*'
-
-
-def is_folder_name(path: StrPath) -> bool:
-    """Whether a name is that of a folder: it ends in a slash."""
-    return _spelled(path).endswith(("/", os.sep))
-
-
-def suffix_of(path: StrPath) -> str:
-    """The ending of a name in small letters, such as ``.mp4``.
-
-    Raises:
-        InvalidInputError: it cannot be a name on this system.
-    """
-    return Path(_spelled(path)).suffix.lower()
+__all__ = ["check_file_place", "check_folder_place", "check_replaceable", "is_read_only", "place_of"]
 
 
 def place_of(path: StrPath) -> Path:
@@ -53,7 +20,7 @@ def place_of(path: StrPath) -> Path:
     Raises:
         InvalidInputError: it cannot be a name on this system.
     """
-    given = _spelled(path)
+    given = spelled(path)
     place = Path(os.path.realpath(given))
     if os.path.islink(place):
         raise InvalidInputError(f"output {given} must lead to a file. Got: a link that leads in a circle")
@@ -133,41 +100,6 @@ def _present(folder: Path, coming: Collection[Path]) -> Path:
     return folder
 
 
-def _spelled(path: StrPath) -> str:
-    """A path as text that the system can take."""
-    try:
-        given = os.fspath(path)
-    except TypeError:
-        raise InvalidInputError(f"output must be a path. Got: {type(path).__name__}") from None
-    if not isinstance(given, str):
-        raise InvalidInputError(f"output must be a path as text. Got: {type(given).__name__}")
-    if not given:
-        raise InvalidInputError("output must be a name. Got: nothing")
-    try:
-        possible = "\0" not in given and bool(os.fsencode(given))
-    except UnicodeEncodeError:
-        possible = False
-    if not possible:
-        raise InvalidInputError(f"output must be a name that this system can write. Got: {given}")
-    if os.name == "nt":
-        check_windows_name(given)
-    return given
-
-
-def check_windows_name(path: str) -> None:
-    """Refuse names that Windows gives another meaning: devices, streams, and ends that it drops.
-
-    Raises:
-        InvalidInputError: the last part of the path is such a name.
-    """
-    name = ntpath.basename(ntpath.splitdrive(path)[1].rstrip("\\/"))
-    if name in ("", ".", ".."):
-        return
-    device = name.split(".")[0].rstrip(" ").upper() in _RESERVED
-    if device or name[-1] in ". " or any(each in _FORBIDDEN or ord(each) < 32 for each in name):
-        raise InvalidInputError(f"output must be a name that Windows can write. Got: {path}")
-
-
 def _status(place: Path, given: StrPath) -> os.stat_result | None:
     """What is at a place; None where nothing is."""
     try:
@@ -215,12 +147,3 @@ def _kind(status: os.stat_result) -> str:
 def is_read_only(status: os.stat_result) -> bool:
     """Whether nobody may write to a file: an administrator could, but whoever set this wants it kept."""
     return not status.st_mode & 0o222
-
-
-def same_name(first: str, second: str) -> bool:
-    """Whether two names are one on systems that tell neither case nor ways to write an accent apart."""
-    return _folded(first) == _folded(second)
-
-
-def _folded(name: str) -> str:
-    return unicodedata.normalize("NFC", name).casefold()

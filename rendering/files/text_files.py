@@ -7,7 +7,8 @@ from pathlib import Path
 
 from ...physics.errors import InvalidInputError
 from .atomic import replacing
-from .places import StrPath, check_file_place, suffix_of
+from .path_names import StrPath, suffix_of
+from .places import check_file_place
 
 __all__ = ["check_text_output", "write_text"]
 

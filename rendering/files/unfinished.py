@@ -13,7 +13,7 @@ from .signals import uninterrupted
 
 __all__ = ["made_beside", "remove_unfinished"]
 
-_TRIES = 200
+_TRIES = 200  # random names, before giving up
 _PREFIX = 5  # characters of the name that give way to a dot and a random number
 
 _unfinished: set[Path] = set()

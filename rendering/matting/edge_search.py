@@ -30,6 +30,8 @@ _BEST = 3
 _ALIKE = 0.08
 # A colour of neither side is more often the part's, whose outline is drawn, than the background's.
 _OUTLINE, _STRANGE = 0.07, 0.02
+# From this on, colours deny that a pixel is the other side's.
+_DENIED = 2 / 3
 # Distance from the mask's edge, as a share of the reach, at which the mask itself is e : 1 sure; and its weight.
 _UNSURE, _WEIGHT = 0.35, 0.5
 # Colours of neighbours that differ by this much are divided by an edge; what a wall of them still lets through; and
@@ -55,18 +57,41 @@ def found_shape(image: FloatImage, mask: FloatImage, reach: FloatImage) -> tuple
     """
     inside = mask > _HALF
     depth, away = _depth(inside), _depth(~inside)
-    core, outside = (depth > reach) | _middle(depth), (away > reach) | _middle(away)
+    core, outside = _seeds(image, (depth > reach, away > reach), (_middle(depth), _middle(away)))
     band = ~core & ~outside
     likely = np.full(mask.shape, _HALF, dtype=np.float32)
     if not (core.any() and outside.any() and band.any()):
         return inside, likely
-    part, rest = explained(image, band, core), explained(image, band, outside)
-    likely[band] = (part + _OUTLINE) / (part + rest + _OUTLINE + _STRANGE)
+    likely[band] = _likely(image, band, core, outside)
     way = np.clip((depth - away)[band] / (_UNSURE * reach[band]), -20, 20)
     odds = likely[band] / (1 - likely[band]) * np.exp(_WEIGHT * way)
     shape = inside.copy()
     shape[band] = _walked(image, mask, band, core, odds / (1 + odds)) > _HALF
     return _tidied(shape, core), likely
+
+
+def _seeds(image: FloatImage, far: tuple[Mask, Mask], middles: tuple[Mask, Mask]) -> tuple[Mask, Mask]:
+    """What is the part's for sure, and what is not: all far from the edge of the mask, and the middle of what is thin.
+
+    Where a mask misses the part by as much as a piece is wide, the middle of that piece lies on the other side, or on
+    the outline: a middle whose colours deny it is not sure.
+    """
+    core, outside = far[0] | middles[0], far[1] | middles[1]
+    if far[0].any():
+        asked = middles[0] & ~far[0]
+        core[asked] = _likely(image, asked, far[0], outside) > 1 - _DENIED
+    if far[1].any():
+        asked = middles[1] & ~far[1]
+        outside[asked] = _likely(image, asked, core, far[1]) < _DENIED
+    return core, outside
+
+
+def _likely(image: FloatImage, asked: Mask, core: Mask, outside: Mask) -> FloatImage:
+    """How likely the colours of some pixels are the part's, shape [n]."""
+    if not (asked.any() and core.any() and outside.any()):
+        return np.full(int(asked.sum()), _HALF, dtype=np.float32)
+    part, rest = explained(image, asked, core), explained(image, asked, outside)
+    return (part + _OUTLINE) / (part + rest + _OUTLINE + _STRANGE)
 
 
 def _depth(shape: Mask) -> FloatImage:

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..pictures import window_around
-from .mask_edges import FAINT, SQUARE, grown, hard_edge, inner_colour, mean_near
+from .mask_edges import FAINT, LEAST_CONTRAST, SOLID, SQUARE, grown, hard_edge, inner_colour, mean_near
 from .measured_alpha import measured_alpha
+from .raised_alpha import raised_alpha
 from .solved_alpha import solved_alpha
 
 __all__ = ["fitting_plate", "in_levels", "mixed_rim", "soft_alpha", "with_outline"]
@@ -96,7 +97,10 @@ def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: 
         mask: soft mask in 0 to 1, shape [h, w].
         support: where the part is, from ``with_outline``; shape [h, w].
     """
-    return (measured_alpha if _is_outlined(image, mask > FAINT, support) else solved_alpha)(image, plate, mask, support)
+    found = measured_alpha if _is_outlined(image, mask > FAINT, support) else solved_alpha
+    alpha = found(image, plate, mask, support)
+    # The last percents of a mask that nowhere becomes quite white would leave black of the part behind as black.
+    return raised_alpha(image, plate, alpha, (alpha > SOLID) & (alpha < 1), beyond=LEAST_CONTRAST)
 
 
 def _is_outlined(image: FloatImage, inside: Mask, support: Mask) -> bool:

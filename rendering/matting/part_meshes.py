@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError
-from ...physics.mesh import TriangleMesh, mesh_from_mask
+from ...physics.mesh import TriangleMesh, mesh_from_mask, refuse_noise
 from ..pictures import as_float, is_transparent, over
 from .regularisation import regular_mask
 
@@ -33,7 +34,9 @@ def shown_part(image: NDArray[Any], mask: NDArray[Any]) -> NDArray[np.float32]:
     return regular_mask(flat, np.asarray(mask, dtype=np.float32))
 
 
-def part_mesh(image: NDArray[Any], mask: NDArray[Any], *, spacing: float | None = None) -> TriangleMesh:
+def part_mesh(
+    image: NDArray[Any], mask: NDArray[Any], *, spacing: float | None = None, elements_across: int = 3
+) -> TriangleMesh:
     """The mesh of a part as the picture shows it, so that all that is drawn moves with the mesh.
 
     A mask whose edge is where the picture has it gives the same mesh as without a picture.
@@ -42,6 +45,7 @@ def part_mesh(image: NDArray[Any], mask: NDArray[Any], *, spacing: float | None 
         image: see :func:`shown_part`.
         mask: soft mask in 0 to 1, shape [h, w].
         spacing: see :func:`~physanimator.physics.mesh.mesh_from_mask`.
+        elements_across: see there.
 
     Raises:
         InvalidInputError: the mask gives no mesh.
@@ -55,10 +59,12 @@ def part_mesh(image: NDArray[Any], mask: NDArray[Any], *, spacing: float | None 
         >>> mesh.width, mesh.height
         (60, 60)
     """
+    refuse_noise(np.asarray(mask, dtype=np.float32))  # in which the search for edges would take long
+    meshed = partial(mesh_from_mask, spacing=spacing, elements_across=elements_across)
     shown = shown_part(image, mask)
     if ((shown > _HALF) == (np.asarray(mask) > _HALF)).all():
-        return mesh_from_mask(mask, spacing=spacing)
+        return meshed(mask)
     try:
-        return mesh_from_mask(shown, spacing=spacing)
+        return meshed(shown)
     except InvalidInputError:
-        return mesh_from_mask(mask, spacing=spacing)
+        return meshed(mask)

@@ -167,12 +167,12 @@ def _searched(image: FloatImage, mask: FloatImage, edge: _Edge) -> tuple[Mask, M
     reach = np.asarray(_REACH + _HALF * np.minimum(edge.width, _WIDEST), dtype=np.float32)
     shape, likely = found_shape(image, mask, reach)
     changed = shape != edge.inside
-    weight = mean_near(likely, changed, sigma=3.0)[0]
+    agreed = mean_near(np.where(shape, likely, 1 - likely), changed, sigma=3.0)[0]
     strength = edge_strength(image, shape)
     given = edge_strength(image, edge.inside)
     better = strength > np.maximum(_STRONGER * given, _LEAST_STEP)
     better |= _closed(shape & ~edge.inside, shape, given)
-    moved = changed & better & (np.where(shape, weight, 1 - weight) > _HALF)
+    moved = changed & better & (agreed > _HALF)
     # Changes as thin as one pixel are left to the matting.
     thick = cv2.morphologyEx(moved.astype(np.uint8), cv2.MORPH_OPEN, np.ones((2, 2), np.uint8)) > 0
     moved &= grown(thick, SQUARE)

@@ -10,6 +10,7 @@ from ..pictures import window_around
 from .closed_form import solve_alpha
 from .line_share import share_of_line
 from .mask_edges import FAINT, LEAST_CONTRAST, SOLID, SQUARE, WIDE, grown, hard_edge, inner_colour, trusted
+from .raised_alpha import raised_alpha
 
 __all__ = ["solved_alpha"]
 
@@ -52,7 +53,10 @@ def solved_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support
     guess = body.astype(np.float32)
     guess[unknown & ~body] = np.where(certain, share, 0)
     solved = _solved(image, alpha, unknown, guess)
-    return _corrected(image, plate, _explained(image, plate, solved, body & unknown), support, ~hard)
+    # Where a line behind the part meets its outline, both of the same ink, colours alone say that the outline goes on
+    # in the line.
+    raised = raised_alpha(image, plate, solved, body & unknown, beyond=_INEXPLICABLE)
+    return _corrected(image, plate, raised, support, ~hard)
 
 
 def _solved(image: FloatImage, alpha: FloatImage, unknown: Mask, guess: FloatImage) -> FloatImage:
@@ -64,26 +68,6 @@ def _solved(image: FloatImage, alpha: FloatImage, unknown: Mask, guess: FloatIma
     crops = image[window], alpha[window], unknown[window], guess[window]
     solved[window] = solve_alpha(*crops, trust=_TRUST_IN_MASK)
     return solved
-
-
-def _explained(image: FloatImage, plate: FloatImage, alpha: FloatImage, where: Mask) -> FloatImage:
-    """Alpha raised within the mask where what is behind would have to be of quite another colour.
-
-    Where a line behind the part meets its outline, both of the same ink, colours alone say that the outline goes on
-    in the line.
-    """
-    row, column = np.nonzero(where)
-    colour, behind = image[row, column], plate[row, column]
-    given = alpha[row, column]
-    room = np.where(colour < behind, behind, 1 - behind)
-    least = (np.abs(colour - behind) / np.maximum(room, np.float32(1e-3))).max(axis=1)
-    # With the given share, what is behind would have to be of this colour.
-    rest = np.maximum(1 - given, np.float32(1e-3))[:, None]
-    needed = np.clip(behind, (colour - 1 + rest) / rest, colour / rest)
-    change = np.abs(needed - behind).max(axis=1)
-    raised = alpha.copy()
-    raised[row, column] = np.where(change > _INEXPLICABLE, np.maximum(np.minimum(least, 1), given), given)
-    return raised
 
 
 def _corrected(image: FloatImage, plate: FloatImage, alpha: FloatImage, support: Mask, where: Mask) -> FloatImage:

@@ -22,7 +22,9 @@ Mask = NDArray[np.bool_]
 _EDGE = 2
 # A point is seen where the mesh that covers its place shows the drawing from so near by [px].
 _SAME = 1.0
+# Far outside of any picture.
 _NOWHERE = -1e4
+# Places are read in rows of this length: OpenCV takes at most 32767 in one.
 _ROW = 1024
 
 
@@ -107,7 +109,6 @@ class FlowWarpError:
 
 def _sampled(frame: FloatImage, x: NDArray[np.float32], y: NDArray[np.float32]) -> FloatImage:
     """Bilinear colours at places, pixel [0, 0] having its centre at (0, 0), shape [n, 3]."""
-    # OpenCV takes at most 32767 places in a row.
     padded = np.zeros((2, -(-max(len(x), 1) // _ROW) * _ROW), dtype=np.float32)
     padded[0, : len(x)], padded[1, : len(x)] = x, y
     places = padded.reshape(2, -1, _ROW)

@@ -9,27 +9,23 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError, require
 from ...physics.motion import Motion
 from ...physics.progress import Progress
-from ..pictures import as_float, as_picture, as_uint8
+from ..pictures import as_float, as_picture
 from ..sketch import extract_sketch
+from .dynamic_degree import DynamicDegree
 from .flow_warp_error import FlowWarpError, RestMaps
 from .sketch_distance import chamfer_distance
+from .static_drift import StaticDrift, still_region
 
-__all__ = ["ClipMetrics", "DynamicDegree", "StaticDrift", "hole_ratio", "measure_clip"]
+__all__ = ["ClipMetrics", "hole_ratio", "measure_clip"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
-
-_STRONGEST = 0.05
-_BESIDE = 4
-# Of a picture whose flow OpenCV can tell [px].
-_LEAST_SIDE = 16
 
 
 @dataclass(frozen=True)
@@ -128,73 +124,11 @@ def measure_clip(
     )
 
 
-class StaticDrift:
-    """How much a clip changes where nothing should.
-
-    Attributes:
-        mean, worst: of the frames so far, 0..1; None where nothing is still.
-    """
-
-    def __init__(self, reference: FloatImage, still: Mask) -> None:
-        """
-        Args:
-            reference: RGB 0..1, shape [h, w, 3].
-            still: where nothing should change, shape [h, w].
-        """
-        self._reference, self._still, self._changes = reference, still, list[float]()
-
-    def add(self, frame: FloatImage) -> None:
-        if self._still.any():
-            self._changes.append(float(np.abs(frame - self._reference)[self._still].mean()))
-
-    @property
-    def mean(self) -> float | None:
-        return float(np.mean(self._changes)) if self._changes else None
-
-    @property
-    def worst(self) -> float | None:
-        return max(self._changes, default=None)
-
-
-class DynamicDegree:
-    """How much a clip is seen to move, whatever it was meant to do.
-
-    Attributes:
-        value: mean over the frames of the optical flow in the 5 % of the picture that move most [px/frame]; None
-            before the second frame.
-    """
-
-    def __init__(self) -> None:
-        self._previous: NDArray[np.uint8] | None = None
-        self._degrees: list[float] = []
-
-    def add(self, frame: FloatImage) -> None:
-        grey = cv2.cvtColor(as_uint8(frame), cv2.COLOR_RGB2GRAY)
-        if self._previous is not None and min(grey.shape) >= _LEAST_SIDE:
-            flow = cv2.DISOpticalFlow_create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM).calc(self._previous, grey, None)
-            lengths = np.sort(np.hypot(flow[..., 0], flow[..., 1]), axis=None)
-            self._degrees.append(float(lengths[-max(1, round(_STRONGEST * lengths.size)) :].mean()))
-        self._previous = grey
-
-    @property
-    def value(self) -> float | None:
-        return float(np.mean(self._degrees)) if self._degrees else None
-
-
 def hole_ratio(maps: RestMaps) -> float:
     """Mean share of the picture that bodies cover in the drawing and have left in a frame, 0..1."""
     inside = maps.flow.inside
     left = [np.count_nonzero(inside & ~maps.covered(t)) for t in range(len(maps.flow))]
     return float(np.mean(left)) / inside.size
-
-
-def still_region(maps: RestMaps) -> Mask:
-    """Where no body comes in any frame, nor its outline, shape [h, w]."""
-    ever = maps.flow.inside.copy()
-    for t in range(len(maps.flow)):
-        ever |= maps.covered(t)
-    size = 2 * _BESIDE + 1
-    return cv2.dilate(ever.astype(np.uint8), np.ones((size, size), np.uint8)) == 0
 
 
 def _checked(frame: NDArray[Any], motion: Motion) -> FloatImage:

@@ -12,6 +12,7 @@ from ...physics.errors import require
 
 __all__ = ["chamfer_distance"]
 
+# A sketch is darker than this on a line, half-way from paper to ink.
 _INK = 0.5
 
 

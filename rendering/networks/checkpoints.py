@@ -40,6 +40,10 @@ _NAMED = 4
 """So many names does a message list before it only counts."""
 
 
+class _DishonestSize(Exception):
+    """An archive that would unpack to more than it is."""
+
+
 class CheckpointError(InvalidInputError):
     """A model file cannot be used; the message names the file, what is wrong with it and what is wanted."""
 
@@ -59,16 +63,14 @@ def read_checkpoint(path: Path, *, wanted: str) -> dict[str, Tensor]:
     try:
         content = load_file(path) if path.suffix.lower() == ".safetensors" else _unpickled(path)
         tensors = _unwrapped(content)
-    except pickle.UnpicklingError as error:
-        raise CheckpointError(
-            f"{path} is not a plain file of weights, and nothing else is opened, because it could run code."
-            f" Wanted: {wanted}, best as .safetensors. ({_first_line(error)})"
-        ) from error
     except Exception as error:  # a damaged file makes the readers of zip files and pickles raise nearly anything
-        raise CheckpointError(
-            f"{path} cannot be read; it is damaged or was not downloaded to its end. Wanted: {wanted}."
-            f" ({_first_line(error)})"
-        ) from error
+        # Not in the words of torch, which advises to switch off what keeps a file from running code.
+        if isinstance(error, pickle.UnpicklingError) and "GLOBAL" in str(error):
+            raise CheckpointError(
+                f"{path} is not a plain file of weights, and nothing else is opened, because it could run code."
+                f" Wanted: {wanted}, best as .safetensors"
+            ) from error
+        raise CheckpointError(f"{path} cannot be read; {_fault(path, error)}. Wanted: {wanted}") from error
     if not tensors:
         raise CheckpointError(f"{path} holds no named tensors. Wanted: {wanted}")
     return tensors
@@ -160,7 +162,7 @@ def _require_honest_sizes(path: Path) -> None:
     """Refuse an archive that would unpack to more than it is: torch stores what it saves as it is."""
     with zipfile.ZipFile(path) as archive:
         if sum(entry.file_size for entry in archive.infolist()) > path.stat().st_size:
-            raise ValueError("it unpacks to more than its size")
+            raise _DishonestSize
 
 
 def _unwrapped(content: Any) -> dict[str, Tensor]:
@@ -182,5 +184,19 @@ def _listed(fault: str, names: Iterable[str]) -> str:
     return f"{len(names)} {fault}: {', '.join(names[:_NAMED])}{rest}"
 
 
-def _first_line(error: Exception) -> str:
-    return (str(error).strip() or type(error).__name__).split("\n")[0]
+def _fault(path: Path, error: Exception) -> str:
+    """What is wrong with a file that cannot be read."""
+    if isinstance(error, _DishonestSize):
+        return "it unpacks to more than its size"
+    if isinstance(error, MemoryError):
+        return "there is not enough memory for it"
+    try:
+        with path.open("rb") as file:
+            begin = file.read(64).lstrip().lower()
+    except OSError as refused:
+        return f"the system says: {refused.strerror}"
+    if begin.startswith(b"version https://git-lfs"):
+        return "it is a pointer of Git LFS and not the file itself"
+    if begin.startswith((b"<!doctype", b"<html", b"<?xml")):
+        return "it is a web page and not the file itself"
+    return "it is damaged or was not downloaded to its end" if begin else "it is empty"

@@ -43,7 +43,7 @@ class DiffusionConfiguration(FromValues):
         num_res_blocks: residual blocks a level.
         attention_at_levels: levels whose residual blocks are followed by transformers.
         num_head_channels: channels of one attention head.
-        context_dim: channels of a token of the context.
+        context_dim: channels of a token of the context, such as the picture embedding.
     """
 
     model_channels: int = 320

@@ -10,6 +10,7 @@ from torch.nn import functional
 
 __all__ = ["ImageEncoder", "ImageEncoderConfiguration", "encoder_picture", "square_picture"]
 
+# Of the colours that CLIP was trained on (Radford et al., 2021), red, green and blue.
 _MEAN = (0.48145466, 0.4578275, 0.40821073)
 _DEVIATION = (0.26862954, 0.26130258, 0.27577711)
 

@@ -1,16 +1,14 @@
 """Overlays that show a scene on a picture: meshes, rig points, energy strokes with their particles.
 
-Every line is drawn in a bright colour over a wider dark one, so that it can be read on light and on dark pictures.
 Positions are pixels of the illustration; ``scale`` carries them to a picture of another size.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -18,35 +16,28 @@ from ...physics.errors import require
 from ...physics.forces import EnergyStroke, particles
 from ...physics.mesh import TriangleMesh
 from ...physics.motion import Motion
-from ...physics.rig import (
-    Circle,
-    Combined,
-    KeyedPath,
-    Polygon,
-    RigMotion,
-    RigPoint,
-    RigRegion,
-    Wave,
-    displacement,
-    linear_part,
-)
 from ...physics.scene import Scene
-from ..pictures import as_picture, as_uint8
-from .flow_colour import flow_to_color
+from .canvas import (
+    DARK,
+    Colour,
+    canvas_from,
+    circle,
+    draw_dot,
+    draw_lines,
+    draw_uncased,
+    fill_disc,
+    fixed_point,
+    in_dtype_of,
+    scale_to,
+    see_through,
+    thin_width,
+)
+from .rig_overlay import draw_rig
 
-__all__ = ["RIG_COLOURS", "STROKE_COLOURS", "draw_rig", "draw_strokes", "draw_wireframe", "flow_to_color", "preview"]
-
-Canvas = NDArray[np.uint8]
-Colour = tuple[int, int, int]
+__all__ = ["STROKE_COLOURS", "draw_strokes", "draw_wireframe", "preview"]
 
 STROKE_COLOURS: dict[str, Colour] = {"wind": (70, 190, 255), "repel": (255, 110, 70), "attract": (120, 235, 110)}
-RIG_COLOURS: dict[str, Colour] = {"Pinned": (255, 80, 100), "KeyedPath": (215, 130, 255), "Wave": (255, 205, 60)}
-_TURN_COLOUR: Colour = (90, 225, 215)
 _MESH_COLOUR: Colour = (255, 240, 120)
-_DARK: Colour = (20, 20, 30)
-
-# cv2 takes coordinates in sixteenths of a pixel.
-_BITS = 4
 
 
 def draw_wireframe(image: NDArray[Any], mesh: TriangleMesh, positions: ArrayLike | None = None) -> NDArray[Any]:
@@ -70,42 +61,17 @@ def draw_wireframe(image: NDArray[Any], mesh: TriangleMesh, positions: ArrayLike
         >>> bool((draw_wireframe(picture, mesh) != picture).any())
         True
     """
-    canvas = _canvas(image)
+    canvas = canvas_from(image)
     points = mesh.vertices if positions is None else np.asarray(positions, dtype=np.float64)
     require("positions", f"shape {points.shape}", points.shape == mesh.vertices.shape, f"[{len(mesh.vertices)}, 2]")
-    points = points * _scale_to(canvas, mesh.width, mesh.height)
-    unit = _unit(canvas)
+    points = points * scale_to(canvas, mesh.width, mesh.height)
+    unit = thin_width(canvas)
 
-    edges = list(_fixed(points[mesh.edges]))
-    for colour, width, opacity in ((_DARK, 2 * unit, 0.2), (_MESH_COLOUR, unit, 0.5)):
-        _lay(canvas, partial(_thin, lines=edges, colour=colour, width=width), opacity)
-    _lines(canvas, points[mesh.boundary_edges], _MESH_COLOUR, unit)
-    return _returned(canvas, image)
-
-
-def draw_rig(image: NDArray[Any], rig_points: Sequence[RigPoint], t: float, *, scale: ArrayLike = 1.0) -> NDArray[Any]:
-    """The picture with rig points, their regions and the ways they go.
-
-    Args:
-        image: RGB, uint8 or float in 0..1, shape [h, w, 3].
-        rig_points: pins in red, keyed paths in violet, waves in yellow, what turns or is squashed in turquoise.
-        t: time at which they are shown [s].
-        scale: picture's size over the illustration's, a number or (x, y).
-    """
-    canvas, scale = _canvas(image), np.asarray(scale, dtype=np.float64)
-    unit = _unit(canvas)
-    for rig_point in rig_points:
-        colour = RIG_COLOURS.get(type(rig_point.motion).__name__, _TURN_COLOUR)
-        position = np.array(rig_point.position)
-        moved, (turned, _) = displacement(rig_point.motion, t), linear_part(rig_point.motion, t)
-        drawn = _outlines(rig_point.position, rig_point.region)
-        outlines = [((outline - position) @ turned.T + position + moved) * scale for outline in drawn]
-        _lay(canvas, partial(_area, outlines=outlines, colour=colour), 0.2)
-        for outline in outlines:
-            _lines(canvas, [np.concatenate([outline, outline[:1]])], colour, 2 * unit)
-        _lines(canvas, [way * scale for way in _way(rig_point)], colour, 2 * unit)
-        _dot(canvas, (position + moved) * scale, colour, 4 * unit)
-    return _returned(canvas, image)
+    edges = list(fixed_point(points[mesh.edges]))
+    for colour, width, opacity in ((DARK, 2 * unit, 0.2), (_MESH_COLOUR, unit, 0.5)):
+        see_through(canvas, partial(draw_uncased, lines=edges, colour=colour, width=width), opacity)
+    draw_lines(canvas, points[mesh.boundary_edges], _MESH_COLOUR, unit)
+    return in_dtype_of(canvas, image)
 
 
 def draw_strokes(
@@ -129,17 +95,17 @@ def draw_strokes(
         >>> bool((shown != picture).any())
         True
     """
-    canvas, scale = _canvas(image), np.asarray(scale, dtype=np.float64)
-    unit = _unit(canvas)
+    canvas, scale = canvas_from(image), np.asarray(scale, dtype=np.float64)
+    unit = thin_width(canvas)
     for stroke in strokes:
         colour, path = STROKE_COLOURS[stroke.kind], np.array(stroke.path) * scale
-        _lines(canvas, [path, *_arrow_head(path, 14 * unit)], colour, 3 * unit)
+        draw_lines(canvas, [path, *_arrow_head(path, 14 * unit)], colour, 3 * unit)
         radius = stroke.radius * float(scale.mean())
         for position in particles(stroke, t)[0] * scale:
-            _lay(canvas, partial(_disc, centre=position, radius=radius, colour=colour), 0.18)
-            _lines(canvas, [_circle(position, radius)], colour, 2 * unit)
-            _dot(canvas, position, colour, 5 * unit)
-    return _returned(canvas, image)
+            see_through(canvas, partial(fill_disc, centre=position, radius=radius, colour=colour), 0.18)
+            draw_lines(canvas, [circle(position, radius)], colour, 2 * unit)
+            draw_dot(canvas, position, colour, 5 * unit)
+    return in_dtype_of(canvas, image)
 
 
 def preview(
@@ -177,8 +143,8 @@ def preview(
         (60, 60, 3)
     """
     require("frame", frame, 0 <= frame < len(motion), f"0 to {len(motion) - 1}")
-    picture, t = _canvas(image), frame / motion.frame_rate
-    scale = _scale_to(picture, motion.width, motion.height)
+    picture, t = canvas_from(image), frame / motion.frame_rate
+    scale = scale_to(picture, motion.width, motion.height)
     if wireframe:
         for number, body in enumerate(motion.bodies):
             picture = draw_wireframe(picture, body.mesh, motion.of_body(number)[frame])
@@ -186,69 +152,7 @@ def preview(
         picture = draw_strokes(picture, scene.strokes, t, scale=scale)
     if scene is not None and rig:
         picture = draw_rig(picture, scene.rig_points, t, scale=scale)
-    return _returned(picture, image)
-
-
-def _canvas(image: NDArray[Any]) -> Canvas:
-    """A uint8 copy to draw on."""
-    return np.array(as_uint8(as_picture(image)), order="C")
-
-
-def _returned(canvas: Canvas, image: NDArray[Any]) -> NDArray[Any]:
-    dtype = np.asarray(image).dtype
-    return (canvas / 255).astype(dtype) if dtype.kind == "f" else canvas
-
-
-def _scale_to(canvas: Canvas, width: int, height: int) -> NDArray[np.float64]:
-    return np.array([canvas.shape[1] / width, canvas.shape[0] / height])
-
-
-def _unit(canvas: Canvas) -> int:
-    """Width of a thin line, so that overlays look alike at every resolution [px]."""
-    return max(1, round(max(canvas.shape[:2]) / 1280))
-
-
-def _fixed(points: ArrayLike) -> NDArray[np.int32]:
-    """Coordinates as cv2 draws them: pixel centres at integers, in fixed point."""
-    return np.rint(np.clip((np.asarray(points) - 0.5) * 2**_BITS, -(2**26), 2**26)).astype(np.int32)
-
-
-def _thin(canvas: Canvas, lines: Sequence[NDArray[np.int32]], colour: Colour, width: int) -> None:
-    cv2.polylines(canvas, lines, False, colour, width, cv2.LINE_AA, _BITS)
-
-
-def _lines(canvas: Canvas, lines: Any, colour: Colour, width: int) -> None:
-    """Polylines with a dark casing."""
-    fixed = [_fixed(line) for line in lines]
-    _thin(canvas, fixed, _DARK, width + 2)
-    _thin(canvas, fixed, colour, width)
-
-
-def _area(canvas: Canvas, outlines: Sequence[NDArray[np.float64]], colour: Colour) -> None:
-    """What lies inside an odd number of outlines."""
-    cv2.fillPoly(canvas, [_fixed(outline) for outline in outlines], colour, cv2.LINE_AA, _BITS)
-
-
-def _disc(canvas: Canvas, centre: NDArray[np.float64], radius: float, colour: Colour) -> None:
-    _area(canvas, [_circle(centre, radius)], colour)
-
-
-def _dot(canvas: Canvas, centre: NDArray[np.float64], colour: Colour, radius: float) -> None:
-    _disc(canvas, centre, radius + 1.5, _DARK)
-    _disc(canvas, centre, radius, colour)
-
-
-def _lay(canvas: Canvas, draw: Callable[[Canvas], Any], opacity: float) -> None:
-    """Draw see-through."""
-    layer = canvas.copy()
-    draw(layer)
-    cv2.addWeighted(layer, opacity, canvas, 1 - opacity, 0, dst=canvas)
-
-
-def _circle(centre: ArrayLike, radius: float) -> NDArray[np.float64]:
-    """A closed polygon."""
-    angles = np.linspace(0, 2 * np.pi, 65)
-    return np.asarray(centre) + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    return in_dtype_of(picture, image)
 
 
 def _arrow_head(path: NDArray[np.float64], length: float) -> list[NDArray[np.float64]]:
@@ -260,29 +164,3 @@ def _arrow_head(path: NDArray[np.float64], length: float) -> list[NDArray[np.flo
     back = -steps[-1] / np.hypot(*steps[-1]) * length
     turned = np.array([-back[1], back[0]])
     return [np.stack([path[-1] + back + 0.6 * turned, path[-1], path[-1] + back - 0.6 * turned])]
-
-
-def _outlines(position: tuple[float, float], region: RigRegion) -> list[NDArray[np.float64]]:
-    if isinstance(region, Circle):
-        return [_circle(position, region.radius)]
-    if isinstance(region, Polygon):
-        return [np.array(region.points)]
-    contours, _ = cv2.findContours(region.mask.astype(np.uint8), cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
-    return [contour[:, 0] + 0.5 for contour in contours]
-
-
-def _way(rig_point: RigPoint) -> list[NDArray[np.float64]]:
-    """The line along which a rig point goes."""
-    position, motion = np.array(rig_point.position), rig_point.motion
-    singles = motion.motions if isinstance(motion, Combined) else (motion,)
-    spans = [span for single in singles for span in _span(single)]
-    if not spans:
-        return []
-    return [position + displacement(motion, np.linspace(min(spans), max(spans), 129))]
-
-
-def _span(motion: RigMotion) -> tuple[float, ...]:
-    """First and last time of the way that a motion leads along, none where it stays in its place [s]."""
-    if isinstance(motion, Wave):
-        return 0.0, motion.period
-    return (motion.times[0], motion.times[-1]) if isinstance(motion, KeyedPath) else ()

@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from ...physics.errors import require
 from ...physics.motion import Fit, Tracks
-from ..pictures import as_float, as_picture, as_uint8
+from ..pictures import as_float, as_picture
+from .canvas import DARK, FRACTION_BITS, canvas_from, fixed_point, scale_to
 
 __all__ = ["draw_tracks", "reframed"]
 
-_BITS = 4  # cv2 takes coordinates in sixteenths of a pixel
-_DARK = (20, 20, 30)
 _GREY = (200, 205, 215)
 _STILL = 0.5  # [px]: a track that spans less does not move
 
@@ -72,11 +71,9 @@ def draw_tracks(image: NDArray[Any], tracks: Tracks, sample: int, *, tail: int =
         dtype('uint8')
     """
     require("sample", sample, 0 <= sample < len(tracks), f"0 to {len(tracks) - 1}")
-    image = as_picture(image)
-    shape = image.shape
-    canvas = np.array(as_uint8(image))
-    path = tracks.path.astype(np.float64) * (shape[1] / tracks.width, shape[0] / tracks.height)
-    unit = max(shape[:2]) / 1280
+    canvas = canvas_from(image)
+    path = tracks.path.astype(np.float64) * scale_to(canvas, tracks.width, tracks.height)
+    unit = max(canvas.shape[:2]) / 1280
     colours = _colours(path)
     first = max(0, sample - tail)
     for number, colour in enumerate(colours):
@@ -85,12 +82,13 @@ def draw_tracks(image: NDArray[Any], tracks: Tracks, sample: int, *, tail: int =
     for number, colour in enumerate(colours):
         radius = unit * (3.5 if colour == _GREY else 5.5)
         _dot(canvas, path[sample, number], colour, radius, filled=bool(tracks.visibility[sample, number]))
-    return canvas if image.dtype == np.uint8 else as_float(canvas)
+    return canvas if as_picture(image).dtype == np.uint8 else as_float(canvas)
 
 
 def _colours(path: NDArray[np.float64]) -> list[tuple[int, int, int]]:
     """A colour for each point: far apart for neighbours in order, grey for what stands still."""
     moves = (path.max(axis=0) - path.min(axis=0)).max(axis=1) > _STILL
+    # Steps of the golden ratio: each hue falls into the widest gap that earlier ones leave.
     hues = (0.618034 * np.arange(len(moves))) % 1.0
     bright = [tuple(round(255 * part) for part in colorsys.hsv_to_rgb(hue, 0.75, 1.0)) for hue in hues]
     return [(red, green, blue) if moved else _GREY for (red, green, blue), moved in zip(bright, moves, strict=True)]
@@ -100,15 +98,15 @@ def _tail(canvas: NDArray[np.uint8], line: NDArray[np.float64], colour: tuple[in
     steps = len(line) - 1
     for number in range(steps):
         strength = (number + 1) / steps
-        segment = _fixed(line[number : number + 2])
-        low = np.maximum(segment.min(axis=0) // 2**_BITS - 12, 0)
-        high = segment.max(axis=0) // 2**_BITS + 12
+        segment = fixed_point(line[number : number + 2])
+        low = np.maximum(segment.min(axis=0) // 2**FRACTION_BITS - 12, 0)
+        high = segment.max(axis=0) // 2**FRACTION_BITS + 12
         patch = canvas[low[1] : high[1], low[0] : high[0]]
         if not patch.size:
             continue
         drawn = patch.copy()
         width = max(1, round(unit * 5 * strength))
-        cv2.polylines(drawn, [segment - low * 2**_BITS], False, colour, width, cv2.LINE_AA, _BITS)
+        cv2.polylines(drawn, [segment - low * 2**FRACTION_BITS], False, colour, width, cv2.LINE_AA, FRACTION_BITS)
         cv2.addWeighted(drawn, strength, patch, 1 - strength, 0, dst=drawn)
         patch[:] = drawn
 
@@ -121,15 +119,10 @@ def _dot(
     *,
     filled: bool,
 ) -> None:
-    x, y = (int(value) for value in _fixed(centre))
-    sixteenths = round(radius * 2**_BITS)
+    x, y = (int(value) for value in fixed_point(centre))
+    sixteenths = round(radius * 2**FRACTION_BITS)
     if filled:
-        cv2.circle(canvas, (x, y), sixteenths + 20, _DARK, -1, cv2.LINE_AA, _BITS)
-        cv2.circle(canvas, (x, y), sixteenths, colour, -1, cv2.LINE_AA, _BITS)
+        cv2.circle(canvas, (x, y), sixteenths + 20, DARK, -1, cv2.LINE_AA, FRACTION_BITS)
+        cv2.circle(canvas, (x, y), sixteenths, colour, -1, cv2.LINE_AA, FRACTION_BITS)
     else:
-        cv2.circle(canvas, (x, y), sixteenths, colour, 1, cv2.LINE_AA, _BITS)
-
-
-def _fixed(points: NDArray[np.float64]) -> NDArray[np.int32]:
-    """Coordinates as cv2 draws them: pixel centres at integers, in fixed point."""
-    return np.rint(np.clip((points - 0.5) * 2**_BITS, -(2**24), 2**24)).astype(np.int32)
+        cv2.circle(canvas, (x, y), sixteenths, colour, 1, cv2.LINE_AA, FRACTION_BITS)

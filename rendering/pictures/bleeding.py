@@ -16,6 +16,7 @@ __all__ = ["bled", "carried_on"]
 
 FloatImage = NDArray[np.float32]
 
+# A smaller weight is none: what was divided by it would be rounding.
 _LEAST = np.float32(1e-6)
 
 

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from ...physics.errors import InvalidInputError
 from ...physics.limits import MAX_PICTURE_SIDE
 from ..files import replacing
-from .picture_files import has_transparency, in_8_bits, in_srgb, reading, with_opacity
+from .picture_files import reading
+from .picture_modes import has_transparency, in_8_bits, in_srgb, with_opacity
 from .pixels import as_uint8
 
 __all__ = ["LONGEST_SIDE", "check_image_output", "data_address", "load_image", "load_mask", "save_image"]

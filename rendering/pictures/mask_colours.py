@@ -30,15 +30,18 @@ _NAMES = {
     "brown": (120, 70, 30),
     "pink": (250, 160, 190),
 }
+# The masks of tests/rendering/pictures/test_mask_files.py are read the same, with soft edges, JPEG and gradients, at
+# half and twice of _BETWEEN, _LEAST_SHARE, _EVEN, _MOSTLY, _LITTLE, _MOST_COLOURS and _APART; and at half of _NEAR, but
+# not at twice: a photograph then passes for a mask.
 _SAMPLED = 2_000_000  # pixels that are enough to tell the colours of a mask
 _NEAR = 60.0  # colours this close are one: JPEG's noise stays within [8-bit RGB]
 _BETWEEN = 45.0  # pixels this close to the line between two colours are mixed of them, as soft edges are
-_LEAST_SHARE = 0.0005
+_LEAST_SHARE = 0.0005  # of the picture: a colour on less is an accident
 _EVEN = 12  # difference of neighbours within an even area, in any channel [8-bit levels]
 _MOSTLY = 0.3  # of what is painted must be even for the even areas to tell the colours
-_QUANTILE = 0.97
-_LITTLE = 0.25
-_MOST_COLOURS = 8
+_QUANTILE = 0.97  # of a soft edge lies before the colour to which it runs; what lies beyond is noise
+_LITTLE = 0.25  # of a colour near it: so little is what JPEG makes of that colour
+_MOST_COLOURS = 8  # with more it is no mask, whatever they are
 # A level is one of its own, not part of a gradient, if it holds so many times what lies around it.
 _APART = 3.0
 _WINDOWS = ((1, 5), (6, 18))  # of the level, and of what lies around it [8-bit levels]
@@ -163,6 +166,7 @@ def flat_levels(plane: FloatPlane) -> list[tuple[float, float]]:
     levels = as_uint8(plane)
     flat = ((cv2.dilate(levels, square) - cv2.erode(levels, square)) <= _WINDOWS[1][0]).astype(np.uint8)
     counts = cv2.calcHist([levels], [0], flat, [256], [0, 256]).ravel().astype(np.float64)
+    # At least four pixels, a thousandth of the plane and a fiftieth of what is brighter than black.
     least = max(4.0, 0.001 * levels.size, 0.02 * counts[9:].sum())
     found = []
     for level in np.argsort(-counts):

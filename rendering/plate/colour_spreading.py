@@ -1,4 +1,4 @@
-"""Colours of known pixels, spread to others by distance: a weighted mean, or that of the side that outweighs others."""
+"""Colours of known pixels continued to unknown ones by distance: as a mean, or with a border between two sides."""
 
 from __future__ import annotations
 
@@ -15,14 +15,19 @@ FloatImage = NDArray[np.float32]
 FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+# Larger windows are filled at half their size, which is a quarter of the work [px^2].
 _LARGEST_WINDOW = 600_000
+
+# Half and twice of the following, measured as in smooth_fill, change the mean error by a fortieth at most.
+
 # Colours along the edge are averaged over this width before they are grouped [px]: a texture is one thing.
 _ALONG = 12.0
+# Colours along the edge are told apart in no more groups than this.
 _GROUPS = 8
 # Groups that differ less than about this are on one side.
 _ALIKE = 0.2
-# How much more a side counts that outweighs the others, and within which distance of the edge [px]. Deeper in the
-# hole, where a border between two sides would run is a guess, and a blend is wrong by less.
+# Exponent by which the group with the larger weight wins over the others: 0 blends, large ones draw a sharp border. It
+# falls off over this distance from the edge [px]: deep in a hole the border's place is a guess, and a blend errs less.
 _SHARPNESS = 3.0
 _REACH = 50.0
 
@@ -129,7 +134,13 @@ def _by_distance(
 
 
 def _competing(weights: FloatArray, means: FloatImage, depth: FloatImage) -> FloatArray:
-    """Weights of groups of these mean colours, shape [k, h, w], where those that outweigh the others count for more."""
+    """The weights of groups sharpened, so that the one with the most support wins, shape [k, h, w].
+
+    Args:
+        weights: of each group at each pixel, shape [k, h, w].
+        means: mean colour of each group, shape [k, 3]; groups of like colours support each other.
+        depth: distance from the edge [px], shape [h, w].
+    """
     apart = np.linalg.norm(means[:, None] - means[None], axis=-1)
     shares = weights / weights.sum(axis=0)
     support = np.tensordot(np.exp(-((apart / _ALIKE) ** 2)), shares, axes=1)

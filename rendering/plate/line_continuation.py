@@ -14,8 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .line_end import HALF_WIDTH, LineEnd
+from .line_end import LineEnd
 from .line_ends import DISTANCE, line_ends
+from .line_pairs import fitting_pairs
 
 __all__ = ["continue_lines"]
 
@@ -24,33 +25,18 @@ FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-# tests/benchmarks/line_thresholds.py measures half and twice each threshold on holes cut into the example and a sample:
-# _ASYMMETRY, _RELATIVE, _LARGEST_COST, _DISTINCT and _BAND decide how much is drawn, from nothing to four times as
-# much; _BEND, _DIFFERENCE, _ELSEWHERE, _CROSSING, _SHORTEST_GAP and _FALL change it by a fifth at most.
+# tests/benchmarks/thresholds.py measures half and twice each threshold on holes cut into the example and a sample:
+# _BAND decides how much is drawn, _CROSSING and _FALL change it by a fifth at most.
 
-# How much each of these counts as a cost of one: the bend of an arc, and what its two halves bend differently
-# [radians]; how much the mean colours differ (in 0 to 1), and the profiles about them, as a share of their contrast.
-_BEND = np.deg2rad(40)
-_ASYMMETRY = np.deg2rad(6)
-_DIFFERENCE = 0.2
-_RELATIVE = 0.4
-_LARGEST_COST = 2.2
-# An end that fits another nearly as well, as in a pattern, does not tell where its line goes on. The second best
-# counts as different if it lies further from the best than this [px].
-_DISTINCT = 0.6
-_ELSEWHERE = 5.0
 # The borders of a band are parallel (cosine of their angle) and no further apart than this [px].
 _PARALLEL = 0.97
 _BAND = 24.0
-# This share of a line's way lies in the hole.
+# At least this share of a line's way lies in the hole.
 _MOSTLY = 0.8
-# Lines may cross each other where both fit as well as this.
+# Lines may cross each other where neither costs more than this.
 _CROSSING = 0.7
-# Ends closer than this are one line's [px].
-_SHORTEST_GAP = 8.0
+# Steps along a curve and across it [px]; half a pixel leaves no pixel of a strip out.
 _SAMPLING = 0.5
-# The middles of two ends may be found this far from each other's [px].
-_ASIDE = np.arange(-3, 3.25, 0.5)
 # Weight of the strip falls with the distance from its middle.
 _FALL = 3.0
 
@@ -88,7 +74,7 @@ def continue_lines(picture: FloatImage, hole: Mask) -> tuple[FloatImage, Mask]:
 def _bridges(ends: list[LineEnd], hole: Mask) -> list[_Bridge]:
     """The cheapest pairs of ends, each end used once, that do not cross each other."""
     found = []
-    for i, j, cost, aside in _pairs(ends):
+    for i, j, cost, aside in fitting_pairs(ends):
         pair = ends[i], ends[j].moved(aside)
         found.append(_Bridge((i, j), pair, _curve(*pair), cost))
     taken: list[_Bridge] = []
@@ -111,9 +97,10 @@ def _within(curve: FloatArray, hole: Mask) -> bool:
 
 
 def _whole_bands(bridges: list[_Bridge], ends: list[LineEnd]) -> list[_Bridge]:
-    """Without the bridges beside which, at either end, a parallel line stops at the hole.
+    """Drop bridges beside which a parallel line ends at the hole and is not continued.
 
-    The colours of a band of which only one border goes on would flow out of it.
+    Both are borders of one band: with only one of them drawn through the hole, the band's colours would flow out of it.
+    Dropping one may leave its neighbour alone in turn, hence the loop.
     """
     kept = bridges
     while True:
@@ -131,52 +118,16 @@ def _beside(end: LineEnd, others: list[LineEnd]) -> bool:
 
 
 def _crosses(taken: FloatArray, pixels: tuple[IndexArray, IndexArray], cost: float) -> bool:
-    """Whether a line crosses one already taken, the costs of which are given, without both being certain."""
+    """Whether a line crosses another one and either of them fits too badly for a crossing to be believed.
+
+    Args:
+        taken: cost of the line that is drawn at each pixel so far, infinite where there is none, shape [h, w].
+        pixels: of the new line.
+        cost: of the new line.
+    """
     others = taken[pixels]
     there = np.isfinite(others)
     return bool(there.any()) and max(cost, float(others[there].max())) > _CROSSING
-
-
-def _pairs(ends: list[LineEnd]) -> list[tuple[int, int, float, float]]:
-    """Numbers of ends that fit each other best by far, their costs, and how far the second lies aside [px]."""
-    costs, aside = np.full((len(ends), len(ends)), np.inf), np.zeros((len(ends), len(ends)))
-    for j, b in enumerate(ends):
-        for i, a in enumerate(ends[:j]):
-            costs[i, j], aside[i, j] = _fit(a, b)
-            costs[j, i] = costs[i, j]
-    places = np.array([end.position for end in ends]).reshape(-1, 2)
-    elsewhere = np.linalg.norm(places[:, None] - places, axis=2) > _ELSEWHERE
-    found = []
-    for i, j in zip(*np.nonzero(np.triu(costs < _LARGEST_COST)), strict=True):
-        rivals = (costs[i][elsewhere[j]], costs[j][elsewhere[i]])
-        rests = min(*ends[i].reach, *ends[j].reach) > 0
-        if rests and costs[i, j] <= _DISTINCT * min(float(each.min(initial=np.inf)) for each in rivals):
-            found.append((i, j, costs[i, j], aside[i, j]))
-    return found
-
-
-def _fit(a: LineEnd, b: LineEnd) -> tuple[float, float]:
-    """How badly two ends fit together, infinite where they cannot; and how far ``b`` lies aside [px]."""
-    way = b.position - a.position
-    gap = float(np.linalg.norm(way))
-    if gap < _SHORTEST_GAP:
-        return np.inf, 0.0
-    bends = _angle(a.direction, way), _angle(way, -b.direction)
-    bend, asymmetry = max(map(abs, bends)) / _BEND, abs(bends[0] - bends[1]) / _ASYMMETRY
-    if max(bend, asymmetry) > _LARGEST_COST:
-        return np.inf, 0.0
-    at = np.arange(-HALF_WIDTH, HALF_WIDTH + 1.0)
-    difference = a.across(at) - b.across(-at - _ASIDE[:, None])
-    mean = difference.mean(axis=1)
-    shape = np.sqrt(((difference - mean[:, None]) ** 2).sum(axis=2).mean(axis=1)) / min(a.contrast, b.contrast)
-    unlike = np.hypot(np.linalg.norm(mean, axis=1) / _DIFFERENCE, shape / _RELATIVE)
-    best = int(np.argmin(unlike))
-    return float(np.hypot(np.hypot(bend, asymmetry), unlike[best])), -float(_ASIDE[best])
-
-
-def _angle(one: FloatArray, other: FloatArray) -> float:
-    """Signed angle from one direction to another [radians]."""
-    return float(np.arctan2(one[0] * other[1] - one[1] * other[0], one @ other))
 
 
 def _curve(a: LineEnd, b: LineEnd) -> FloatArray:
@@ -211,6 +162,7 @@ def _draw(total: FloatImage, bridge: _Bridge) -> None:
     weight = np.broadcast_to(np.exp(-((offsets / _FALL) ** 2) / 2), (len(curve), len(offsets))).reshape(-1, 1)
     values = np.concatenate([profile.reshape(-1, 3) * weight, weight], axis=1)
     height, width = total.shape[:2]
+    # Summed pixel by pixel: `pictures.splat` sums in another order, which changes single pixels of the example.
     left = np.floor(points - 0.5).astype(np.int64)
     part = points - 0.5 - left
     for down in (0, 1):

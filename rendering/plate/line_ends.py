@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pictures import StructureTensor, gradients
 from .line_end import HALF_WIDTH, LEAST_REACH, LineEnd
 
 __all__ = ["DISTANCE", "line_ends"]
@@ -19,6 +20,7 @@ Mask = NDArray[np.bool_]
 DISTANCE = 5
 """Lines are looked for this far outside the hole [px], where the tensor's window sees enough of them."""
 
+# A profile reaches this far, so that colours can be told to rest beside the widest line [px].
 _REACH = HALF_WIDTH + 5
 
 # Half and twice each of these, measured as in line_continuation: _FAINTEST changes how much is drawn by 40 % at most,
@@ -37,9 +39,11 @@ _APART = 6
 # Steps of one pixel along which a line is followed, and the fewest that it must run on.
 _STEPS = 24
 _FEWEST = 12
+# The strongest so many are followed: pairs are compared each with each.
 _MOST_ENDS = 160
 # The middle of a line is looked for within about this [px].
 _LINE = 4.0
+# Rounds in which the window moves to the middle that it finds.
 _CENTRINGS = 8
 
 
@@ -60,6 +64,7 @@ def line_ends(picture: FloatImage, hole: Mask) -> list[LineEnd]:
         hole: true where colours are unknown, shape [h, w].
     """
     outside = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    # The pixels right at the hole may still be mixed with what is cut out.
     known = (outside > 1.5).astype(np.float32)
     field = _structure(picture, known)
     near = (outside <= DISTANCE).astype(np.uint8)
@@ -79,16 +84,15 @@ def line_ends(picture: FloatImage, hole: Mask) -> list[LineEnd]:
 def _structure(picture: FloatImage, known: FloatImage) -> _Field:
     """The structure tensor's eigenvectors, from known pixels alone."""
     inner = cv2.erode(known, np.ones((3, 3), np.uint8))
-    planes = []
-    dx, dy = (cv2.Scharr(picture, cv2.CV_32F, *way) / np.float32(32) * inner[..., None] for way in ((1, 0), (0, 1)))
+    dx, dy = (change * inner[..., None] for change in gradients(picture))
     weight = np.maximum(cv2.GaussianBlur(inner, (0, 0), _SIGMA), 1e-3)
-    for product in (dx * dx, dx * dy, dy * dy):
-        planes.append((cv2.GaussianBlur(product.sum(axis=2), (0, 0), _SIGMA) / weight).astype(np.float64))
-    xx, xy, yy = planes
-    spread = np.sqrt((xx - yy) ** 2 + 4 * xy * xy)
-    across = 0.5 * np.arctan2(2 * xy, xx - yy)
-    along = np.stack([-np.sin(across), np.cos(across)], axis=-1)
-    return _Field(along, np.sqrt((xx + yy + spread) / 2), spread / np.maximum(xx + yy, 1e-9))
+    xx, xy, yy = (
+        (cv2.GaussianBlur(product.sum(axis=2), (0, 0), _SIGMA) / weight).astype(np.float64)
+        for product in (dx * dx, dx * dy, dy * dy)
+    )
+    tensor = StructureTensor(xx, xy, yy)
+    spread = tensor.spread
+    return _Field(tensor.along, np.sqrt((xx + yy + spread) / 2), spread / np.maximum(xx + yy, 1e-9))
 
 
 def _ends_along(
@@ -123,7 +127,7 @@ def _followed(
             break
         along = field.along[y, x]
         along = along * (1.0 if along @ heading >= 0 else -1.0)
-        if along @ heading < 0.8:
+        if along @ heading < 0.8:  # a line turns by less than 37 degrees within a pixel
             break
         heading = along
         position = position + heading

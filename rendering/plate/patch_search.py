@@ -22,11 +22,13 @@ _SIDE = 2 * RADIUS + 1
 _SQUARE = np.ones((_SIDE, _SIDE), np.uint8)
 # Patches are compared by this many of their principal components.
 _COMPONENTS = 12
+# The components are found from so many patches, taken at random.
 _SAMPLES = 4000
+# How often all finds are handed to the neighbours in a round.
 _SWEEPS = 2
-# What a deviation of the guide's colour counts against one of each of the patch's pixels.
+# Weight of a deviation from the smooth guide's colour beside that of the patch's own pixels.
 _GUIDE_WEIGHT = 0.1
-# What a pixel of distance counts against a unit of squared colour difference (colours in 0 to 1), at a patch.
+# Cost of a match's squared distance [1/px^2] beside the patch's squared colour difference (colours in 0 to 1).
 _NEARNESS = 1e-4
 # The trust in a patch fades by this factor for each pixel that it lies deeper in the hole.
 _FADING = 1.2
@@ -60,11 +62,11 @@ class Level:
 
 @dataclass(frozen=True, eq=False)
 class Finds:
-    """What patches have found.
+    """The best match found so far for the patch around each pixel (the nearest-neighbour field of PatchMatch).
 
     Attributes:
-        source: flat index of the centre of the patch that stands for the one at each pixel, shape [h, w].
-        trust: weight of that patch, 0 where there is none, shape [h, w].
+        source: flat index of the centre of the matching patch, shape [h, w].
+        trust: weight of that patch in the vote, 0 where there is none, shape [h, w].
     """
 
     source: IndexArray
@@ -122,6 +124,7 @@ class PatchSearch:
                 for neighbour in self.steps:
                     self._propagate(neighbour, stride)
             self._guess()
+        # As in Wexler et al.: the squared spread of the weights is the 75th percentile of all costs.
         scale = 2 * np.percentile(self.cost, 75) + 1e-9
         trust = np.zeros(self.usable.size, dtype=np.float32)
         trust[self.targets] = np.exp(-self.cost / scale) * self.fading
@@ -165,7 +168,7 @@ class PatchSearch:
             row = np.clip(row + shift[0], RADIUS, self.shape[0] - 1 - RADIUS)
             column = np.clip(column + shift[1], RADIUS, self.shape[1] - 1 - RADIUS)
             self._try(row * self.shape[1] + column)
-            radius /= 2.5
+            radius /= 2.5  # PatchMatch halves it; this needs a quarter fewer guesses
 
     def _try(self, source: IndexArray) -> None:
         source = np.clip(source, 0, self.usable.size - 1)

@@ -20,6 +20,7 @@ __all__ = ["continue_texture"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
+# Matching and voting alternate so often at each scale.
 _ROUNDS = 6
 _LEAST_WEIGHT = 1e-12
 

@@ -21,12 +21,15 @@ __all__ = ["clean_plate", "fill_hole"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
+# A mask above this shows something of the part: 5 levels of 255.
 _FAINT = 0.02
 # A fill of patches alone looks best; half-way to the smooth fill it errs least. The share is a compromise. Deeper in
 # the hole, patches are less and less likely to be the right ones: their share fades with this depth [px].
 _TEXTURE = 0.6
 _TEXTURE_DEPTH = 40.0
+# Colours, lines and patches come from within this of the hole [px].
 _CONTEXT = 120
+# Patches are matched down to the scale at which a hole has no more pixels than this.
 _MATCHED_PIXELS = 30_000
 
 

@@ -19,11 +19,16 @@ __all__ = ["Looks"]
 Mask = NDArray[np.bool_]
 Lab = NDArray[np.uint8]
 
+# tests/benchmarks/thresholds.py measures half and twice of these on painted parts: _TEXTURE, _GROWTH, _SHORTEST, _LOOKS
+# and _STROKES change no cut; _LARGEST_REGION, _SPREADS, _LEAST_CONTRAST and _BRIDGE decide single cuts, for better and
+# for worse.
+
 # A region that grows over more than this share of the picture has probably leaked: smaller steps are tried.
 _LARGEST_REGION = 0.25
-# A look averages away what is as small as a few of its own pixels: such a region was perhaps bounded by texture, and
-# was so if it grows by more than the area of a pixel does from one look to the next.
+# A region of fewer pixels than the first of these may be bounded by texture, such as one touch of the brush, not by
+# edges. It was, if the next coarser look finds one larger by more than the second: one halving quarters the pixels.
 _TEXTURE, _GROWTH = 16, 4.0
+# No look has a shorter side than this [px]; so many looks are taken, each at half the size of the one before.
 _SHORTEST = 24
 _LOOKS = 3
 _STROKES = 7
@@ -102,6 +107,7 @@ class Looks:
 
 
 def _noise_around(lab: Lab, point: NDArray[np.int_], size: int = 3) -> float:
+    # Noise is measured over a sixteenth of the picture around the click.
     reach = max(4, max(lab.shape) // 32)
     left, top = np.maximum(point - reach, 0)
     return noise_of(np.ascontiguousarray(lab[top : point[1] + reach + 1, left : point[0] + reach + 1]), size=size)

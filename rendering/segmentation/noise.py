@@ -15,7 +15,8 @@ Mask = NDArray[np.bool_]
 _NORMAL = 1.4826
 LEAST_NOISE = 2.0
 """Clean art has this much from its soft edges and from JPEG."""
-_REACH = 9
+# tests/benchmarks/thresholds.py measures half and twice of _REACH and _CLEAR on painted parts: they decide single cuts.
+_REACH = 9  # window of the filters, over which a soft edge fits [px]
 _CLEAR = 40  # lightness by which the two sides of a clear edge differ
 
 

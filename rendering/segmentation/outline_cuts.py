@@ -20,8 +20,10 @@ __all__ = ["cut_by_majority", "grab_cut", "window_of", "without_foreign_lines"]
 Mask = NDArray[np.bool_]
 Lab = NDArray[np.uint8]
 
+# Half and twice of these, measured as in trimap, change the median overlap by less than 0.01.
 _LINES_LEFT = (1.0, 0.5, 0.25)
 """How much of the lines' darkness each cut sees."""
+# A sketch is darker than this on a drawn line; lines are narrower than this [px].
 _LINE = 0.41
 _WIDEST = 4
 _SQUARE = np.ones((3, 3), np.uint8)

@@ -17,7 +17,15 @@ __all__ = ["trimap_from_points"]
 Mask = NDArray[np.bool_]
 Lab = NDArray[np.uint8]
 
+# tests/benchmarks/thresholds.py measures half and twice of these on painted parts: half of _COLOUR_BINS takes 0.07 off
+# the median overlap of 0.86, the others change it by less than 0.01.
+
+# Colours are counted in so many steps of each channel.
 _COLOUR_BINS = 24
+# Colours tell no further from the foreground's hull than this, as a share of the picture's longer side.
+_BESIDE_HULL = 0.05
+# What is further from the foreground than this share of its size is background.
+_MARGIN = 0.4
 
 
 def trimap_from_points(
@@ -62,14 +70,14 @@ def _likely(lab: Lab, foreground: Mask, background: Mask) -> Mask:
     inside = _histogram(lab, foreground)
     outside = _histogram(lab, background) + _histogram(lab, apart)
     cell = tuple(np.moveaxis(lab.astype(np.int32) * _COLOUR_BINS // 256, 2, 0))
-    return (inside[cell] > outside[cell]) & (distance < 0.05 * max(lab.shape))
+    return (inside[cell] > outside[cell]) & (distance < _BESIDE_HULL * max(lab.shape))
 
 
 def _near(foreground: Mask) -> Mask:
-    """A window about the foreground with a margin of two fifths of its size: colours further away do not matter."""
+    """A window about the foreground with a margin: colours further away do not matter."""
     ys, xs = np.nonzero(foreground)
-    least = 0.05 * max(foreground.shape)
-    margin_x, margin_y = (int(max(0.4 * np.ptp(values), least)) for values in (xs, ys))
+    least = _BESIDE_HULL * max(foreground.shape)
+    margin_x, margin_y = (int(max(_MARGIN * np.ptp(values), least)) for values in (xs, ys))
     window = np.zeros(foreground.shape, dtype=bool)
     window[
         max(0, ys.min() - margin_y) : ys.max() + margin_y + 1, max(0, xs.min() - margin_x) : xs.max() + margin_x + 1

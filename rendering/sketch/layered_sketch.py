@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import require
-from ...physics.mesh import PixelBox, bounding_box, interpolate, triangle_ids
+from ...physics.mesh import PixelBox, bounding_box, triangle_ids
 from ...physics.motion import FlowSequence, Motion, layer_order
 from ..composite import ApronedMesh, canvas_of, on_canvas
 from ..pictures import as_float
@@ -27,9 +27,9 @@ __all__ = ["LayeredSketch"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
-_NOWHERE = -1e4
+# Ink fainter than this, 5 levels of 255, is no line.
 _FAINT = 0.02
-# Widest apron [px].
+# Widest apron [px]: three times what contours usually stand out of a body.
 _REACH = 12
 
 
@@ -166,9 +166,7 @@ class _LineLayer:
         box = bounding_box(points, margin=1).clipped(motion.width, motion.height)
         if not (box.width and box.height):
             return box, *np.zeros((2, box.height, box.width), dtype=np.float32)
-        x, y = interpolate(points, self.mesh.triangles, self.mesh.rest - points, box, fill=_NOWHERE)
-        x += np.arange(box.left - self.canvas.left, box.right - self.canvas.left, dtype=np.float32)
-        y += np.arange(box.top - self.canvas.top, box.bottom - self.canvas.top, dtype=np.float32)[:, None]
+        x, y = self.mesh.places_at_rest(points, box, self.canvas)
         drawn = cv2.remap(self.texture, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
         moved, opaque = cv2.split(np.clip(drawn, 0, 1))
         cover = motion.bodies[self.body].cover

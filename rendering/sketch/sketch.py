@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import require
-from ..pictures import as_float, as_picture
+from ..pictures import StructureTensor, as_float, as_picture
 
 __all__ = ["cleaned", "extract_sketch"]
 
@@ -27,9 +27,12 @@ _SURROUND = 1.6
 # Answer to a black line of the nominal width on white: the shares of both Gaussians within it, erf(1 / sqrt 2) and
 # erf(1 / (1.6 sqrt 2)).
 _PEAK = 0.683 - 0.468
-# Shares of the threshold above which a line is followed, and which it must reach somewhere.
+# Shares of the threshold above which a line is followed, and which it must reach somewhere. Canny advises a ratio of 2
+# to 3; with 4, fading ends are followed further: half and twice either change the ink of the bundled example by a
+# quarter at most, and sketches of noisy and compressed copies of it stay within 0.7 px of its own.
 _FOLLOWED, _REACHED = 0.5, 2.0
-# Brightness below which equal differences rather than equal ratios look equal.
+# Brightness below which equal differences rather than equal ratios look equal. Half and twice of it change the ink of
+# the bundled example by a tenth.
 _DARK = 0.25
 
 
@@ -129,9 +132,7 @@ def _tangents(picture: FloatImage, sigma: float) -> FloatImage:
         cv2.accumulateSquare(dy, yy)
         cv2.accumulateProduct(dx, dy, xy)
     xx, yy, xy = (_blurred(product, sigma) for product in (xx, yy, xy))
-    # The tangent is the eigenvector of the smaller eigenvalue: half the double angle, turned by a right angle.
-    angle = 0.5 * np.arctan2(2 * xy, xx - yy)
-    return np.dstack([-np.sin(angle), np.cos(angle)])
+    return np.asarray(StructureTensor(xx, xy, yy).along)
 
 
 def _smoothed_along_lines(response: FloatImage, tangents: FloatImage, length: float) -> FloatImage:

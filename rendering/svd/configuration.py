@@ -12,18 +12,12 @@ __all__ = ["NetworkConfiguration"]
 
 @dataclass(frozen=True)
 class NetworkConfiguration(DiffusionConfiguration):
-    """What the weights' shapes follow from.
+    """What the weights' shapes follow from: the sizes in common and these.
 
     Attributes:
         in_channels: of the noisy latent and the condition latent together.
         out_channels: of the prediction.
         hint_channels: of the sketch.
-        model_channels: width m of the first level.
-        channel_mult: width of each level, in multiples of m.
-        num_res_blocks: residual blocks a level.
-        attention_at_levels: levels whose residual blocks are followed by transformers.
-        num_head_channels: channels of one attention head.
-        context_dim: channels of the picture embedding.
         adm_in_channels: channels of the embedded micro-conditioning (three numbers).
         ids_embed_dim: channels of one embedded number of it.
         video_kernel_size: of the temporal convolutions: frames, rows, columns.

@@ -15,6 +15,7 @@ from .frame_layout import FrameLayout
 
 __all__ = ["SketchControlNet", "hint_layers", "zero_convolution"]
 
+# The layers that read a sketch, as in ControlNet (Zhang et al., 2023): down to an eighth of the size.
 _HINT_CHANNELS = (16, 16, 32, 32, 96, 96, 256)
 _HINT_STRIDES = (1, 1, 2, 1, 2, 1, 2, 1)
 

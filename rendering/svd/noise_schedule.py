@@ -34,7 +34,7 @@ class Preconditioning:
 
 
 def noise_levels(steps: int, *, sigma_min: float = 0.002, sigma_max: float = 700.0, rho: float = 7.0) -> Tensor:
-    """Falling noise levels, then 0.
+    """Falling noise levels, then 0 (Karras et al., 2022, equation 5), with the ends that SVD was trained for.
 
     Args:
         steps: number of sampling steps.

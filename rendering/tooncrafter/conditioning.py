@@ -35,7 +35,12 @@ class KeyframePair:
 
 @dataclass(frozen=True, eq=False)
 class Context:
-    """What the UNet asks in its attention, with conditions and without, each of shape [b, l + k t, c]."""
+    """Tokens that the UNet's cross-attention looks at, for both halves of classifier-free guidance.
+
+    Attributes:
+        conditional, unconditional: l tokens of the prompt, then k of the picture for each of t frames, shape
+            [b, l + k t, c] each.
+    """
 
     conditional: Tensor
     unconditional: Tensor

@@ -17,15 +17,9 @@ __all__ = [
 
 @dataclass(frozen=True)
 class UNetConfiguration(DiffusionConfiguration):
-    """What the shapes of the UNet's weights follow from.
+    """What the shapes of the UNet's weights follow from: the sizes in common and these.
 
     Attributes:
-        model_channels: width m of the first level.
-        channel_mult: width of each level, in multiples of m.
-        num_res_blocks: residual blocks a level.
-        attention_at_levels: levels whose residual blocks are followed by transformers.
-        num_head_channels: channels of one attention head.
-        context_dim: channels of a token of the context.
         in_channels: of the noisy latent and the condition latent together.
         out_channels: of the prediction.
         temporal_length: frames of a clip, both keyframes included.
@@ -46,7 +40,7 @@ class UNetConfiguration(DiffusionConfiguration):
 
 @dataclass(frozen=True)
 class SketchEncoderConfiguration(DiffusionConfiguration):
-    """What the shapes of the sketch encoder's weights follow from: the UNet's sizes and these.
+    """What the shapes of the sketch encoder's weights follow from: the sizes in common and these.
 
     Attributes:
         in_channels: of the noisy latent.

@@ -21,7 +21,7 @@ __all__ = ["sample_dpm"]
 def sample_dpm(
     velocity: Velocity, start: Tensor, steps: Sequence[SamplingStep], *, watch: Watch | None = None
 ) -> Tensor:
-    """Sample.
+    """Clean latents from noise in few steps (DPM-Solver++).
 
     Args:
         velocity: the network, with guidance.

@@ -9,10 +9,12 @@ from .options import ToonCrafterOptions
 __all__ = ["decoding_bytes", "encoding_bytes"]
 
 # All in pictures of full resolution, as wide as the autoencoder's first level.
+# Features of a keyframe for the decoder, and all that encoding both keyframes needs.
 _KEYFRAME_FEATURES = 3
 _ENCODING = 12
 # In the last level: features of a frame before its first block and after it, and what layers make of a frame.
 _KEPT, _WORK = 1.5, 3
+# For each frame, where all are decoded at once.
 _ALL_AT_ONCE = 7.3
 
 

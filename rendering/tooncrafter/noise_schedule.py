@@ -18,7 +18,9 @@ __all__ = ["TIMESTEPS", "SamplingStep", "latent_scales", "sampling_steps", "sign
 TIMESTEPS = 1000
 """Noise levels that the networks were trained with."""
 
+# Variance of the noise that the first and the last timestep add, as in Stable Diffusion.
 _FIRST_BETA, _LAST_BETA = 0.00085, 0.012
+# Latents are scaled down to the first of these over so many timesteps, as DynamiCrafter was trained.
 _SMALLEST_SCALE, _SCALED_UNTIL = 0.7, 400
 
 Numbers = NDArray[np.float64]

@@ -52,7 +52,7 @@ class _Layer(nn.ModuleList):
 
 
 class ImageResampler(nn.Module):
-    """Tells the UNet what is in a picture."""
+    """Learned queries for each frame that gather what is in a picture, for the UNet's cross-attention."""
 
     prefix = "image_proj_model."
     """Before its names in the public checkpoint."""

@@ -38,7 +38,7 @@ class SampledStep:
 def sample_ddim(
     velocity: Velocity, start: Tensor, steps: Sequence[SamplingStep], noise: Noise, *, watch: Watch | None = None
 ) -> Tensor:
-    """Sample.
+    """Clean latents from noise, step by step (DDIM).
 
     Args:
         velocity: the network, with guidance.

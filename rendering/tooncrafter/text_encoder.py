@@ -12,6 +12,7 @@ from torch import Tensor, nn
 
 __all__ = ["TextEncoder", "TextEncoderConfiguration", "empty_prompt", "text_weights"]
 
+# Numbers of the tokens that begin a prompt, end it and fill it up, as OpenCLIP counts them.
 _START, _END, _PADDING = 49406, 49407, 0
 
 _FOREIGN_PARTS = {

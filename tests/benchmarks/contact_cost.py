@@ -1,7 +1,7 @@
 """What contact costs: the same scene with it and without, in turns.
 
-Without contact, bodies are computed side by side, each on a thread; with it, one after the other in every step.
-``--one-core`` leaves out what that costs.
+Without contact, bodies are computed side by side, each on a thread; with it, threads share all of them and wait for
+each other in every step. ``--one-core`` leaves out what that costs.
 """
 
 from __future__ import annotations

@@ -22,6 +22,7 @@ import cv2
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
 import torch
+from meshes import mesh_of_about
 from physanimator.physics.material import preset
 from physanimator.physics.motion import FlowSequence
 from physanimator.physics.scene import Body, automatic_scene
@@ -32,7 +33,7 @@ from physanimator.rendering.sketch.drawings.extractor import draw_sketch
 from physanimator.rendering.sketch.drawings.informative_drawings import InformativeDrawings
 from physanimator.rendering.sketch.drawings.models import LineDrawer
 from physanimator.rendering.sketch.drawings.sketch_unet import SketchUNet
-from pipeline import TRIANGLES, illustration, mesh_of_about, timed
+from pipeline import TRIANGLES, illustration, timed
 
 NETWORKS: dict[str, Callable[[], LineDrawer]] = {
     "informative_drawings": lambda: InformativeDrawings(InformativeDrawingsConfiguration()),

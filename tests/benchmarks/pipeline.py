@@ -23,6 +23,7 @@ from typing import Any
 import cv2
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
+from meshes import SIDE2_OVER_AREA, mesh_of_about
 from physanimator.physics.assembly import plan
 from physanimator.physics.material import preset
 from physanimator.physics.mesh import mesh_from_mask
@@ -50,15 +51,6 @@ def illustration() -> tuple[np.ndarray, np.ndarray]:
     return image, mask
 
 
-def mesh_of_about(mask: np.ndarray, triangles: int) -> Any:
-    """Mesh whose spacing is chosen so that it has about so many triangles."""
-    spacing = float(np.sqrt(mask.sum() * 2.31 / triangles))
-    for _ in range(4):
-        mesh = mesh_from_mask(mask, spacing=spacing)
-        spacing *= float(np.sqrt(len(mesh.triangles) / triangles))
-    return mesh
-
-
 def timed(function: Callable[[], Any]) -> float:
     """Milliseconds that one call takes."""
     start = time.perf_counter()
@@ -80,7 +72,7 @@ def measure(rounds: int) -> dict[str, Any]:
     image, mask = illustration()
     start = time.perf_counter()
     mesh = mesh_of_about(mask, TRIANGLES)
-    meshing_ms = timed(lambda: mesh_from_mask(mask, spacing=float(np.sqrt(mesh.areas.mean() * 2.31))))
+    meshing_ms = timed(lambda: mesh_from_mask(mask, spacing=float(np.sqrt(mesh.areas.mean() * SIDE2_OVER_AREA))))
     scene = automatic_scene([Body(mesh, preset("hair"))])
     frames = int(scene.frame_rate) + 1
     simulate(scene, frames=2)

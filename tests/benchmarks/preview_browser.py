@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import statistics
 import sys
@@ -10,9 +9,10 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import source_tree
+
 __all__ = ["measured"]
 
-_HOST_TESTS = Path(__file__).resolve().parents[1] / "host"
 _SPACING = 16  # [px]: some 1,100 triangles
 
 _SPACED = """
@@ -52,7 +52,7 @@ def measured(rounds: int) -> dict[str, Any]:
     Args:
         rounds: strokes of each canvas; the first one after the node has run is told apart.
     """
-    browser, comfy_host, editor_page = map(_module, ("browser", "comfy_host", "editor_page"))
+    browser, comfy_host, editor_page = map(source_tree.helper, ("host/browser", "host/comfy_host", "host/editor_page"))
     path = os.environ.get("COMFYUI_PATH")
     if not path:
         raise SystemExit("set COMFYUI_PATH to a ComfyUI checkout (and COMFYUI_PYTHON to its Python) for --browser")
@@ -101,13 +101,3 @@ def _stroke(editor: Any, y: float) -> float:
     editor.page.page.wait_for_function(_MOVES, polling=20)
     ended, moves = (editor.page.run(_MARK, name) for name in ("pen-up", "moves"))
     return moves - ended
-
-
-def _module(name: str) -> Any:
-    spec = importlib.util.spec_from_file_location(name, _HOST_TESTS / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module

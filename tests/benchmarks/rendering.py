@@ -27,6 +27,7 @@ import cv2
 import numpy as np
 from layered_sample import load_sample, sample_folders
 from layered_truth import TrueFrames
+from meshes import mesh_of_about
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import preset
 from physanimator.physics.motion import FlowSequence
@@ -36,7 +37,7 @@ from physanimator.rendering.composite import LayeredRenderer
 from physanimator.rendering.options import AutomaticWind, Timing
 from physanimator.rendering.pipeline import animate
 from physanimator.rendering.sketch import extract_sketch, warp_sketch
-from pipeline import illustration, mesh_of_about, timed
+from pipeline import illustration, timed
 from rendering_peers import Peers
 from rendering_scores import BETTER, Scores
 

@@ -25,13 +25,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import meshes
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
 from contact_cost import contact_costs
 from peers.problem import Advance, Problem
 from physanimator.physics.assembly import assemble, plan
 from physanimator.physics.material import Material, preset
-from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
+from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.rig import Circle, Pinned, RigPoint
 from physanimator.physics.scene import Body, Scene, automatic_scene
 from physanimator.physics.simulation import simulate
@@ -91,11 +92,7 @@ def mesh_of_about(triangles: int) -> TriangleMesh:
     """A leaf-shaped body, one connected part, of about so many triangles."""
     y, x = np.mgrid[0:720, 0:1280].astype(np.float32)
     mask = ((x - 640) / (240 + 60 * np.sin(y / 90))) ** 2 + ((y - 360) / 320) ** 2 < 1
-    spacing = float(np.sqrt(mask.sum() * 2.31 / triangles))
-    for _ in range(4):
-        mesh = mesh_from_mask(mask, spacing=spacing)
-        spacing *= float(np.sqrt(len(mesh.triangles) / triangles))
-    return mesh
+    return meshes.mesh_of_about(mask, triangles)
 
 
 def solid_and_problem(mesh: TriangleMesh) -> tuple[Solid, Problem]:

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 import time
 from typing import Any
 
@@ -34,7 +33,7 @@ from physanimator.rendering.tooncrafter.sketch_encoder import SketchEncoder
 from physanimator.rendering.tooncrafter.unet import InterpolationUNet
 from torch._subclasses.fake_tensor import FakeTensorMode
 
-random_svd = sys.modules["random_svd"] = source_tree.helper("random_svd")
+random_svd = source_tree.helper("random_svd")
 random_tooncrafter = source_tree.helper("random_tooncrafter")
 LiveTensors = source_tree.helper("live_tensors").LiveTensors
 

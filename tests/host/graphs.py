@@ -276,7 +276,9 @@ def every_step() -> tuple[Group, ...]:
         rig_points="shoulder.rig_points",
     )
     segment = ours("segment", "SegmentByPoints", 720, values={"points": CAPE_POINTS}, image="example.image")
-    interpolate = ours("interpolate", "Interpolate", images="render.frames", motion="simulate.motion")
+    interpolate = ours(
+        "interpolate", "Interpolate", images="render.frames", motion="simulate.motion", image="example.image"
+    )
     return (
         _illustration(340, core("note", "MarkdownNote", 450, "Every step", {"": STEPS_NOTE}), segment),
         _cape_and_hair(),
@@ -298,7 +300,7 @@ def physanimator_paper() -> tuple[Group, ...]:
     )
     segment = ours("segment", "SegmentByPoints", 440, values={"points": CAPE_POINTS}, image="example.image")
     # The motion is for those who choose the backend that needs no model files.
-    led = {"motion": "simulate.motion", "backend.sketches": "warp.sketches"}
+    led = {"motion": "simulate.motion", "backend.sketches": "warp.sketches", "image": "example.image"}
     drawn = ours("interpolate", "Interpolate", values={"backend": "tooncrafter"}, images="render.frames", **led)
     video = _video("physanimator_paper", 420, "interpolate.frames", drawn, renderer=_SKETCH_GUIDED)
     return (

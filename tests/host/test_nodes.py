@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 from PIL import Image
 
@@ -171,3 +172,65 @@ def test_the_flow_s_colours_show_where_it_moves(host: Any) -> None:
     coloured = (moved < 250).any(axis=2)
     assert coloured[example("mask_ribbon.png") == 255].mean() > 0.1
     assert not coloured[300:].any()
+
+
+def grown_ribbon(frames: int) -> dict[str, Any]:
+    """The example's ribbon, cut out by a mask that reaches 7 px beyond it."""
+    prompt = ribbon(frames) | {"grown": core("GrowMask", mask=["example", 2], expand=7, tapered_corners=True)}
+    prompt["mesh"]["inputs"]["mask"] = ["grown", 0]
+    return prompt
+
+
+def test_a_mesh_ends_where_the_picture_shows_the_part_to_end(host: Any) -> None:
+    graph = grown_ribbon(2)
+    prompt = {name: graph[name] for name in ("example", "grown")}
+    for name, given in (("fitted", {}), ("pixels", {"pixel_art": True})):
+        inputs = graph["mesh"]["inputs"] | {"image": ["example", 0]} | given
+        prompt |= {name: ours("MaskToMesh", **inputs), f"{name}_seen": core("PreviewImage", images=[name, 1])}
+    outputs, ribbon_mask = host.run(prompt), example("mask_ribbon.png") > 127
+    away = cv2.distanceTransform((~ribbon_mask).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    beyond = {}
+    for name in ("fitted", "pixels"):
+        (seen,) = pictures(host, outputs, f"{name}_seen")
+        beyond[name] = (away[np.abs(seen - example("illustration.png")).max(axis=2) > 30] > 5).sum()
+    assert beyond["pixels"] > 1000
+    assert beyond["fitted"] < 0.3 * beyond["pixels"]
+
+
+def test_in_betweens_cut_parts_where_the_picture_shows_them_to_end(host: Any) -> None:
+    """A blurred mask must not make the part translucent between the keyframes."""
+    prompt = ribbon(9) | {
+        "frames": core("PreviewImage", images=["render", 0]),
+        "sharp": core("MaskToImage", mask=["example", 2]),
+        "blurred": core("ImageBlur", image=["sharp", 0], blur_radius=12, sigma=6.0),
+        "soft": core("ImageToMask", image=["blurred", 0], channel="red"),
+    }
+    prompt["mesh"]["inputs"] |= {"mask": ["soft", 0], "image": ["example", 0]}
+    for name, given in (("given", {}), ("fitted", {"image": ["example", 0]})):
+        usual = {"images": ["render", 0], "images_are": "all frames", "every": 8, "backend": "motion"}
+        prompt[name] = ours("Interpolate", **usual, motion=["simulate", 0], **given)
+        prompt[f"{name}_seen"] = core("PreviewImage", images=[name, 0])
+    outputs = host.run(prompt)
+    rendered = pictures(host, outputs, "frames")[4]
+    error = {name: np.abs(pictures(host, outputs, f"{name}_seen")[4] - rendered).mean() for name in ("given", "fitted")}
+    assert error["fitted"] < 0.5 * error["given"]
+
+
+def test_in_betweens_want_the_picture_of_their_motion(host: Any) -> None:
+    other = {"other": core("EmptyImage", width=300, height=180, batch_size=1, color=0)}
+    prompt = ribbon(3) | other | {"seen": core("PreviewImage", images=["between", 0])}
+    usual = {"images": ["render", 0], "images_are": "all frames", "every": 2, "backend": "motion"}
+    prompt["between"] = ours("Interpolate", **usual, motion=["simulate", 0], image=["other", 0])
+    assert "image must be of the motion's size, 1280 x 720 px. Got: 300 x 180 px" in host.error_of(prompt)
+
+
+def test_the_editor_is_shown_a_sprite_without_what_is_hidden_in_it(host: Any) -> None:
+    prompt = {name: ribbon(2)[name] for name in ("example", "mesh", "body")}
+    prompt["hidden"] = core("InvertMask", mask=["example", 2])
+    document = '{"version": 2, "width": 1280, "height": 720, "gravity": [0, 1]}'
+    given = {"bodies": ["body", 0], "image": ["example", 0], "image_alpha": ["hidden", 0]}
+    prompt["editor"] = ours("SceneEditor", scene=document, **given)
+    (info,) = host.run(prompt)["editor"]["physanimator_editor"]
+    shown = np.asarray(Image.open(io.BytesIO(host.view(info["image"]))))
+    assert shown.shape == (720, 1280, 4)
+    assert np.abs(shown[..., 3].astype(int) - example("mask_ribbon.png")).max() <= 1

@@ -29,6 +29,7 @@ PROMPT_FILE = "prompt.txt"
 """In the model's folder: the question that it was trained with, with {text_prompt} where the description goes."""
 
 _MOST_FRAMES = 16
+"""What VideoScore is used with."""
 
 
 def video_score(frames: Sequence[NDArray[Any]], description: str, folder: Path) -> dict[str, float]:
@@ -80,5 +81,8 @@ def _loaded(folder: Path) -> tuple[Any, Any]:
         processor = AutoProcessor.from_pretrained(folder, local_files_only=True)
         model = Idefics2ForSequenceClassification.from_pretrained(folder, local_files_only=True, torch_dtype="auto")
     except Exception as error:  # damaged files and wrong configurations make the library raise nearly anything
-        raise InvalidInputError(f"{folder} cannot be loaded as VideoScore: {error or type(error).__name__}") from error
+        raise InvalidInputError(
+            f"{folder} cannot be loaded as VideoScore: a file in it is missing, damaged, not downloaded to its end, or"
+            f" made for another version of transformers. Wanted: all files of {VIDEO_SCORE_FOLDER.page}"
+        ) from error
     return model.eval().requires_grad_(False), processor

@@ -80,8 +80,10 @@ def _from_folder(folder: Path, name: str) -> nn.Module:
             folder, local_files_only=True, use_safetensors=True, trust_remote_code=False, output_loading_info=True
         )
     except Exception as error:  # damaged files and wrong configurations make the library raise nearly anything
-        reason = (str(error).strip() or type(error).__name__).splitlines()[0]
-        raise CheckpointError(f"{folder} cannot be loaded as {FAMILIES[name].title}: {reason}") from error
+        raise CheckpointError(
+            f"{folder} cannot be loaded as {FAMILIES[name].title}: a file in it is missing, damaged, not downloaded to"
+            f" its end, or made for another version of transformers. Wanted: {_FOLDER_WANTED}"
+        ) from error
     faults = [*report["missing_keys"], *(fault[0] for fault in report["mismatched_keys"])]
     if faults:
         raise CheckpointError(

@@ -16,8 +16,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from physanimator.nodes.preview import FRAME, HEADER, guard, split_records
-from physanimator.nodes.preview import routes as preview_routes
+from physanimator.nodes.preview import FRAME, HEADER, guard, routes, split_records
 from physanimator.nodes.preview.limits import MAX_EDITORS, MAX_REQUEST_BYTES
 from physanimator.nodes.preview.records import END, ERROR
 from physanimator.physics.interruption import checkpoint
@@ -198,7 +197,7 @@ def test_the_latest_request_of_an_editor_wins() -> None:
 
 def test_a_client_that_goes_away_stops_its_simulation(monkeypatch: pytest.MonkeyPatch) -> None:
     ends: list[bytes] = []
-    monkeypatch.setattr(preview_routes.RecordQueue, "close", lambda _, last=b"": ends.append(last))
+    monkeypatch.setattr(routes.RecordQueue, "close", lambda _, last=b"": ends.append(last))
 
     async def test(server: Served) -> None:
         answer = await server.ask(frames=1200, scene={**SCENE, "frame_rate": 1})
@@ -229,14 +228,14 @@ def test_more_editors_than_may_simulate_are_told_to_wait() -> None:
 def test_a_client_that_does_not_read_holds_the_simulation_back() -> None:
     async def test(server: Served) -> None:
         shown = 0
-        encode = preview_routes.RecordQueue.put
+        encode = routes.RecordQueue.put
 
         def counted(queue: Any, data: bytes, check: Callable[[], None]) -> None:
             nonlocal shown
             shown += len(data)
             encode(queue, data, check)
 
-        preview_routes.RecordQueue.put = counted  # type: ignore[method-assign]
+        routes.RecordQueue.put = counted  # type: ignore[method-assign]
         try:
             answer = await server.ask(frames=1200, scene={**SCENE, "frame_rate": 240})
             before = -1
@@ -247,13 +246,13 @@ def test_a_client_that_does_not_read_holds_the_simulation_back() -> None:
             assert len(server.routes.runs) == 1
             answer.close()
         finally:
-            preview_routes.RecordQueue.put = encode  # type: ignore[method-assign]
+            routes.RecordQueue.put = encode  # type: ignore[method-assign]
 
     in_a_server(test, bodies(columns=84, rows=50))
 
 
 def test_a_client_that_never_reads_loses_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(preview_routes, "_WRITE_SECONDS", 0.2)
+    monkeypatch.setattr(routes, "_WRITE_SECONDS", 0.2)
 
     async def test(server: Served) -> None:
         answer = await server.ask(frames=1200, scene={**SCENE, "frame_rate": 240})
@@ -265,14 +264,14 @@ def test_a_client_that_never_reads_loses_its_place(monkeypatch: pytest.MonkeyPat
 
 def test_a_request_that_was_overtaken_gives_way(monkeypatch: pytest.MonkeyPatch) -> None:
     """The one that came first is checked for so long that the next one begins before it."""
-    check, held = preview_routes.preview_scene, threading.Event()
+    check, held = routes.preview_scene, threading.Event()
 
     def slow(request: Any, of: Any) -> Any:
         if request.frames == 7:
             assert held.wait(PATIENCE)
         return check(request, of)
 
-    monkeypatch.setattr(preview_routes, "preview_scene", slow)
+    monkeypatch.setattr(routes, "preview_scene", slow)
 
     async def test(server: Served) -> None:
         first = asyncio.ensure_future(server.ask(frames=7))
@@ -304,7 +303,7 @@ def test_a_failure_is_answered_without_its_secrets(monkeypatch: pytest.MonkeyPat
     def fail(_: bytes) -> None:
         raise ZeroDivisionError("/home/secret")
 
-    monkeypatch.setattr(preview_routes, "read_request", fail)
+    monkeypatch.setattr(routes, "read_request", fail)
 
     async def test(server: Served) -> None:
         answer = await server.ask()
@@ -394,7 +393,7 @@ def test_what_is_prepared_for_nobody_is_given_up(monkeypatch: pytest.MonkeyPatch
         finally:
             ended.set()
 
-    monkeypatch.setattr(preview_routes, "preview_scene", endless)
+    monkeypatch.setattr(routes, "preview_scene", endless)
 
     async def test(server: Served) -> None:
         asking = asyncio.ensure_future(server.ask())

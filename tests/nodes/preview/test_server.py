@@ -8,19 +8,19 @@ from types import SimpleNamespace
 
 import pytest
 from aiohttp import web
-from physanimator.nodes.preview import server as preview_server
+from physanimator.nodes.preview import server
 
 
 @pytest.fixture(autouse=True)
 def unregistered() -> None:
-    preview_server._registered.clear()
+    server._registered.clear()
 
 
 @pytest.mark.parametrize("module", [None, SimpleNamespace(), SimpleNamespace(PromptServer=SimpleNamespace())])
 def test_without_a_host_nothing_happens(module: object, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "server", module)
-    preview_server.register_routes()
-    assert not preview_server._registered.is_set()
+    server.register_routes()
+    assert not server._registered.is_set()
 
 
 def test_a_host_gets_the_routes_once(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -28,7 +28,7 @@ def test_a_host_gets_the_routes_once(monkeypatch: pytest.MonkeyPatch) -> None:
     host = SimpleNamespace(PromptServer=SimpleNamespace(instance=SimpleNamespace(routes=table)))
     monkeypatch.setitem(sys.modules, "server", host)
     for _ in range(2):
-        preview_server.register_routes()
+        server.register_routes()
     paths = [(route.method, route.path) for route in table if isinstance(route, web.RouteDef)]
     assert paths == [
         ("GET", "/physanimator/mesh/{key}"),
@@ -44,9 +44,9 @@ def test_the_solver_is_readied_once_and_its_contact_only_where_bodies_may_touch(
 ) -> None:
     warmed: list[bool] = []
     monkeypatch.setattr("physanimator.nodes.preview.session.warm_up", lambda *, contact: warmed.append(contact))
-    monkeypatch.setattr(preview_server, "_warmed", {kind: threading.Event() for kind in (False, True)})
+    monkeypatch.setattr(server, "_warmed", {kind: threading.Event() for kind in (False, True)})
     for contact in (False, False, True, True, False):
-        preview_server.start_warm_up(contact=contact)
+        server.start_warm_up(contact=contact)
         for thread in threading.enumerate():
             if thread.name == "physanimator-warm-up":
                 thread.join()

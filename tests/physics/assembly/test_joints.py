@@ -37,6 +37,11 @@ def test_shapes_that_bend_over_a_length_stay_as_they_are() -> None:
     assert (factors_of(drawn(*STRAND, (60, 40, 68, 220))) == 1).all()  # a thin strand is soft all along
 
 
+def test_a_part_that_hangs_on_one_joint_as_a_whole_stays_as_it_is() -> None:
+    """A plant on its stalk sways about the stalk."""
+    assert (factors_of(drawn((140, 20, 160, 50), (147, 45, 153, 80), (80, 75, 220, 300))) == 1).all()
+
+
 @pytest.mark.parametrize("neck", [3, 6])
 def test_only_the_neck_of_a_lock_is_stiffened(neck: int) -> None:
     mesh = drawn(*STRAND, LOCK, (85, 50, 85 + neck, 80))

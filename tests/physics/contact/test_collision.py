@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from physanimator.physics.assembly import assemble
-from physanimator.physics.contact import TouchingBodies, contact_surface
+from physanimator.physics.contact import TouchingBodies, contact_surface, touching_bodies
 from physanimator.physics.contact.surface import CONTACTS
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.forces import EnergyStroke
@@ -20,6 +20,7 @@ from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Poly
 from physanimator.physics.scene import Body, Collider, Contact, Scene
 from physanimator.physics.simulation import simulate
 from physanimator.physics.simulation.simulation import _solid
+from physanimator.physics.solver import pace
 
 Array = NDArray[np.float64]
 SIZE = 512
@@ -116,13 +117,19 @@ def test_the_same_scene_moves_the_same_way() -> None:
     np.testing.assert_array_equal(simulate(blobs(Contact()), frames=60).positions, pile().positions[:60])
 
 
-def test_large_and_small_parts_that_take_steps_of_their_own_stay_apart() -> None:
-    fine = mesh_from_mask(np.hypot(*(axis - 250.0 for axis in grid())) < 60, spacing=3.5)
+@pytest.mark.parametrize("threads", [2, 3])
+def test_the_motion_is_the_same_with_any_number_of_threads(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    fine = mesh_from_mask(np.hypot(*(axis - 250.0 for axis in grid())) < 60, spacing=3.5)  # several pieces
     far = Body(box(20, 20, 70, 60), SOFT)  # touches nothing at first
     bodies = (Body(fine, SOFT), Body(disc(*CENTRES[0]), SOFT), Body(disc(*CENTRES[3]), SOFT), far)
     scene = Scene(bodies, (pull(256, 256, 6.0),), contact=Contact(), gravity=(0.0, 0.1))
-    motion = simulate(scene, frames=24)
-    assert max(deepest(motion, frame) for frame in (12, 23)) == 0
+    monkeypatch.setattr(pace.Pace, "share", lambda _: True)
+    monkeypatch.setattr(touching_bodies, "most_threads", lambda *_: 1)
+    alone = simulate(scene, frames=24)
+    monkeypatch.setattr(touching_bodies, "most_threads", lambda *_: threads)
+    shared = simulate(scene, frames=24)
+    assert max(deepest(shared, frame) for frame in (12, 23)) == 0
+    np.testing.assert_array_equal(shared.positions, alone.positions)
 
 
 @pytest.mark.parametrize("speed", [0.3, 1.0])

@@ -13,6 +13,7 @@ from physanimator.physics.mesh.contours import perimeter_of
 from physanimator.physics.mesh.masks import continued, with_sound_details
 from physanimator.physics.mesh.spacing import SpacingField, spacing_field
 from physanimator.physics.mesh.triangulation import CrossingEdgesError, morton_order, triangulate
+from physanimator.physics.scene import Collider
 from scipy.spatial import cKDTree
 
 
@@ -384,6 +385,29 @@ def test_specks_are_dropped_and_pinholes_filled() -> None:
     assert len(boundary_loops(mesh)) == 1
     kept = mesh_from_mask(mask, spacing=12.0, smallest_hole=1.0, smallest_spacing=2.0)
     assert len(boundary_loops(kept)) == 2
+
+
+@pytest.mark.parametrize(
+    ("share", "said"), [(0.02, "of white"), (0.1, "of white"), (0.5, "of white"), (0.9, "of black"), (0.98, "of black")]
+)
+def test_noise_is_refused(share: float, said: str) -> None:
+    mask = np.random.default_rng(0).random((400, 500)) < share
+    for refusing in (mesh_from_mask, Collider.from_mask):
+        with pytest.raises(MeshingError, match=rf"^mask must show parts in even white. Got: \d+ specks {said}, as"):
+            refusing(mask)
+
+
+@pytest.mark.parametrize("kind", ["salted", "dithered", "hatched", "many leaves"])
+def test_parts_that_are_rough_are_no_noise(kind: str) -> None:
+    y, x = np.mgrid[:400, :500]
+    disc, dice = np.hypot(x - 250, y - 200) < 120, np.random.default_rng(0).random((400, 500))
+    masks = {
+        "salted": disc | (dice < 0.05),
+        "dithered": cv2.GaussianBlur(disc.astype(np.float64), (0, 0), 15) > dice,
+        "hatched": disc & (x % 4 < 2),
+        "many leaves": np.hypot(x % 12 - 6, y % 10 - 5) < 3.5,
+    }
+    assert len(mesh_from_mask(masks[kind]).triangles) > 100
 
 
 def test_single_small_part_is_meshed() -> None:

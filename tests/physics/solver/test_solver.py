@@ -24,11 +24,11 @@ from physanimator.physics.solver import (
     Solid,
     State,
     advance,
+    pace,
     solver,
     squared_frequencies,
     substeps,
 )
-from physanimator.physics.solver.pace import Pace
 from physanimator.physics.solver.solver import internal_forces
 
 YOUNG, POISSON, DAMPING = 500.0, 0.3, 1.5
@@ -180,10 +180,8 @@ def test_threads_that_share_a_part_find_the_same_to_the_last_bit(threads: int, m
     launched: list[int] = []
     original = solver._advance_shared
     monkeypatch.setattr(solver, "_advance_shared", lambda *given: launched.append(given[2]) or original(*given))
-    monkeypatch.setattr(solver, "LARGE", len(rest.triangles))
-    monkeypatch.setattr(solver, "TRIANGLES_PER_THREAD", len(rest.triangles) // threads)
-    monkeypatch.setattr(solver, "_processors", lambda: threads)
-    monkeypatch.setattr(Pace, "share", lambda _: True)
+    monkeypatch.setattr(solver, "most_threads", lambda _: threads)
+    monkeypatch.setattr(pace.Pace, "share", lambda _: True)
     for _ in range(3):
         advance(solid, shared, still(4, gravity=(40.0, 0.0)))
     assert launched == [threads] * 3

@@ -13,9 +13,10 @@ import av
 import numpy as np
 import physanimator
 import pytest
+from command_status import status
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import PRESETS
-from physanimator.rendering.command import EXAMPLE, main
+from physanimator.rendering.command import EXAMPLE
 from physanimator.rendering.pictures import load_image, save_image
 from PIL import Image
 
@@ -44,14 +45,6 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "broken.json").write_text('{"version": 1,')
     (tmp_path / "wrong.json").write_text(json.dumps({**scene, "strokes": [{"kind": "storm"}]}))
     return tmp_path
-
-
-def status(*arguments: str) -> int:
-    """Exit status of one command, however it ends."""
-    try:
-        return main(arguments)
-    except SystemExit as ended:
-        return int(ended.code or 0)
 
 
 def frames_of(path: str | Path) -> int:
@@ -290,7 +283,7 @@ def test_interruption_is_status_130_and_keeps_the_earlier_file(
 
         return advance
 
-    monkeypatch.setattr("physanimator.rendering.command.commands._progress_bars", interrupting)
+    monkeypatch.setattr("physanimator.rendering.command.messages.progress_bars", interrupting)
     (folder / "out.mp4").write_bytes(b"earlier")
     before = sorted(folder.iterdir())
     assert status("animate", "girl.png", "--mask", "hair.png", "--frames", "4", "--output", "out.mp4") == 130
@@ -327,7 +320,7 @@ def test_help_names_every_preset_and_loads_nothing(capsys: Output) -> None:
     script = (
         "import runpy, sys\n"
         f"runpy.run_path({str(ROOT / 'tests' / 'conftest.py')!r})\n"
-        "from physanimator.rendering.command.commands import main\n"
+        "from physanimator.rendering.command import main\n"
         "try: main(['animate', '--help'])\n"
         "except SystemExit: pass\n"
         "print(sorted({'numpy', 'cv2', 'taichi', 'torch'} & set(sys.modules)))\n"

@@ -41,7 +41,7 @@ def contents(folder: Path) -> dict[str, bytes]:
 def run(*arguments: str, **options: object) -> subprocess.Popen[bytes]:
     script = (
         f"import runpy, sys; runpy.run_path({str(ROOT / 'tests' / 'conftest.py')!r})\n"
-        "from physanimator.rendering.command.commands import main\nsys.exit(main(sys.argv[1:]))"
+        "from physanimator.rendering.command import main\nsys.exit(main(sys.argv[1:]))"
     )
     return subprocess.Popen([sys.executable, "-c", script, *arguments], **options)  # type: ignore[call-overload]
 
@@ -60,7 +60,7 @@ def test_a_signal_while_writing_leaves_everything_as_it_was(
 
         return advance
 
-    monkeypatch.setattr("physanimator.rendering.command.commands._progress_bars", signalling)
+    monkeypatch.setattr("physanimator.rendering.command.messages.progress_bars", signalling)
     write_animation([np.zeros((8, 8, 3), np.uint8)] * 5, "old/", 24)
     Path("old.webp").write_bytes(b"earlier")
     before = contents(folder)

@@ -11,8 +11,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from physanimator.rendering.command import EXAMPLE, main
-from physanimator.rendering.command.commands import _parser
+from command_status import status
+from physanimator.rendering.command import EXAMPLE
+from physanimator.rendering.command.commands import command_parser
 from physanimator.rendering.command.files import INPUTS, OUTPUTS
 from physanimator.rendering.pictures import save_image
 
@@ -37,13 +38,6 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "points.json").write_text("[[40, 30, 1]]")
     (tmp_path / "sub").mkdir()
     return tmp_path
-
-
-def status(*arguments: str) -> int:
-    try:
-        return main(arguments)
-    except SystemExit as ended:
-        return int(ended.code or 0)
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -196,7 +190,7 @@ def test_bundled_example_is_kept(capsys: Output) -> None:
 def test_every_option_that_names_a_file_is_known() -> None:
     """Whoever adds an option that reads or writes a file adds it to the lists that keep files apart."""
     commands = next(
-        action.choices for action in _parser()._actions if isinstance(action, argparse._SubParsersAction)
+        action.choices for action in command_parser()._actions if isinstance(action, argparse._SubParsersAction)
     ).values()
     actions = [action for command in commands for action in command._actions]
     written = {each.dest for each in actions if str(each.metavar).startswith("OUT")}

@@ -9,7 +9,7 @@ import av
 import numpy as np
 import physanimator.rendering.pipeline
 import pytest
-from physanimator.rendering.command import main
+from command_status import status
 from physanimator.rendering.pictures import save_image
 
 Output = pytest.CaptureFixture[str]
@@ -50,14 +50,6 @@ def unsimulated(monkeypatch: pytest.MonkeyPatch) -> None:
         raise AssertionError("simulated")
 
     monkeypatch.setattr(physanimator.rendering.pipeline, "simulate", refuse)
-
-
-def status(*arguments: str) -> int:
-    """Exit status of one command, however it ends."""
-    try:
-        return main(arguments)
-    except SystemExit as ended:
-        return int(ended.code or 0)
 
 
 def animate(*arguments: str) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from physanimator.rendering.command import main
-from physanimator.rendering.command.commands import _parser
+from physanimator.rendering.command.commands import command_parser
 from physanimator.rendering.pictures import save_image
 
 Output = pytest.CaptureFixture[str]
@@ -15,7 +15,7 @@ Output = pytest.CaptureFixture[str]
 
 def parsed(line: str) -> tuple[str, list[str], list[str] | None, list[str]]:
     """Picture, masks, presets and colliders of a command."""
-    options = _parser().parse_args(line.split())
+    options = command_parser().parse_args(line.split())
     return options.image, options.mask, options.preset, options.collider
 
 

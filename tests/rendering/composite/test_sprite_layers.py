@@ -207,3 +207,23 @@ def test_unusable_pictures_are_refused() -> None:
         LayeredRenderer(image, [lock()], motion, plate=image[:-1])
     with pytest.raises(InvalidInputError, match=r"^image must be an RGB or RGBA picture"):
         LayeredRenderer(np.dstack([image, image]), [lock()], motion)
+
+
+@pytest.mark.parametrize("grown", [0, 2, 4, 8])
+def test_where_a_sprite_is_transparent_nothing_is_behind(grown: int) -> None:
+    """A lock beside the head with a slit between, which a grown mask covers."""
+    beside = np.clip(np.minimum(6.5 - np.abs(X - 130), 45.5 - np.abs(Y - 75)), 0, 1)
+    front = np.maximum(beside, np.clip(np.minimum(3.5 - np.abs(Y - 34), 25.5 - np.abs(X - 110)), 0, 1))
+    behind = head()
+    alpha = front + (1 - front) * behind
+    colour = (front[..., None] * np.array(HAIR) + ((1 - front) * behind)[..., None] * np.array(SKIN)) / np.maximum(
+        alpha, 1e-9
+    )[..., None]
+    image = np.dstack([colour, alpha]).astype(np.float32)
+    mask = (front > 0.5).astype(np.float32)
+    if grown:
+        mask = cv2.dilate(mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * grown + 1,) * 2))
+    plate = sprite_plate(image, mask)
+    assert (plate[..., 3] <= alpha + 1e-6).all()
+    slit = (X > 121.5) & (X < 123) & (Y > 50) & (Y < 110)
+    assert plate[..., 3][slit & (alpha < 0.01)].max() < 0.01

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError, printable
 from physanimator.rendering.files import check_text_output, made_beside, remove_unfinished, replacing, write_text
-from physanimator.rendering.files.places import check_windows_name
+from physanimator.rendering.files.path_names import check_windows_name
 from physanimator.rendering.pictures import check_image_output, check_output, load_image, save_image, write_animation
 
 FRAME = np.full((8, 8, 3), 120, np.uint8)

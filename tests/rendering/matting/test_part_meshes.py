@@ -50,6 +50,12 @@ def test_masks_that_fit_give_the_mesh_that_they_gave() -> None:
         assert np.array_equal(with_picture.triangles, without.triangles)
 
 
+def test_strands_get_as_many_triangles_across_with_a_picture_as_without() -> None:
+    picture, part, _ = drawn()
+    few, many = (part_mesh(picture, shrunk(part), spacing=14, elements_across=across) for across in (1, 8))
+    assert len(many.triangles) > 2 * len(few.triangles)
+
+
 def test_transparency_bounds_the_mesh() -> None:
     """A white part of a sprite over white: the colours have no edge, the silhouette has."""
     inside = np.clip(40.5 - np.hypot(np.arange(WIDTH) - 100, np.arange(HEIGHT)[:, None] - 80), 0, 1)

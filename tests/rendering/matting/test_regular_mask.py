@@ -244,6 +244,38 @@ def test_pure_black_is_not_left_behind_by_the_last_digit_of_a_mask() -> None:
         assert (np.abs(left - background).mean(axis=2) > 0.12)[alpha > 0.99].mean() < 0.02
 
 
+@pytest.mark.parametrize("least", [0.96, 0.985, 0.995])
+def test_black_is_not_left_behind_where_a_mask_is_not_quite_white(least: float) -> None:
+    """As a brush of less than full strength or a blurred pinhole leaves it."""
+    _, background, alpha, _ = drawn("painted")
+    picture = np.rint(background * (1 - alpha[..., None]) * 255).astype(np.uint8)
+    weak = np.where(np.hypot(X - 100, Y - 92) < 20, np.float32(least), hard(alpha)).astype(np.float32)
+    renderer = moved(picture, weak)
+    clean = moved(picture, hard(alpha))
+    assert ghost(renderer, background) <= ghost(clean, background) + UNSEEN
+    assert (renderer.frame(0) == picture).all()
+
+
+@pytest.mark.parametrize(("width", "ink", "missed"), [(3, 1.5, -5), (3, 1.5, 4), (2, 1.5, 4), (2, 4, -3), (1.5, 4, 3)])
+@pytest.mark.parametrize("kind", ["thick outline", "light outline on dark"])
+def test_a_gap_is_found_where_the_hole_of_a_mask_lies_beside_it(
+    kind: str, width: float, ink: float, missed: int
+) -> None:
+    """A gap between two strands, drawn with ink around it; in the mask it is in two pieces, right and left of it."""
+    background, part, outline, _ = KINDS[kind]
+    across, along = np.abs(X - 104), np.abs(Y - 92)
+    gap = np.clip(width - across, 0, 1) * np.clip(22 - along, 0, 1)
+    inked = np.clip(width + ink - across, 0, 1) * np.clip(22 + ink - along, 0, 1)
+    colour = over(over(outline, part, shape()), outline, inked)
+    picture = over(background, colour, shape(2) * (1 - gap))
+    left, right = (np.abs(X - 104 - shift) < 2 for shift in (missed, -(missed // 2)))
+    hole = (left & (Y > 72) & (Y < 96)) | (right & (Y > 96) & (Y < 116))
+    mask = cv2.dilate(hard(shape(2)), disc(2)) * (1 - hard(hole))
+    regular = regular_mask(np.rint(picture * 255).astype(np.float32) / 255, mask)
+    assert regular[gap > 0.99].mean() < 0.25
+    assert (regular > 0.5)[hole & (gap < 0.01)].mean() > 0.9
+
+
 def test_where_a_sprite_shows_nothing_a_grown_mask_has_nothing() -> None:
     inside = shape()
     sprite = np.dstack([np.full((HEIGHT, WIDTH, 3), 0.5, np.float32), inside])

@@ -14,7 +14,8 @@ from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
 from physanimator.rendering.metrics import chamfer_distance, measure_clip
-from physanimator.rendering.metrics.metrics import ClipMetrics, DynamicDegree
+from physanimator.rendering.metrics.dynamic_degree import DynamicDegree
+from physanimator.rendering.metrics.metrics import ClipMetrics
 from physanimator.rendering.sketch import extract_sketch
 
 HEIGHT, WIDTH, FRAMES = 96, 160, 5

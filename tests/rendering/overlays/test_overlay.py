@@ -12,7 +12,8 @@ from physanimator.physics.motion import Motion
 from physanimator.physics.rig import Circle, KeyedPath, MaskRegion, Pinned, Polygon, RigPoint, Rotation, Wave
 from physanimator.physics.scene import Body, Scene
 from physanimator.rendering.overlays import draw_strokes, draw_wireframe, flow_to_color, preview
-from physanimator.rendering.overlays.overlay import RIG_COLOURS, STROKE_COLOURS, draw_rig
+from physanimator.rendering.overlays.overlay import STROKE_COLOURS
+from physanimator.rendering.overlays.rig_overlay import RIG_COLOURS, draw_rig
 
 WIDTH, HEIGHT = 200, 120
 GREY = np.full((HEIGHT, WIDTH, 3), 128, np.uint8)

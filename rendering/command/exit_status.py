@@ -1,0 +1,63 @@
+"""Runs one command, and says by its exit status how it went."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+__all__ = ["main"]
+
+FAILED = 1
+BAD_INPUT = 2
+INTERRUPTED = 130
+NOBODY_READS = 141
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command.
+
+    Args:
+        arguments: what follows the program's name; the process's own when None.
+
+    Returns:
+        The exit status: 0, 1 when the disk is full or the like, 2 for bad input, 128 and the number of the signal that
+        ended it, which is 130 for Ctrl+C and 141 where nobody reads what is printed.
+    """
+    from ..files import ending_signals, ignore_signals, remove_unfinished
+    from .messages import printable_streams, warn
+
+    with printable_streams(), ending_signals():
+        try:
+            return _status(arguments)
+        except KeyboardInterrupt as ended:
+            ignore_signals()
+            status = getattr(ended, "status", INTERRUPTED)
+            warn("physanimator: interrupted" if status == INTERRUPTED else f"physanimator: ended by {ended}")
+            return status
+        finally:
+            remove_unfinished()
+
+
+def _status(arguments: Sequence[str] | None) -> int:
+    """Run a command, and say what went wrong."""
+    from ...physics.errors import PhysAnimatorError
+    from .commands import command_parser
+    from .messages import warn
+    from .names import named_by_options
+
+    options = command_parser().parse_args(arguments)
+    try:
+        with named_by_options(options):
+            options.run(options)
+    except PhysAnimatorError as error:
+        warn(f"physanimator: {error}")
+        return BAD_INPUT
+    except BrokenPipeError:
+        return NOBODY_READS
+    except OSError as error:
+        where = "" if error.filename is None else f"{error.filename}: "
+        warn(f"physanimator: {where}{error.strerror or error}")
+        return FAILED
+    except MemoryError:
+        warn("physanimator: the memory does not suffice for a picture of this size")
+        return FAILED
+    return 0

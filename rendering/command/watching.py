@@ -1,0 +1,48 @@
+"""Who hears of the work while it is done: progress bars, warnings, and signals that end it."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from contextlib import ExitStack
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..animation import StageProgress
+    from ..options import Watch
+
+__all__ = ["progress_of", "watch_of"]
+
+
+def watch_of(options: argparse.Namespace, progress: StageProgress, points: Sequence[str]) -> Watch:
+    """Who hears of the work; before the simulation, what is suspicious about the cuts and the scene is said."""
+    from ...physics.scene import advice
+    from ..options import Watch
+    from ..segmentation import judge_points
+    from .messages import warn
+
+    def tell(sentences: Sequence[str]) -> None:
+        for sentence in sentences:
+            warn(f"physanimator: warning: {sentence}")
+
+    named = bool(getattr(options, "mask", None))
+    return Watch(
+        progress=progress,
+        on_cut=lambda cut: tell(judge_points(cut, points)),
+        on_scene=lambda scene: tell(advice(scene, masks=not named)),
+    )
+
+
+def progress_of(options: argparse.Namespace, stack: ExitStack) -> StageProgress:
+    """What is called with every step: it draws bars, unless the user wants none, and hears signals."""
+    from ..files import hear_signals
+    from .messages import progress_bars
+
+    bars = None if options.quiet else progress_bars(stack)
+
+    def advance(stage: str, done: int, total: int) -> None:
+        hear_signals()
+        if bars is not None:
+            bars(stage, done, total)
+
+    return advance

@@ -1,0 +1,100 @@
+"""What a picture's mode, transparency and colour profile mean, brought to 8 bits of sRGB with opacity."""
+
+from __future__ import annotations
+
+import io
+import os
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...physics.arrays import OVERSHOOT
+from ...physics.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+__all__ = ["GREY_MODES", "grey_numbers", "has_transparency", "in_8_bits", "in_srgb", "with_opacity"]
+
+StrPath = str | os.PathLike[str]
+
+GREY_MODES = ("I", "F", "I;16", "I;16L", "I;16B", "I;16N")
+"""Pillow's modes of one plane with more than 8 bits."""
+
+
+def has_transparency(picture: Image.Image) -> bool:
+    """Whether a picture says anywhere how opaque it is."""
+    return picture.mode in ("LA", "La", "PA", "RGBA", "RGBa") or "transparency" in picture.info
+
+
+def with_opacity(picture: Image.Image, *, name: str = "picture") -> Image.Image:
+    """RGB and opacity of a picture that has transparency, 8 bits each."""
+    from PIL import Image
+
+    reduced = in_8_bits(picture, name=name)
+    if reduced is picture:
+        return picture.convert("RGBA")
+    # One of the 65536 greys means transparent; after the reduction others would be equal to it.
+    opacity = np.where(np.array(picture) == picture.info["transparency"], 0, 255).astype(np.uint8)
+    return Image.merge("RGBA", [*[reduced.convert("L")] * 3, Image.fromarray(opacity)])
+
+
+def in_8_bits(picture: Image.Image, *, name: str = "picture") -> Image.Image:
+    """The picture with 16-bit, 32-bit or float grey values brought to 0..255 (Pillow would clip them).
+
+    Raises:
+        InvalidInputError: see :func:`grey_numbers`.
+    """
+    from PIL import Image
+
+    if picture.mode not in GREY_MODES:
+        return picture
+    return Image.fromarray(np.rint(grey_numbers(picture, name=name) * 255).astype(np.uint8))
+
+
+def grey_numbers(picture: Image.Image, *, name: str = "picture") -> NDArray[Any]:
+    """The values of a picture of one of ``GREY_MODES`` as 0 to 1, shape [h, w].
+
+    16-bit files reach to 65535. 32-bit files are written with any range: the smallest of 0 to 1 (of fractions), 255,
+    65535 and 2^31 - 1 that holds all values is taken.
+
+    Raises:
+        InvalidInputError: a value is not finite, negative, or the range cannot be told.
+    """
+    values = np.array(picture).astype(np.float64)
+    low, high = float(values.min()), float(values.max())  # NaN if any value is
+    if not (np.isfinite(low) and np.isfinite(high)):
+        raise InvalidInputError(f"{name} must hold finite numbers. Got: NaN or infinity")
+    fractions = picture.mode == "F"
+    ranges: tuple[float, ...] = (1.0, 255.0, 65535.0) if fractions else (255.0, 65535.0, 2.0**31 - 1)
+    if picture.mode.startswith("I;16") or picture.format == "PNG":
+        ranges = (65535.0,)
+    # Above 1 and below 16 it may be a picture brighter than white, or a nearly black one of 255 levels.
+    unclear = fractions and 1 + OVERSHOOT < high < 16
+    fitting = [each for each in ranges if high <= each * (1 + OVERSHOOT if fractions and each == 1 else 1)]
+    if low < (-OVERSHOOT if fractions else 0) or unclear or not fitting:
+        known = "0 to 1, 0 to 255 or 0 to 65535" if fractions else f"0 to {ranges[-1]:.0f}"
+        raise InvalidInputError(f"{name} must hold numbers from {known}. Got: {low:.6g} to {high:.6g}")
+    return np.clip(values / fitting[0], 0.0, 1.0)
+
+
+def in_srgb(picture: Image.Image) -> Image.Image:
+    """The picture's colours as sRGB values; drawing tablets embed wider profiles such as Display P3."""
+    from PIL import ImageCms
+
+    if picture.mode == "LAB":
+        lab = ImageCms.createProfile("LAB")
+        return ImageCms.profileToProfile(picture, lab, ImageCms.createProfile("sRGB"), outputMode="RGB") or picture
+    profile = picture.info.get("icc_profile")
+    if not profile or picture.mode not in ("RGB", "RGBA", "CMYK"):
+        return picture
+    try:
+        source = ImageCms.ImageCmsProfile(io.BytesIO(profile))
+        if "srgb" in ImageCms.getProfileDescription(source).lower():
+            return picture
+        mode = "RGBA" if picture.mode == "RGBA" else "RGB"
+        converted = ImageCms.profileToProfile(picture, source, ImageCms.createProfile("sRGB"), outputMode=mode)
+    except (ImageCms.PyCMSError, OSError, ValueError, TypeError):
+        return picture
+    return picture if converted is None else converted
