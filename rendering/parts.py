@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError
+from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
 from ..physics.scene import Attachment, Body, Scene
@@ -70,13 +71,28 @@ class Parts:
         bodies = zip(scene.bodies, self.covers, strict=True)
         return replace(scene, bodies=tuple(replace(body, cover=cover) for body, cover in bodies))
 
-    def bodies(self, materials: Sequence[Any]) -> list[Body]:
-        """The parts as bodies of these materials, each in front of the one before."""
-        parts = zip(self.meshes, materials, self.names, self.covers, self.rests, strict=True)
-        return [
-            Body(mesh, made, layer, name, cover=cover, rests_on=rests)
-            for layer, (mesh, made, name, cover, rests) in enumerate(parts)
-        ]
+    def bodies(self, materials: Sequence[Material], strands: Sequence[bool]) -> list[Body]:
+        """The parts as bodies of these materials, each in front of the one before, in strands or not."""
+        parts = zip(self.meshes, materials, self.names, strands, self.covers, self.rests, strict=True)
+        return [Body(*(mesh, made, layer, *rest)) for layer, (mesh, made, *rest) in enumerate(parts)]
+
+    def in_strands(self, chosen: Sequence[bool], attachments: Sequence[Attachment]) -> Parts:
+        """The parts with those chosen slit between the strands that are drawn on them.
+
+        Args:
+            chosen: whether each is.
+            attachments: where each is held.
+        """
+        if not any(chosen):
+            return self
+        from .strands import split_into_strands
+
+        meshes = list(self.meshes)
+        for number, body in enumerate(self.bodies([preset("hair")] * len(meshes), chosen)):
+            if chosen[number]:
+                shown = self.own[number] if self.own else self.image
+                meshes[number] = split_into_strands(shown, body, attach=attachments[number])
+        return replace(self, meshes=tuple(meshes))
 
 
 def parts_of_picture(

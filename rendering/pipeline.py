@@ -37,6 +37,7 @@ Mask = NDArray[Any]
 
 _USUAL_WIND, _USUAL_TIMING, _AS_THE_SCENE_SAYS, _NOBODY = AutomaticWind(), Timing(), Touching(), Watch()
 _BY_THEIR_NAMES = LayerChoice()
+_OF_STRANDS = ("hair", "ribbon")  # materials of what is drawn in strands
 
 
 @working()
@@ -57,6 +58,7 @@ def animate(
     in_front: Mask | None = None,
     layers: LayerChoice = _BY_THEIR_NAMES,
     pixel_art: bool = False,
+    strands: bool | None = None,
     max_minutes: float = DEFAULT_MINUTES,
     watch: Watch = _NOBODY,
 ) -> Animation:
@@ -86,6 +88,8 @@ def animate(
             ``masks`` may have; the parts go on behind it.
         layers: which layers of an artwork move.
         pixel_art: move whole pixels, or the blocks that an enlarged picture shows for them, and mix no colours.
+        strands: whether parts are slit along the lines that are drawn between their strands, so that these swing apart;
+            when None, hair and ribbon are where there is no scene, and otherwise what the scene says is.
         max_minutes: minutes that the simulation may take, by the estimate for one core of an ordinary machine; what
             would take longer is refused before it begins.
         watch: who hears of the work while it is done.
@@ -135,9 +139,13 @@ def animate(
         if scene is None:
             suiting = [each or "hair" for each in parts.presets]
             materials = materials_of(preset or suiting, sway, len(parts.meshes))
-            sides = parts.attachments if attach == "auto" else attach
-            whole = _automatic(parts.bodies(materials), wind, timing, attach=sides, sway_by_size=sway is None)
+            sides = parts.attachments if attach == "auto" else (attach,) * len(parts.meshes)
+            split = [strands is not False and not pixel_art and each.name in _OF_STRANDS for each in materials]
+            parts = parts.in_strands(split, sides)
+            whole = _automatic(parts.bodies(materials, split), wind, timing, attach=sides, sway_by_size=sway is None)
         else:
+            split = _split_by(scene, len(parts.meshes)) if strands is None else [strands] * len(parts.meshes)
+            parts = parts.in_strands([each and not pixel_art for each in split], parts.attachments)
             given = list(parts.meshes)
             whole = given_scene(scene, given, preset=preset, sway=sway, frame_rate=timing.frame_rate)
         whole = parts.covered(whole if timing.loop is None else replace(whole, loop=timing.loop))
@@ -151,6 +159,15 @@ def animate(
     with timed(seconds, "prepare"):
         renderer = parts.renderer(motion)
     return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds, parts.own)
+
+
+def _split_by(scene: Scene | Mapping[str, Any], count: int) -> list[bool]:
+    """Which parts a scene, or a checked document, wants slit between their strands."""
+    if isinstance(scene, Scene):
+        said = [body.strands for body in scene.bodies]
+    else:
+        said = [bool(body.get("strands")) for body in scene.get("bodies", [])]
+    return [*said, *[False] * count][:count]
 
 
 def _automatic(

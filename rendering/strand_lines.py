@@ -23,6 +23,7 @@ _WIDEST = 9  # drawn lines are narrower than this [cells]
 _DARKEST, _FAINTEST, _FULL = 0.97, 0.06, 0.25
 _EVEN = 0.04  # cost of a cell on a line, of one off a line 1 more
 _NEEDED = 0.5  # darkness that speaks for a line rather than against it
+_GAP = 5.0  # by how much a path may be off a line before it is none, twice as many cells
 _BESIDE = 6.0  # cells of an outline that a path keeps away from, which is dark along its whole length
 _SHORTEST = 0.12  # length of a line as a share of the longest way from the root
 
@@ -65,20 +66,20 @@ def lines_from(field: Field, notches: FloatArray, *, until: FloatArray) -> list[
         until: how near the root each may come [cells], shape [k].
     """
     from scipy.sparse.csgraph import dijkstra
+    from scipy.spatial import cKDTree
 
     allowed = field.inside & _off_the_outline(field.inside, notches)
     cells = np.flatnonzero(allowed)
     number = np.full(allowed.size, -1)
     number[cells] = np.arange(len(cells))
-    column, row = np.rint(notches).astype(int).T
-    seeds = number[np.ravel_multi_index((row, column), allowed.shape, mode="clip")]
-    known = seeds >= 0
-    if not known.any():
+    if not len(cells):
         return [np.zeros((0, 2))] * len(notches)
+    rows, columns = np.unravel_index(cells, allowed.shape)
+    _, seeds = cKDTree(np.stack([columns, rows], axis=1)).query(notches)
     graph = _upward(field, number)
-    costs, before, source = dijkstra(graph, indices=seeds[known], min_only=True, return_predecessors=True)
+    costs, before, source = dijkstra(graph, indices=seeds, min_only=True, return_predecessors=True)
     limit = np.zeros(len(cells))
-    limit[seeds[known]] = until[known]
+    limit[seeds] = until
     ends = _ends(field, cells, (costs, before, source), limit)
     lines = []
     for seed in seeds:
@@ -87,8 +88,8 @@ def lines_from(field: Field, notches: FloatArray, *, until: FloatArray) -> list[
         while cell >= 0:
             trail.append(cell)
             cell = int(before[cell])
-        rows, columns = np.unravel_index(cells[np.array(trail[::-1], dtype=int)], allowed.shape)
-        lines.append(np.stack([columns, rows], axis=1).astype(np.float64))
+        along = np.array(trail[::-1], dtype=int)
+        lines.append(np.stack([columns[along], rows[along]], axis=1).astype(np.float64))
     return lines
 
 
@@ -130,7 +131,7 @@ def _ends(
     """For each notch the cell up to which most speaks for a line, if that is far enough."""
     costs, before, source = found
     ways, lines = field.ways.ravel()[cells], field.lines.ravel()[cells]
-    score = np.zeros(len(cells))
+    score, highest = np.zeros(len(cells)), np.zeros(len(cells))
     shortest = _SHORTEST * float(field.ways[field.inside].max())
     best: dict[int, tuple[float, int]] = {}
     for cell in np.argsort(costs, kind="stable"):
@@ -142,6 +143,10 @@ def _ends(
             score[cell] = -np.inf
             continue
         score[cell] = score[previous] + lines[cell] - _NEEDED
+        highest[cell] = max(highest[previous], score[cell])
+        if score[cell] < highest[cell] - _GAP:
+            score[cell] = -np.inf
+            continue
         far = ways[origin] - ways[cell] >= shortest
         if far and score[cell] > best.get(int(origin), (0.0, -1))[0]:
             best[int(origin)] = float(score[cell]), int(cell)

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.mesh import PixelBox, TriangleMesh, bounding_box, cut_along, interpolate, ways_from
+from ..physics.mesh import PixelBox, TriangleMesh, bounding_box, cut_along, interpolate, ways_along, ways_from
 from ..physics.rig import vertices_of
 from ..physics.scene import Attachment, Body, pins
 from .pictures import as_float, is_transparent
@@ -41,22 +41,36 @@ def split_into_strands(image: NDArray[Any], body: Body, *, attach: Attachment = 
     mesh = body.mesh
     held = np.logical_or.reduce([vertices_of(pin, mesh) for pin in pins(body, 0, attach=attach)])
     ways = ways_from(mesh, held)
-    notches, until = _notches(mesh, ways)
+    notches, until, tips = _notches(mesh, ways)
     if not len(notches):
         return mesh
+    whole = mesh
     field, corner, scale = _field(image, mesh, ways)
     lines = lines_from(field, (mesh.vertices[notches] - corner) * scale - 0.5, until=until * scale)
     for notch, line in sorted(zip(notches, lines, strict=True), key=lambda each: -len(each[1])):
         if len(line):
             mesh = _slit(mesh, int(notch), (line + 0.5) / scale + corner)
-    return mesh
+    return mesh if mesh is whole else _strand_by_strand(mesh, tips)
 
 
-def _notches(mesh: TriangleMesh, ways: FloatArray) -> tuple[IndexArray, FloatArray]:
-    """Vertices of the boundary at which two tips part, and how near the root a slit from each may come [px]."""
+def _strand_by_strand(mesh: TriangleMesh, tips: IndexArray) -> TriangleMesh:
+    """The mesh with the triangles of each strand together, since later ones are drawn over earlier ones."""
+    from scipy.sparse.csgraph import dijkstra
+
+    graph = ways_along(mesh.vertices, mesh.triangles)
+    _, _, nearest = dijkstra(graph, directed=False, indices=tips, min_only=True, return_predecessors=True)
+    rank = np.full(len(mesh.vertices), -1)
+    rank[tips] = np.arange(len(tips))
+    strand = np.where(nearest >= 0, rank[nearest], -1)
+    order = np.argsort(strand[mesh.triangles].max(axis=1), kind="stable")
+    return TriangleMesh(mesh.vertices, mesh.triangles[order], mesh.width, mesh.height)
+
+
+def _notches(mesh: TriangleMesh, ways: FloatArray) -> tuple[IndexArray, FloatArray, IndexArray]:
+    """Vertices at which two tips part, how near the root a slit from each may come [px], and the tips, in order."""
     from scipy.signal import find_peaks
 
-    found, until = [], []
+    found, until, ends = [], [], []
     for loop in _loops(mesh):
         along = ways[loop]
         if not np.isfinite(along).all() or len(loop) < 8:
@@ -64,13 +78,14 @@ def _notches(mesh: TriangleMesh, ways: FloatArray) -> tuple[IndexArray, FloatArr
         start = int(np.argmin(along))
         loop, along = np.roll(loop, -start), np.roll(along, -start)
         tips, _ = find_peaks(np.append(along, along[0]), prominence=_TIP * float(ways[np.isfinite(ways)].max()))
+        ends.extend(loop[tips % len(loop)])
         for one, other in pairwise(tips):
             notch = one + int(np.argmin(along[one:other]))
             limit = _ROOT * min(along[one], along[other])
             if along[notch] > limit:
                 found.append(loop[notch])
                 until.append(limit)
-    return np.array(found, dtype=np.int64), np.array(until)
+    return np.array(found, dtype=np.int64), np.array(until), np.array(ends, dtype=np.int64)
 
 
 def _loops(mesh: TriangleMesh) -> list[IndexArray]:

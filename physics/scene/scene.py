@@ -97,6 +97,14 @@ class Body:
         Input("A higher layer covers a lower one; of equal layers, the later one in the chain does.", -99, 99),
     ] = 0
     name: Annotated[str, Field("Name", 'For people, such as "left sleeve".')] = ""
+    strands: Annotated[
+        bool,
+        Field(
+            "Strands",
+            "Whether a mesh that is made of the illustration is slit along the lines that are drawn between its"
+            " strands, so that they swing apart. Meshes that are given stay as they are.",
+        ),
+    ] = False
     cover: NDArray[np.bool_] | None = None
     """Where something that stands still is in front of it, shape [h, w] of the picture; None for nowhere."""
     rests_on: NDArray[np.bool_] | None = None
