@@ -61,7 +61,7 @@ def _strand_by_strand(mesh: TriangleMesh, tips: IndexArray) -> TriangleMesh:
     _, _, nearest = dijkstra(graph, directed=False, indices=tips, min_only=True, return_predecessors=True)
     rank = np.full(len(mesh.vertices), -1)
     rank[tips] = np.arange(len(tips))
-    strand = np.where(nearest >= 0, rank[nearest], -1)
+    strand = np.where(nearest >= 0, rank[np.maximum(nearest, 0)], -1)
     order = np.argsort(strand[mesh.triangles].max(axis=1), kind="stable")
     return TriangleMesh(mesh.vertices, mesh.triangles[order], mesh.width, mesh.height)
 
