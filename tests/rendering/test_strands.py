@@ -5,10 +5,11 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
+from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import preset
 from physanimator.physics.mesh import mesh_from_mask
-from physanimator.physics.scene import Body
-from physanimator.rendering.options import AutomaticWind, Timing
+from physanimator.physics.scene import Body, Contact
+from physanimator.rendering.options import AutomaticWind, Timing, Touching
 from physanimator.rendering.pipeline import animate
 from physanimator.rendering.strands import split_into_strands
 
@@ -98,6 +99,20 @@ def test_cloth_is_not_split_unless_asked_and_a_scene_is_as_it_says() -> None:
     assert count(scene=document) > whole
     assert count(scene=document, strands=False) == whole
     assert count(scene={**document, "bodies": [{}]}, strands=True) > whole
+
+
+def test_parts_that_touch_and_pixel_art_stay_whole() -> None:
+    picture, mask = hair()
+    options = {"timing": Timing(frames=2), "spacing": 14}
+    whole = len(animate(picture, [mask], strands=False, **options).scene.bodies[0].mesh.vertices)
+    touching = Touching(contact=Contact())
+    document = {"version": 2, "width": 400, "height": 420, "bodies": [{"strands": True}], "contact": {}}
+    for more in ({"touching": touching}, {"scene": document}):
+        assert len(animate(picture, [mask], **options, **more).scene.bodies[0].mesh.vertices) == whole
+    with pytest.raises(InvalidInputError, match=r"strands must be left out, or off, with contact\. Got: both"):
+        animate(picture, [mask], strands=True, touching=touching, **options)
+    with pytest.raises(InvalidInputError, match=r"strands must be left out, or off, with pixel_art\. Got: both"):
+        animate(picture, [mask], strands=True, pixel_art=True, **options)
 
 
 @pytest.mark.parametrize("seed", range(6))
