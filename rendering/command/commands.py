@@ -75,7 +75,7 @@ def _status(arguments: Sequence[str] | None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    from .options import add_animate, add_demo, add_figure, add_measure
+    from .options import add_animate, add_demo, add_figure, add_layers, add_measure
     from .parsing import CommandParser, PictureParser
 
     parser = CommandParser(
@@ -87,6 +87,7 @@ def _parser() -> argparse.ArgumentParser:
         ("animate", _animate, add_animate, "animate an illustration"),
         ("demo", _demo, add_demo, "animate the bundled example"),
         ("figure", _figure, add_figure, "draw a figure that explains the controls"),
+        ("layers", _layers, add_layers, "list the layers of a PSD or OpenRaster file, and what would move"),
         ("measure", _measure, add_measure, "measure a clip against the motion that it should show"),
         ("schema", _schema, None, "print the JSON Schema of scene files"),
     ):
@@ -176,6 +177,12 @@ def _animate(options: argparse.Namespace) -> None:
     check_taken(options, image)
     check_sizes(options, image)
     _run(options, image, **inputs)
+
+
+def _layers(options: argparse.Namespace) -> None:
+    from .layers import list_layers
+
+    list_layers(options)
 
 
 def _measure(options: argparse.Namespace) -> None:
