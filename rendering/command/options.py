@@ -77,7 +77,9 @@ def add_layers(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--save-psd", metavar="OUT", help="write the layers as a .psd or .psb file")
     parser.add_argument(
-        "--save-png", metavar="OUT_FOLDER", help="write each layer as a PNG of the canvas' size; the folder has none yet"
+        "--save-png",
+        metavar="OUT_FOLDER",
+        help="write each layer as a PNG of the canvas' size; the folder has none yet",
     )
     parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
 

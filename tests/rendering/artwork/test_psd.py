@@ -275,6 +275,27 @@ def test_layers_that_need_too_much_memory_together_are_refused(tmp_path: Path) -
         read_psd(path)
 
 
+def test_layers_far_away_are_refused_before_anything_is_as_large(tmp_path: Path) -> None:
+    psd = document()
+    layers = [psd.create_pixel_layer(noise(n), name=f"layer {n}") for n in range(2)]
+    group = psd.create_group(layers, name="group")
+    group.opacity = 90
+    for place, said in (
+        (200_000, "layers of a group must lie within"),
+        (2_000_000_000, "layer 1 must lie within 300000 px"),
+    ):
+        psd = PSDImage.open(saved(psd, tmp_path))
+        record = psd[1][1]._record
+        height, width = record.bottom - record.top, record.right - record.left
+        record.left = record.top = place
+        record.bottom, record.right = place + height, place + width
+        as_it_is(psd, tmp_path / "art.psd")
+        with pytest.raises(InvalidInputError, match=said):
+            read_psd(tmp_path / "art.psd")
+        record.left = record.top = 0
+        record.bottom, record.right = height, width
+
+
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     psd = document()
@@ -306,7 +327,7 @@ def test_a_damaged_file_gets_one_sentence(whole: bytes, tmp_path: Path, kind: st
 
 def test_what_is_no_psd(tmp_path: Path) -> None:
     (tmp_path / "art.psd").write_bytes(b"not one")
-    with pytest.raises(InvalidInputError, match="damaged"):
+    with pytest.raises(InvalidInputError, match="begins with 8BPS"):
         read_psd(tmp_path / "art.psd")
     with pytest.raises(InvalidInputError, match="existing file"):
         read_psd(tmp_path / "none.psd")
