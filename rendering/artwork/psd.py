@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from ...physics.errors import InvalidInputError
 from .artwork import ArtLayer, Artwork
 from .limits import MAX_OFFSET, check_canvas, check_layer_sizes
+from .psd_colours import in_srgb_colours
 from .reading import reading
 
 if TYPE_CHECKING:
@@ -46,6 +47,7 @@ def read_psd(path: StrPath) -> Artwork:
         layers, remarks = layers_of(document)
         if not layers:
             return _flat(document, remarks)
+        layers = in_srgb_colours(layers, document, remarks)
         return Artwork(document.width, document.height, tuple(layers), tuple(remarks))
 
 
