@@ -15,7 +15,7 @@ from .artwork import ArtLayer, Blend
 from .blending import lay_over, planes_of
 from .flattening import as_whole_numbers, laid_together
 
-__all__ = ["carried_down", "clipped", "extent_of", "masked"]
+__all__ = ["carried_down", "clipped", "extent_of", "masked", "merged", "shut_in"]
 
 Box = tuple[int, int, int, int]
 
@@ -62,6 +62,31 @@ def merged(layers: Sequence[ArtLayer], *, name: str, opacity: float = 1.0, blend
     box = extent_of(layers)
     pixels = laid_together(layers, box, layers[0].pixels.dtype)
     return ArtLayer(name, pixels, left=box[0], top=box[1], opacity=opacity, blend=blend)
+
+
+def shut_in(layers: Sequence[ArtLayer], name: str) -> list[str]:
+    """A sentence for each layer that in its group mixes with what is in the group alone, and here with all below.
+
+    Args:
+        layers: that are drawn, of a group that is laid over as one picture, from back to front.
+        name: of the group.
+    """
+    if all(layer.blend == "normal" for layer in layers):
+        return []
+    left, top, right, bottom = extent_of(layers)
+    through = np.ones((bottom - top, right - left), np.float32)
+    remarks = []
+    for layer in layers:
+        x0, y0, x1, y1 = layer.box
+        place = through[y0 - top : y1 - top, x0 - left : x1 - left]
+        alpha = layer.pixels[..., 3] * np.float32(layer.opacity / np.iinfo(layer.pixels.dtype).max)
+        if layer.blend != "normal" and (alpha * place > 0.01).any():
+            remarks.append(
+                f"layer {layer.name} is laid over as {layer.blend} and reaches beyond what is drawn in group {name}: there"
+                " it changes what is behind the group, too"
+            )
+        place *= 1 - alpha
+    return remarks
 
 
 def clipped(base: ArtLayer, above: Sequence[ArtLayer]) -> ArtLayer:

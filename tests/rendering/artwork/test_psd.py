@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.artwork import Artwork, flattened, read_psd
+from physanimator.rendering.artwork import ArtLayer, Artwork, flattened, read_psd
 from PIL import Image, ImageDraw
 from psd_tools import PSDImage
 from psd_tools.constants import BlendMode
@@ -390,3 +390,46 @@ def test_a_drawn_mask(tmp_path: Path) -> None:
     wanted = Image.new("L", (WIDTH, HEIGHT))
     ImageDraw.Draw(wanted).rectangle((WIDTH // 4, HEIGHT // 4, WIDTH * 3 // 4 - 1, HEIGHT * 3 // 4 - 1), 255)
     assert np.array_equal(artwork.layers[1].pixels[..., 3], np.asarray(wanted))
+
+
+def test_groups_as_layers_on_request(tmp_path: Path) -> None:
+    psd = document()
+    first, second, third = (psd.create_pixel_layer(noise(n), name=str(n), top=3 * n, left=4 * n) for n in range(3))
+    inner = psd.create_group([first], name="inner")
+    group = psd.create_group([inner, second], name="hair")
+    group.opacity = 120
+    third.move_to(psd)
+    path = saved(psd, tmp_path)
+    artwork = read_psd(path, groups=True)
+    assert sorted(artwork.names) == ["2", "hair", "paper"]
+    assert artwork.layers[artwork.names.index("hair")].opacity == 120 / 255
+    assert artwork.warnings == ()
+    assert np.abs(times_alpha(flattened(artwork)) - own_composite(path)).max() <= 2
+
+
+def test_layers_clipped_to_a_group(tmp_path: Path) -> None:
+    psd = document()
+    layers = [psd.create_pixel_layer(hard_edged(n), name=str(n), top=3 * n, left=9 * n) for n in range(2)]
+    psd.create_group(layers, name="head")
+    psd.create_pixel_layer(noise(8, 25, 25), name="shade", top=2, left=2).clipping = True
+    artwork = assert_same_picture(saved(psd, tmp_path))
+    assert artwork.names == ("paper", "head")
+    assert artwork.warnings == ("layers are clipped to group head: it is read as one layer",)
+
+
+@pytest.mark.parametrize(("mode", "count"), [("NORMAL", 1), ("PASS_THROUGH", 0)])
+def test_a_mode_that_its_group_shuts_in_is_told(tmp_path: Path, mode: str, count: int) -> None:
+    psd = document()
+    layers = [psd.create_pixel_layer(hard_edged(n), name=str(n), top=3 * n, left=9 * n) for n in range(2)]
+    layers[1].blend_mode = BlendMode.MULTIPLY
+    psd.create_group(layers, name="head").blend_mode = BlendMode[mode]
+    warnings = read_psd(saved(psd, tmp_path)).warnings
+    assert len(warnings) == count
+    assert all("reaches beyond what is drawn in group head" in each for each in warnings)
+
+
+def test_names_are_never_alike() -> None:
+    pixels = np.zeros((0, 0, 4), np.uint8)
+    given = ("a", "a (2)", "a", "a", " ", "layer 5", "a (3)", "a")
+    names = Artwork(1, 1, tuple(ArtLayer(name, pixels) for name in given)).names
+    assert names == ("a", "a (2)", "a (4)", "a (5)", "layer 5", "layer 5 (2)", "a (3)", "a (6)")
