@@ -82,8 +82,8 @@ def shut_in(layers: Sequence[ArtLayer], name: str) -> list[str]:
         alpha = layer.pixels[..., 3] * np.float32(layer.opacity / np.iinfo(layer.pixels.dtype).max)
         if layer.blend != "normal" and (alpha * place > 0.01).any():
             remarks.append(
-                f"layer {layer.name} is laid over as {layer.blend} and reaches beyond what is drawn in group {name}: there"
-                " it changes what is behind the group, too"
+                f"layer {layer.name} is laid over as {layer.blend} and reaches beyond what is drawn in group {name}:"
+                " there it changes what is behind the group, too"
             )
         place *= 1 - alpha
     return remarks

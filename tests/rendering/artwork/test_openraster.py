@@ -151,7 +151,8 @@ def test_a_damaged_file_gets_one_sentence(tmp_path: Path, kind: str) -> None:
 
 def test_stacks_as_layers_on_request(tmp_path: Path) -> None:
     inner = (
-        '<stack opacity="0.5" name="hair"><stack><layer src="data/a.png" x="1"/></stack><layer src="data/b.png"/></stack>'
+        '<stack opacity="0.5" name="hair"><stack><layer src="data/a.png" x="1"/></stack>'
+        '<layer src="data/b.png"/></stack>'
         '<layer src="data/a.png" name="face" y="3"/>'
     )
     path = write(tmp_path / "art.ora", image(inner), a=png(RED), b=png(BLUE))
