@@ -109,7 +109,9 @@ def clipped(base: ArtLayer, above: Sequence[ArtLayer]) -> ArtLayer:
     return replace(base, pixels=pixels)
 
 
-def masked(layer: ArtLayer, mask: NDArray[Any], left: int, top: int, outside: float) -> ArtLayer:
+def masked(
+    layer: ArtLayer, mask: NDArray[Any], left: int, top: int, outside: float, *, at_most: bool = False
+) -> ArtLayer:
     """A layer with its alpha times a mask.
 
     Args:
@@ -118,6 +120,7 @@ def masked(layer: ArtLayer, mask: NDArray[Any], left: int, top: int, outside: fl
         left: column of the canvas where the mask begins [px].
         top: row of the canvas where the mask begins [px].
         outside: what the mask is where it has no pixels, 0 to 1.
+        at_most: cut the alpha down to the mask instead.
     """
     own_left, own_top, own_right, own_bottom = layer.box
     factor = np.full(layer.pixels.shape[:2], outside, np.float32)
@@ -126,6 +129,9 @@ def masked(layer: ArtLayer, mask: NDArray[Any], left: int, top: int, outside: fl
     if x0 < x1 and y0 < y1:
         inside = mask[y0 - top : y1 - top, x0 - left : x1 - left]
         factor[y0 - own_top : y1 - own_top, x0 - own_left : x1 - own_left] = inside
+    if at_most:
+        alpha = layer.pixels[..., 3] / np.float32(np.iinfo(layer.pixels.dtype).max)
+        factor = np.minimum(alpha, factor) / np.maximum(alpha, np.float32(1e-6))
     return _times(layer, factor)
 
 

@@ -115,6 +115,8 @@ def _read(layer: Layer, remarks: list[str], *, whole: bool = False) -> list[ArtL
 
 
 def _read_group(group: Any, remarks: list[str], *, whole: bool) -> list[ArtLayer]:
+    if group.kind == "artboard":
+        remarks.append(f"artboard {name_of(group)}: its own background and border are not drawn")
     inner = [with_masks(layer, group, remarks) for layer in _flattened_tree(group, remarks)]
     blend, opacity = _blend(group, remarks), group.opacity / 255 * _fill(group)
     drawn = [layer for layer in inner if layer.visible]

@@ -12,8 +12,11 @@ from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.artwork import ArtLayer, Artwork, flattened, read_psd
 from PIL import Image, ImageDraw
 from psd_tools import PSDImage
-from psd_tools.constants import BlendMode
+from psd_tools.constants import BlendMode, Tag
 from psd_tools.psd.layer_and_mask import MaskFlags
+from psd_tools.psd.tagged_blocks import TaggedBlock
+from psd_tools.psd.vector import ClosedKnotLinked, ClosedPath, PathFillRule, VectorMaskSetting
+from psd_tools.psd.vector import Path as Outline
 
 WIDTH, HEIGHT = 48, 32
 
@@ -372,24 +375,34 @@ def test_what_is_no_psd(tmp_path: Path) -> None:
         read_psd(tmp_path)
 
 
-def test_a_drawn_mask(tmp_path: Path) -> None:
-    """A path of Photoshop: a rectangle in shares of the canvas."""
-    from psd_tools.constants import Tag
-    from psd_tools.psd.tagged_blocks import TaggedBlock
-    from psd_tools.psd.vector import ClosedKnotLinked, ClosedPath, PathFillRule, VectorMaskSetting
-
+def with_path(layer: Any) -> None:
+    """Give a layer a path of Photoshop's: a rectangle in shares of the canvas."""
     corners = [(0.25, 0.25), (0.25, 0.75), (0.75, 0.75), (0.75, 0.25)]
-    knots = [ClosedKnotLinked(corner, corner, corner) for corner in corners]
-    psd = document()
-    layer = psd.create_pixel_layer(opaque(4), name="hair")
-    from psd_tools.psd.vector import Path as Outline
-
-    setting = VectorMaskSetting(path=Outline([PathFillRule(), ClosedPath(knots, operation=1)]))
+    outline = ClosedPath([ClosedKnotLinked(corner, corner, corner) for corner in corners], operation=1)
+    setting = VectorMaskSetting(path=Outline([PathFillRule(), outline]))
     layer._record.tagged_blocks[Tag.VECTOR_MASK_SETTING1] = TaggedBlock(key=Tag.VECTOR_MASK_SETTING1, data=setting)
+
+
+def test_a_drawn_mask(tmp_path: Path) -> None:
+    psd = document()
+    with_path(psd.create_pixel_layer(opaque(4), name="hair"))
     artwork = read_psd(saved(psd, tmp_path))
     wanted = Image.new("L", (WIDTH, HEIGHT))
     ImageDraw.Draw(wanted).rectangle((WIDTH // 4, HEIGHT // 4, WIDTH * 3 // 4 - 1, HEIGHT * 3 // 4 - 1), 255)
     assert np.array_equal(artwork.layers[1].pixels[..., 3], np.asarray(wanted))
+
+
+def test_the_soft_edge_of_a_shape_counts_once(tmp_path: Path) -> None:
+    """Photoshop writes a shape's coverage as its alpha, as its path, and sometimes as a mask as well."""
+    psd = document()
+    drawn = noise(4, HEIGHT, WIDTH)
+    layer = psd.create_pixel_layer(drawn, name="ribbon")
+    layer.create_mask(drawn.getchannel("A"))
+    layer.mask.data.flags = MaskFlags(user_mask_from_render=True)
+    layer._record.flags.pixel_data_irrelevant = True
+    with_path(layer)
+    read = read_psd(saved(psd, tmp_path)).layers[1].pixels
+    assert np.array_equal(read[..., 3], np.asarray(drawn)[..., 3])
 
 
 def test_groups_as_layers_on_request(tmp_path: Path) -> None:
