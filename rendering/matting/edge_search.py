@@ -88,9 +88,7 @@ def _seeds(image: FloatImage, far: tuple[Mask, Mask], middles: tuple[Mask, Mask]
     return core, outside
 
 
-def _telling(
-    image: FloatImage, core: Mask, outside: Mask, beyond: tuple[FloatImage, FloatImage]
-) -> tuple[Mask, Mask]:
+def _telling(image: FloatImage, core: Mask, outside: Mask, beyond: tuple[FloatImage, FloatImage]) -> tuple[Mask, Mask]:
     """What of either side its colours may be taken from.
 
     A mask that misses by more than the reach has some of the part outside, and something of what is around inside. Its
