@@ -6,11 +6,16 @@ gaps; as far as there is a line on it, it is one.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 __all__ = ["Field", "darkness", "lines_from"]
 
@@ -68,7 +73,7 @@ def lines_from(field: Field, notches: FloatArray, *, until: FloatArray) -> list[
     from scipy.sparse.csgraph import dijkstra
     from scipy.spatial import cKDTree
 
-    allowed = field.inside & _off_the_outline(field.inside, notches)
+    allowed = field.inside & (field.ways >= until.min()) & _off_the_outline(field.inside, notches)
     cells = np.flatnonzero(allowed)
     number = np.full(allowed.size, -1)
     number[cells] = np.arange(len(cells))
@@ -102,7 +107,7 @@ def _off_the_outline(inside: NDArray[np.bool_], notches: FloatArray) -> NDArray[
     return np.asarray((room > _BESIDE) | (near > 0))
 
 
-def _upward(field: Field, number: NDArray[np.integer]):  # type: ignore[no-untyped-def]
+def _upward(field: Field, number: NDArray[np.integer]) -> csr_array:
     """Cost of the way from each cell to those of its neighbours that are nearer the root, [n, n]."""
     from scipy.sparse import coo_array
 
@@ -130,24 +135,23 @@ def _ends(
 ) -> dict[int, int]:
     """For each notch the cell up to which most speaks for a line, if that is far enough."""
     costs, before, source = found
-    ways, lines = field.ways.ravel()[cells], field.lines.ravel()[cells]
-    score, highest = np.zeros(len(cells)), np.zeros(len(cells))
-    shortest = _SHORTEST * float(field.ways[field.inside].max())
+    ways, shortest = field.ways.ravel()[cells], _SHORTEST * float(field.ways[field.inside].max())
+    reached = np.flatnonzero(np.isfinite(costs) & (before >= 0))
+    reached = reached[ways[reached] >= limit[source[reached]]]
+    order = reached[np.argsort(costs[reached], kind="stable")]
+    gains = field.lines.ravel()[cells[order]] - _NEEDED
+    far = ways[source[order]] - ways[order] >= shortest
+    score, highest = [-math.inf] * len(cells), [-math.inf] * len(cells)
+    for seed in np.unique(source[source >= 0]).tolist():
+        score[seed] = highest[seed] = 0.0
     best: dict[int, tuple[float, int]] = {}
-    for cell in np.argsort(costs, kind="stable"):
-        previous = before[cell]
-        if previous < 0 or not np.isfinite(costs[cell]):
-            continue
-        origin = source[cell]
-        if ways[cell] < limit[origin]:
-            score[cell] = -np.inf
-            continue
-        score[cell] = score[previous] + lines[cell] - _NEEDED
-        highest[cell] = max(highest[previous], score[cell])
-        if score[cell] < highest[cell] - _GAP:
-            score[cell] = -np.inf
-            continue
-        far = ways[origin] - ways[cell] >= shortest
-        if far and score[cell] > best.get(int(origin), (0.0, -1))[0]:
-            best[int(origin)] = float(score[cell]), int(cell)
+    rows = (each.tolist() for each in (order, before[order], source[order], gains, far))
+    for cell, previous, origin, gain, enough in zip(*rows, strict=True):
+        so_far = score[previous] + gain
+        highest[cell] = max(highest[previous], so_far)
+        if so_far < highest[cell] - _GAP:
+            continue  # nothing beyond is reached either
+        score[cell] = so_far
+        if enough and so_far > best.get(origin, (0.0, -1))[0]:
+            best[origin] = so_far, cell
     return {origin: cell for origin, (_, cell) in best.items()}

@@ -45,7 +45,7 @@ def split_into_strands(image: NDArray[Any], body: Body, *, attach: Attachment = 
     if not len(notches):
         return mesh
     whole = mesh
-    field, corner, scale = _field(image, mesh, ways)
+    field, corner, scale = _field(image, body, ways)
     lines = lines_from(field, (mesh.vertices[notches] - corner) * scale - 0.5, until=until * scale)
     for notch, line in sorted(zip(notches, lines, strict=True), key=lambda each: -len(each[1])):
         if len(line):
@@ -103,8 +103,9 @@ def _loops(mesh: TriangleMesh) -> list[IndexArray]:
     return loops
 
 
-def _field(image: NDArray[Any], mesh: TriangleMesh, ways: FloatArray) -> tuple[Field, FloatArray, float]:
+def _field(image: NDArray[Any], body: Body, ways: FloatArray) -> tuple[Field, FloatArray, float]:
     """The part in cells, and where they begin [px], and how many there are to a pixel."""
+    mesh = body.mesh
     box = bounding_box(mesh.vertices).clipped(mesh.width, mesh.height)
     scale = min(1.0, _ACROSS / max(box.width, box.height))
     size = max(1, round(box.width * scale)), max(1, round(box.height * scale))
@@ -115,7 +116,11 @@ def _field(image: NDArray[Any], mesh: TriangleMesh, ways: FloatArray) -> tuple[F
     (spread,) = interpolate(points, mesh.triangles, known[:, None], cells, fill=-1)
     inside = spread >= 0
     grey = cv2.resize(_grey(image[box.slices]), size, interpolation=cv2.INTER_AREA)
-    return Field(inside, spread, darkness(grey, inside)), corner, scale
+    lines = darkness(grey, inside)
+    if body.cover is not None:  # what is seen there is drawn on something else
+        cover = body.cover[box.slices].astype(np.uint8)
+        lines[cv2.resize(cover, size, interpolation=cv2.INTER_NEAREST) > 0] = 0
+    return Field(inside, spread, lines), corner, scale
 
 
 def _grey(image: NDArray[Any]) -> NDArray[np.float32]:
