@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,7 +16,8 @@ from ..physics.errors import InvalidInputError
 from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
-from ..physics.scene import Attachment, Body, Scene
+from ..physics.rig import Polygon
+from ..physics.scene import Attachment, Body, Scene, pins
 from .composite import (
     LayeredRenderer,
     PixelArtRenderer,
@@ -34,6 +36,8 @@ __all__ = ["Parts", "about", "arranged", "coverage", "coverages", "parts_of_artw
 
 Image = NDArray[Any]
 Mask = NDArray[Any]
+
+_HALF = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,6 +169,7 @@ def parts_of_artwork(
         covers.append(hidden_by(artwork, index, moving=indices))
         rests.append(resting_on(artwork, index, moving=indices))
     meshes = tuple(_meshed(mask, spacing, f"layer {plan.name}", None) for mask, plan in zip(masks, plans, strict=True))
+    attachments = tuple(_attachment(plan) for plan in plans)
     return Parts(
         image,
         tuple(masks),
@@ -172,11 +177,31 @@ def parts_of_artwork(
         tuple(plan.name for plan in plans),
         tuple(plan.preset for plan in plans),
         tuple(covers),
-        tuple(rests),
-        tuple(_attachment(plan) for plan in plans),
+        _with_held(rests, masks, meshes, covers, attachments),
+        attachments,
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
         tuple(flattened(artwork, [replace(artwork.layers[index], blend="normal")]) for index in indices),
     )
+
+
+def _with_held(
+    rests: Sequence[NDArray[np.bool_] | None],
+    masks: Sequence[Mask],
+    meshes: Sequence[TriangleMesh],
+    covers: Sequence[NDArray[np.bool_] | None],
+    attachments: Sequence[Attachment],
+) -> tuple[NDArray[np.bool_] | None, ...]:
+    """Where each part rests on what is still, with what is held of parts that move: a ribbon is tied into hair."""
+    held = np.zeros(masks[0].shape, dtype=np.uint8)
+    for mesh, mask, cover, attach in zip(meshes, masks, covers, attachments, strict=True):
+        if attach != "end":
+            own = np.zeros_like(held)
+            for pin in pins(Body(mesh, preset("hair"), cover=cover), 0, attach=attach):
+                if isinstance(pin.region, Polygon):
+                    cv2.fillPoly(own, [np.rint(pin.region.points).astype(np.int32)], 1)
+            held |= own & (mask > _HALF).astype(np.uint8)
+    touched = held > 0
+    return tuple(touched if rest is None else rest | touched for rest in rests)
 
 
 def _attachment(plan: LayerPlan) -> Attachment:

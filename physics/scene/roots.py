@@ -25,6 +25,7 @@ _AROUND = 1.8  # how far hair lies around a head that covers it [radii of the he
 _TOP = 0.25  # share of a part's extent that counts as its top
 _TOUCHING = 0.5  # share of the top that has to touch something for the part to hang from it
 _DEEP = 0.35  # what is held of a contact: from this share of its depth on
+_THICK = 2.0  # a knot is so many times as thick as what hangs from it, usually
 _SCATTERED = 0.05  # contact below this share of a part is none
 
 
@@ -57,19 +58,30 @@ def covered_root(part: PartRaster) -> BoolArray:
 def end_in_contact(part: PartRaster) -> BoolArray:
     """The end at which a tail, a ribbon or a cape touches what stands still: its top, if that does, else the deepest.
 
-    Nothing where there is no contact, or nothing but contact.
+    Where nothing says so, the thickest place, if one is much thicker than the rest, as a knot is; otherwise nothing.
     """
     contact = _without_scatter(part.covered if part.covered.any() else part.resting, part.inside)
     free = part.inside & ~contact
     rows = np.nonzero(part.inside.any(axis=1))[0]
     top = part.inside & (np.arange(len(part.inside))[:, None] <= rows[0] + _TOP * (rows[-1] - rows[0]))
     if not contact.any() or not free.any():
-        return np.zeros_like(contact)
+        return _knot(part.inside)
     if (contact & top).sum() >= _TOUCHING * top.sum():
         return contact & top
     largest = _largest_patch(contact)
     depth = cv2.distanceTransform((~free).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
     return largest & (depth >= _DEEP * float(depth[largest].max()))
+
+
+def _knot(shape: BoolArray) -> BoolArray:
+    """The surroundings of the largest disc in a shape; nothing in a strip that is about as wide everywhere."""
+    room = cv2.distanceTransform(np.pad(shape, 1).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)[1:-1, 1:-1]
+    middle = room[(room > 1) & (room >= cv2.dilate(room, np.ones((3, 3), np.uint8)))]
+    if not len(middle) or room.max() < _THICK * np.median(middle):
+        return np.zeros_like(shape)
+    row, column = np.unravel_index(int(room.argmax()), room.shape)
+    rows, columns = np.mgrid[: shape.shape[0], : shape.shape[1]]
+    return shape & (np.hypot(rows - row, columns - column) <= room.max())
 
 
 def _down_to(part: PartRaster, row: float) -> BoolArray:

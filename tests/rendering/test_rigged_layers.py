@@ -25,7 +25,7 @@ def ellipse(x: int, y: int, across: int, down: int) -> np.ndarray:
 
 
 def figure() -> Artwork:
-    """A figure from behind to before: tail, back hair, body, skirt, face, front hair."""
+    """A figure from behind to before: tail, back hair, body, skirt, face, front hair, ribbon."""
     return Artwork(
         WIDTH,
         HEIGHT,
@@ -41,6 +41,7 @@ def figure() -> Artwork:
                 (110, 60, 50),
                 [(145, 130), (150, 60), (200, 35), (250, 60), (255, 130), (230, 95), (200, 115), (170, 95)],
             ),
+            layer("リボン", (220, 60, 60), ellipse(225, 55, 22, 18), [(235, 45), (370, 20), (372, 36), (235, 62)]),
         ),
     )
 
@@ -85,8 +86,14 @@ def test_a_skirt_hangs_from_its_waist_and_a_tail_from_where_the_body_covers_it(a
     assert moves[places[:, 1] < 270].max() > 3
 
 
+def test_a_ribbon_stays_tied_into_hair_that_is_held(animation: Animation) -> None:
+    places, moves = moves_of(animation, "リボン")
+    assert np.median(moves[places[:, 0] < 225]) < 0.5
+    assert moves[places[:, 0] > 360].max() > 3
+
+
 def test_what_is_found_is_in_the_scene_as_pins_that_can_be_changed(animation: Animation) -> None:
     bodies = animation.scene.bodies
     assert {point.body for point in animation.scene.rig_points} == set(range(len(bodies)))
-    assert [body.material.root_stiffness > 1 for body in bodies] == [True] * 4
+    assert [body.material.root_stiffness > 1 for body in bodies] == [True] * 5
     assert all(3 <= len(point.region.points) < 80 for point in animation.scene.rig_points)

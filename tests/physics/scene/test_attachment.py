@@ -97,6 +97,14 @@ def test_a_scarf_is_held_by_what_it_lies_on() -> None:
     assert x[held].max() < 250
 
 
+def test_a_bow_that_touches_nothing_is_held_at_its_knot() -> None:
+    bow = painted(ellipse(150, 300, 45, 40), [(150, 280), (450, 240), (450, 262), (150, 310)])
+    held, body = held_of(bow, "end", "ribbon")
+    x = body.mesh.vertices[:, 0]
+    assert held.any()
+    assert x[held].max() < 200
+
+
 @pytest.mark.parametrize("attach", ["covered", "end", "crown", "head"])
 def test_without_anything_that_touches_it_a_part_hangs_from_its_top(attach: str) -> None:
     held, body = held_of(painted([(200, 100), (240, 100), (240, 500), (200, 500)]), attach)
