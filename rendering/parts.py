@@ -144,9 +144,7 @@ def parts_of_artwork(
         tuple(plan.preset for plan in plans),
         tuple(covers),
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
-        tuple(
-            as_picture(flattened(artwork, [replace(artwork.layers[k], blend="normal")]), alpha=True) for k in indices
-        ),
+        tuple(_alone(artwork, index) for index in indices),
         tuple(notes),
     )
 
