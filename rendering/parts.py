@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,8 +15,7 @@ from ..physics.errors import InvalidInputError
 from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
-from ..physics.rig import Polygon
-from ..physics.scene import Attachment, Body, Scene, pins
+from ..physics.scene import Attachment, Body, Scene
 from .composite import (
     LayeredRenderer,
     PixelArtRenderer,
@@ -27,6 +25,7 @@ from .composite import (
     renderer_of,
     resting_on,
 )
+from .layer_roots import attachment_of_layer, resting_on_held
 from .matting import part_mesh
 
 if TYPE_CHECKING:
@@ -36,8 +35,6 @@ __all__ = ["Parts", "about", "arranged", "coverage", "coverages", "parts_of_artw
 
 Image = NDArray[Any]
 Mask = NDArray[Any]
-
-_HALF = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +52,7 @@ class Parts:
         attachments: where each is held in an automatic scene.
         renderer: makes what draws a motion of the parts.
         own: each part alone, straight RGBA, shape [h, w, 4] each; empty where only masks are known.
+        notes: a sentence for each layer that stands still against its name.
     """
 
     image: Image
@@ -67,6 +65,7 @@ class Parts:
     attachments: tuple[Attachment, ...]
     renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
     own: tuple[Image, ...] = ()
+    notes: tuple[str, ...] = ()
 
     def covered(self, scene: Scene) -> Scene:
         """The scene with what is in front of its bodies, in the order of the parts."""
@@ -152,14 +151,17 @@ def parts_of_artwork(
     Raises:
         InvalidInputError: there is no such layer, none moves, or one gives no mesh.
     """
-    from .artwork import flattened, moving_layers
+    from .artwork import moving_layers
 
-    plans = [plan for plan in moving_layers(artwork, move, still) if plan.moves]
+    plans, meshed, notes = _meshed_layers(artwork, moving_layers(artwork, move, still), spacing)
     artwork = arranged(artwork, move, still)
+    if not plans and notes:
+        raise InvalidInputError(f"no layer can move: {'; '.join(notes)[:600]}")
     if not plans:
+        seen = [name for name, layer in zip(artwork.names, artwork.layers, strict=True) if layer.visible]
         raise InvalidInputError(
-            "no layer has a name that says it moves; name those that do with --move, or the node's input move."
-            f" Got: {', '.join(artwork.names)[:300]}"
+            "no layer that is seen has a name that says it moves; name those that do with --move, or the node's input"
+            f" move. Got: {', '.join(seen)[:300] or 'none that is seen'}"
         )
     image = picture_of(artwork)
     indices = [plan.index for plan in plans]
@@ -168,50 +170,46 @@ def parts_of_artwork(
         masks.append(mask_of_layer(artwork, index))
         covers.append(hidden_by(artwork, index, moving=indices))
         rests.append(resting_on(artwork, index, moving=indices))
-    meshes = tuple(_meshed(mask, spacing, f"layer {plan.name}", None) for mask, plan in zip(masks, plans, strict=True))
-    attachments = tuple(_attachment(plan) for plan in plans)
+    attachments = tuple(attachment_of_layer(plan) for plan in plans)
     return Parts(
         image,
         tuple(masks),
-        meshes,
+        tuple(meshed),
         tuple(plan.name for plan in plans),
         tuple(plan.preset for plan in plans),
         tuple(covers),
-        _with_held(rests, masks, meshes, covers, attachments),
+        resting_on_held(rests, masks, meshed, covers, attachments),
         attachments,
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
-        tuple(flattened(artwork, [replace(artwork.layers[index], blend="normal")]) for index in indices),
+        tuple(_alone(artwork, index) for index in indices),
+        tuple(notes),
     )
 
 
-def _with_held(
-    rests: Sequence[NDArray[np.bool_] | None],
-    masks: Sequence[Mask],
-    meshes: Sequence[TriangleMesh],
-    covers: Sequence[NDArray[np.bool_] | None],
-    attachments: Sequence[Attachment],
-) -> tuple[NDArray[np.bool_] | None, ...]:
-    """Where each part rests on what is still, with what is held of parts that move: a ribbon is tied into hair."""
-    held = np.zeros(masks[0].shape, dtype=np.uint8)
-    for mesh, mask, cover, attach in zip(meshes, masks, covers, attachments, strict=True):
-        if attach != "end":
-            own = np.zeros_like(held)
-            for pin in pins(Body(mesh, preset("hair"), cover=cover), 0, attach=attach):
-                if isinstance(pin.region, Polygon):
-                    cv2.fillPoly(own, [np.rint(pin.region.points).astype(np.int32)], 1)
-            held |= own & (mask > _HALF).astype(np.uint8)
-    touched = held > 0
-    return tuple(touched if rest is None else rest | touched for rest in rests)
+def _alone(artwork: Artwork, index: int) -> Image:
+    """A layer as a picture of its own, straight RGBA, uint8 or float32."""
+    from .artwork import flattened
+    from .pictures import as_picture
+
+    return as_picture(flattened(artwork, [replace(artwork.layers[index], blend="normal")]), alpha=True)
 
 
-def _attachment(plan: LayerPlan) -> Attachment:
-    """Where a layer is held, by the hint of its name."""
-    if plan.held == "top" and plan.preset == "hair":
-        return "crown"
-    if plan.held == "covered":
-        return "covered" if plan.preset == "hair" else "end"
-    hints: dict[str | None, Attachment] = {"top": "top", "waist": "top", "bottom": "bottom", "end": "end"}
-    return hints.get(plan.held, "auto")
+def _meshed_layers(
+    artwork: Artwork, plans: Sequence[LayerPlan], spacing: float | None
+) -> tuple[list[LayerPlan], list[TriangleMesh], list[str]]:
+    """The layers that move, their meshes, and a sentence for each that would by its name, but gives no mesh."""
+    moving, meshes, notes = [], [], []
+    for plan in plans:
+        if not plan.moves:
+            continue
+        try:
+            meshes.append(_meshed(mask_of_layer(artwork, plan.index), spacing, f"layer {plan.name}", None))
+            moving.append(plan)
+        except InvalidInputError as error:
+            if plan.asked:
+                raise
+            notes.append(f"{error}: it stands still")
+    return moving, meshes, notes
 
 
 def arranged(artwork: Artwork, move: Sequence[str] = (), still: Sequence[str] = ()) -> Artwork:

@@ -136,6 +136,9 @@ def animate(
         with timed(seconds, "mesh"):
             parts = parts_of_artwork(image, move=layers.move, still=layers.still, spacing=spacing)
         colliders = coverages("colliders", touching.colliders, parts.image)
+    if watch.on_note is not None:
+        for note in parts.notes:
+            watch.on_note(note)
     bars_strands = "pixel_art" if pixel_art else "contact" if touching.contact or _has_contact(scene) else ""
     with timed(seconds, "scene"):
         if scene is None:
