@@ -74,8 +74,14 @@ class Parts:
         bodies = zip(scene.bodies, self.covers, strict=True)
         return replace(scene, bodies=tuple(replace(body, cover=cover) for body, cover in bodies))
 
-    def bodies(self, materials: Sequence[Material], strands: Sequence[bool]) -> list[Body]:
-        """The parts as bodies of these materials, each in front of the one before, in strands or not."""
+    def bodies(self, materials: Sequence[Material], strands: Sequence[bool] | None = None) -> list[Body]:
+        """The parts as bodies of these materials, each in front of the one before.
+
+        Args:
+            materials: of the parts.
+            strands: which of them :meth:`in_strands` has slit; None for none.
+        """
+        strands = [False] * len(self.meshes) if strands is None else strands
         parts = zip(self.meshes, materials, self.names, strands, self.covers, self.rests, strict=True)
         return [Body(*(mesh, made, layer, *rest)) for layer, (mesh, made, *rest) in enumerate(parts)]
 
@@ -91,7 +97,7 @@ class Parts:
         from .strands import split_into_strands
 
         meshes = list(self.meshes)
-        for number, body in enumerate(self.bodies([preset("hair")] * len(meshes), chosen)):
+        for number, body in enumerate(self.bodies([preset("hair")] * len(meshes))):
             if chosen[number]:
                 shown = self.own[number] if self.own else self.image
                 meshes[number] = split_into_strands(shown, body, attach=attachments[number])

@@ -44,7 +44,7 @@ class SwayPart:
         part: number of the part, as in ``TriangleMesh.components``.
         wanted: the sway frequency that its material and its length ask for [Hz].
         achieved: how often it will sway [Hz]; less than wanted when the stiffness had to be bounded.
-        youngs_modulus: the stiffness that follows [density side^2 / s^2].
+        youngs_modulus: the stiffness that follows, at the tip [density side^2 / s^2].
     """
 
     body: int
