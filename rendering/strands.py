@@ -27,6 +27,7 @@ _ACROSS = 640  # cells along the longer side of a part
 _TIP = 0.05  # how far a tip sticks out beyond the notches beside it, as a share of the longest way from the root
 _ROOT = 1 / 3  # share of the way from the root to the tips beside a slit that stays whole
 _SHORTEST = 3  # edges of a slit at least
+_KEPT = 0.6  # of the least height of the triangles around a vertex that is moved onto a line
 _ASTRAY = 4.0  # how dear it is for a slit to leave its line by an edge's length
 
 
@@ -164,22 +165,23 @@ def _slit(mesh: TriangleMesh, notch: int, line: FloatArray) -> TriangleMesh:
 
 
 def _on_line(mesh: TriangleMesh, path: list[int], line: FloatArray) -> FloatArray:
-    """Vertices with those of a path moved onto a line as far as no triangle shrinks to less than a third."""
+    """Vertices with those of a path moved onto a line as far as no triangle gets much flatter: flat ones cost steps."""
     from scipy.spatial import cKDTree
 
     vertices, tree = mesh.vertices.copy(), cKDTree(line)
     for vertex in path:
         around = mesh.triangles[(mesh.triangles == vertex).any(axis=1)]
-        before, place = _areas(vertices[around]), vertices[vertex].copy()
+        least, place = _KEPT * _heights(vertices[around]).min(), vertices[vertex].copy()
         target = line[tree.query(place)[1]]
-        for share in (1.0, 0.6, 0.3, 0.0):
+        for share in (1.0, 0.75, 0.5, 0.25, 0.0):
             vertices[vertex] = place + share * (target - place)
-            if (_areas(vertices[around]) / before >= 1 / 3).all():
+            if _heights(vertices[around]).min() >= least:
                 break
     return vertices
 
 
-def _areas(corners: FloatArray) -> FloatArray:
-    """Signed areas of triangles [px^2]."""
-    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    return (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
+def _heights(corners: FloatArray) -> FloatArray:
+    """Height of triangles above their longest side [px]; negative where a triangle is turned over."""
+    sides = np.roll(corners, -1, axis=1) - corners
+    doubled = sides[:, 1, 0] * sides[:, 0, 1] - sides[:, 1, 1] * sides[:, 0, 0]
+    return np.asarray(doubled / np.linalg.norm(sides, axis=2).max(axis=1))
