@@ -99,8 +99,8 @@ class Parts:
         meshes = list(self.meshes)
         for number, body in enumerate(self.bodies([preset("hair")] * len(meshes))):
             if chosen[number]:
-                shown = self.own[number] if self.own else self.image
-                meshes[number] = split_into_strands(shown, body, attach=attachments[number])
+                shown, alone = (self.own[number], True) if self.own else (self.image, False)
+                meshes[number] = split_into_strands(shown, body, attach=attachments[number], alone=alone)
         return replace(self, meshes=tuple(meshes))
 
 

@@ -27,17 +27,21 @@ _ACROSS = 640  # cells along the longer side of a part
 _TIP = 0.05  # how far a tip sticks out beyond the notches beside it, as a share of the longest way from the root
 _ROOT = 1 / 3  # share of the way from the root to the tips beside a slit that stays whole
 _SHORTEST = 3  # edges of a slit at least
-_KEPT = 0.6  # of the least height of the triangles around a vertex that is moved onto a line
+_KEPT = 0.35  # of the least height of the triangles around a vertex that is moved onto a line
 _ASTRAY = 4.0  # how dear it is for a slit to leave its line by an edge's length
 
 
-def split_into_strands(image: NDArray[Any], body: Body, *, attach: Attachment = "auto") -> TriangleMesh:
+def split_into_strands(
+    image: NDArray[Any], body: Body, *, attach: Attachment = "auto", alone: bool = False
+) -> TriangleMesh:
     """The mesh of a body slit between its strands; as it is where nothing is drawn between them.
 
     Args:
         image: what the body shows, RGB or straight RGBA, uint8 or float32 in 0 to 1, shape [h, w, 3] or [h, w, 4].
         body: hair, or a ribbon.
         attach: where it is held.
+        alone: whether the picture shows the body alone, with what is hidden of it; otherwise nothing is looked for
+            where something covers it.
     """
     mesh = body.mesh
     held = np.logical_or.reduce([vertices_of(pin, mesh) for pin in pins(body, 0, attach=attach)])
@@ -46,7 +50,7 @@ def split_into_strands(image: NDArray[Any], body: Body, *, attach: Attachment = 
     if not len(notches):
         return mesh
     whole = mesh
-    field, corner, scale = _field(image, body, ways)
+    field, corner, scale = _field(image, mesh, ways, cover=None if alone else body.cover)
     lines = lines_from(field, (mesh.vertices[notches] - corner) * scale - 0.5, until=until * scale)
     for notch, line in sorted(zip(notches, lines, strict=True), key=lambda each: -len(each[1])):
         if len(line):
@@ -104,9 +108,10 @@ def _loops(mesh: TriangleMesh) -> list[IndexArray]:
     return loops
 
 
-def _field(image: NDArray[Any], body: Body, ways: FloatArray) -> tuple[Field, FloatArray, float]:
+def _field(
+    image: NDArray[Any], mesh: TriangleMesh, ways: FloatArray, *, cover: NDArray[np.bool_] | None
+) -> tuple[Field, FloatArray, float]:
     """The part in cells, and where they begin [px], and how many there are to a pixel."""
-    mesh = body.mesh
     box = bounding_box(mesh.vertices).clipped(mesh.width, mesh.height)
     scale = min(1.0, _ACROSS / max(box.width, box.height))
     size = max(1, round(box.width * scale)), max(1, round(box.height * scale))
@@ -118,9 +123,9 @@ def _field(image: NDArray[Any], body: Body, ways: FloatArray) -> tuple[Field, Fl
     inside = spread >= 0
     grey = cv2.resize(_grey(image[box.slices]), size, interpolation=cv2.INTER_AREA)
     lines = darkness(grey, inside)
-    if body.cover is not None:  # what is seen there is drawn on something else
-        cover = body.cover[box.slices].astype(np.uint8)
-        lines[cv2.resize(cover, size, interpolation=cv2.INTER_NEAREST) > 0] = 0
+    if cover is not None:  # what is seen there is drawn on something else
+        hidden = cv2.resize(cover[box.slices].astype(np.uint8), size, interpolation=cv2.INTER_NEAREST)
+        lines[hidden > 0] = 0
     return Field(inside, spread, lines), corner, scale
 
 

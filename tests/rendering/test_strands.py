@@ -66,6 +66,15 @@ def test_where_nothing_is_drawn_there_is_no_slit(noise: float) -> None:
     assert after.mesh is before.mesh
 
 
+def test_lines_on_what_covers_a_part_are_not_those_of_its_strands() -> None:
+    picture, mask = hair()
+    cover = np.zeros(mask.shape, dtype=bool)
+    cover[150:320] = True
+    body = Body(mesh_from_mask(mask, spacing=14), preset("hair"), cover=cover)
+    assert split_into_strands(picture, body, attach="top") is body.mesh
+    assert len(split_into_strands(picture, body, attach="top", alone=True).vertices) > len(body.mesh.vertices)
+
+
 def test_strands_swing_apart_and_the_drawing_stays_as_it_is() -> None:
     picture, mask = hair()
     gaps, wholes = [], []
