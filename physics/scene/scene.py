@@ -116,8 +116,9 @@ class Body:
         for name in ("cover", "rests_on"):
             mask = getattr(self, name)
             if mask is not None:
-                fits = mask.dtype == bool and mask.shape == size
-                require(name, f"{mask.dtype} of shape {mask.shape}", fits, f"bool of shape {size}")
+                known = isinstance(mask, np.ndarray)
+                got = f"{mask.dtype} of shape {mask.shape}" if known else mask
+                require(name, got, known and mask.dtype == bool and mask.shape == size, f"bool of shape {size}")
         for name in SCALES:
             scale = getattr(self.material, name)
             if scale is not None and len(scale) != len(self.mesh.triangles):
