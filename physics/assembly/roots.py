@@ -9,17 +9,35 @@ curl up. A lock of hair is a bundle of fibres, which bends alike whether it has 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh import TriangleMesh, ways_from
+from ..rig import Pinned, RigPoint
 from .widths import local_widths
 
-__all__ = ["distances_from_root", "root_factors"]
+__all__ = ["distances_from_root", "root_factors", "roots_of"]
 
 FloatArray = NDArray[np.float64]
 
 _SLENDEREST = 4.0  # how many times as thin as usual a place is, at most, for its stiffness
+
+
+def roots_of(mesh: TriangleMesh, leaders: NDArray[np.integer], rig_points: Sequence[RigPoint]) -> NDArray[np.bool_]:
+    """Vertices at which each part is rooted: those that are pinned, not a tip that is led; all led where none is: [v].
+
+    Args:
+        mesh: the shape.
+        leaders: index of the rig point that leads each vertex, -1 where it is free, shape [v].
+        rig_points: of the scene.
+    """
+    still = np.array([*(isinstance(point.motion, Pinned) for point in rig_points), False])
+    pinned = still[leaders]
+    rooted = np.zeros(int(mesh.components.max()) + 1, dtype=bool)
+    rooted[mesh.components[pinned]] = True
+    return np.asarray(np.where(rooted[mesh.components], pinned, leaders >= 0))
 
 
 def distances_from_root(mesh: TriangleMesh, held: NDArray[np.bool_]) -> FloatArray:

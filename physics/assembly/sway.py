@@ -74,7 +74,9 @@ def first_frequency(
     return None if squared is None else math.sqrt(squared) / (2 * math.pi)
 
 
-def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> tuple[FloatArray, list[SwayPart]]:
+def resolve_stiffness(
+    body: Body, held: NDArray[np.bool_], number: int = 0, *, roots: NDArray[np.bool_] | None = None
+) -> tuple[FloatArray, list[SwayPart]]:
     """Young's modulus of each triangle of a body, from its material and, where it asks for one, its sway frequency.
 
     The frequency is that of the body's longest part; shorter ones sway faster, as pendulums do, in proportion to
@@ -85,6 +87,7 @@ def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> t
         body: the body.
         held: which of its vertices are held or led, shape [v].
         number: number of the body in its scene, for the report.
+        roots: at which of its vertices it is rooted, shape [v]; None for those that are held.
 
     Returns:
         Young's modulus [density side^2 / s^2], shape [t], and a report of each part that sways.
@@ -93,7 +96,7 @@ def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> t
     modulus = np.full(len(mesh.triangles), float(material.youngs_modulus))
     if material.stiffness_scale is not None:
         modulus *= material.stiffness_scale
-    modulus *= root_factors(mesh, held, material.root_stiffness)
+    modulus *= root_factors(mesh, held if roots is None else roots, material.root_stiffness)
     report: list[SwayPart] = []
     if material.sway_frequency is None:
         return modulus, report

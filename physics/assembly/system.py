@@ -15,6 +15,7 @@ from ..mesh import TriangleMesh
 from ..scene import Body, Holds, Scene, holds_of
 from ..solver import frequency_limits, substeps, vertex_frequencies
 from .painted_bodies import with_paint
+from .roots import roots_of
 from .sway import SwayPart, resolve_stiffness
 
 __all__ = ["System", "assemble"]
@@ -150,7 +151,7 @@ def assemble(scene: Scene, holds: Holds | None = None) -> System:
     held_by = holds_of(scene) if holds is None else holds
     leaders = held_by.leaders
     stiffness = [
-        resolve_stiffness(body, held >= 0, number)
+        resolve_stiffness(body, held >= 0, number, roots=roots_of(body.mesh, held, scene.rig_points))
         for number, (body, held) in enumerate(zip(bodies, leaders, strict=True))
     ]
     vertex_counts = [len(body.mesh.vertices) for body in bodies]

@@ -14,7 +14,7 @@ from physanimator.physics.assembly.widths import local_widths
 from physanimator.physics.forces import Wind
 from physanimator.physics.material import Material, preset
 from physanimator.physics.mesh import TriangleMesh, mesh_from_mask
-from physanimator.physics.rig import Polygon, RigPoint
+from physanimator.physics.rig import KeyedPath, Polygon, RigPoint
 from physanimator.physics.scene import Body, Scene
 from physanimator.physics.simulation import simulate
 
@@ -84,6 +84,18 @@ def test_a_stiff_root_stays_while_the_tip_swings() -> None:
         assert tip > 15
         shares.append(third / tip)
     assert shares[1] < 0.6 * shares[0]
+
+
+def test_a_tip_that_is_led_is_no_root() -> None:
+    """Led along a path at its lower end, a pinned strand is soft there; one that is only led is rooted where it is."""
+    scene, below = strand(Material(youngs_modulus=300.0, root_stiffness=20.0))
+    path = KeyedPath((0.0, 1.0), ((200, 375), (220, 375)))
+    tip = RigPoint((200, 375), Polygon(((170, 350), (230, 350), (230, 390), (170, 390))), path)
+    for points, low, high in (((*scene.rig_points, tip), 5500, 320), ((tip,), 320, 5500)):
+        system = assemble(replace(scene, rig_points=points))
+        centre = below[system.order][system.rest.triangles].mean(axis=1)
+        assert np.median(system.youngs_modulus[centre < -5]) == pytest.approx(low, rel=0.15)
+        assert np.median(system.youngs_modulus[centre > 290]) == pytest.approx(high, rel=0.15)
 
 
 def test_parts_that_nothing_holds_keep_their_stiffness() -> None:
