@@ -29,7 +29,9 @@ def resting_on_held(
     covers: Sequence[NDArray[np.bool_] | None],
     attachments: Sequence[Attachment],
 ) -> tuple[NDArray[np.bool_] | None, ...]:
-    """Where each part rests on what is still, with what is held of parts that move: a ribbon is tied into hair."""
+    """Where parts held by an end rest on what is still, and on what is held of parts that move, as a ribbon on hair."""
+    if "end" not in attachments:
+        return (None,) * len(masks)
     held = np.zeros(masks[0].shape, dtype=np.uint8)
     for mesh, mask, cover, attach in zip(meshes, masks, covers, attachments, strict=True):
         if attach != "end":
@@ -39,7 +41,10 @@ def resting_on_held(
                     cv2.fillPoly(own, [np.rint(pin.region.points).astype(np.int32)], 1)
             held |= own & (mask > _HALF).astype(np.uint8)
     touched = held > 0
-    return tuple(touched if rest is None else rest | touched for rest in rests)
+    return tuple(
+        (touched if rest is None else rest | touched) if attach == "end" else None
+        for rest, attach in zip(rests, attachments, strict=True)
+    )
 
 
 def attachment_of_layer(plan: LayerPlan) -> Attachment:

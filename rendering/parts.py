@@ -171,12 +171,12 @@ def parts_of_artwork(
         )
     image = picture_of(artwork)
     indices = [plan.index for plan in plans]
+    attachments = tuple(attachment_of_layer(plan) for plan in plans)
     masks, covers, rests = [], [], []
-    for index in indices:
+    for index, attach in zip(indices, attachments, strict=True):
         masks.append(mask_of_layer(artwork, index))
         covers.append(hidden_by(artwork, index, moving=indices))
-        rests.append(resting_on(artwork, index, moving=indices))
-    attachments = tuple(attachment_of_layer(plan) for plan in plans)
+        rests.append(resting_on(artwork, index, moving=indices) if attach == "end" else None)
     return Parts(
         image,
         tuple(masks),

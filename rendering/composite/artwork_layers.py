@@ -139,10 +139,23 @@ def resting_on(artwork: Artwork, index: int, *, moving: Collection[int]) -> NDAr
     behind = np.zeros((artwork.height, artwork.width), dtype=bool)
     for number in range(index):
         layer = artwork.layers[number]
+        if not _share_a_pixel(layer, artwork.layers[index]):
+            continue
         if number not in moving and layer.visible and layer.blend == "normal" and layer.opacity >= _HALF:
             shape = _alpha(artwork, number) >= _HALF
             behind |= shape & (shape.mean() < _BACKDROP)
     return behind if behind.any() else None
+
+
+def _share_a_pixel(one: ArtLayer, other: ArtLayer) -> bool:
+    """Whether the boxes of two layers overlap."""
+    left, top, right, bottom = (
+        max(one.box[0], other.box[0]),
+        max(one.box[1], other.box[1]),
+        min(one.box[2], other.box[2]),
+        min(one.box[3], other.box[3]),
+    )
+    return left < right and top < bottom
 
 
 def _alpha(artwork: Artwork, index: int) -> FloatImage:
