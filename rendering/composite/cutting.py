@@ -77,7 +77,14 @@ class Layer:
         whole = drawn[0] if len(drawn) == 1 else np.dstack(drawn)
         if len(self._slit):
             soften_slits(
-                whole, box, mesh=self.mesh, points=points, slit=self._slit, canvas=self.canvas, parts=self._parts
+                whole,
+                box,
+                (x, y),
+                mesh=self.mesh,
+                points=points,
+                slit=self._slit,
+                canvas=self.canvas,
+                parts=self._parts,
             )
         return box, whole
 

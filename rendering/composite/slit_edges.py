@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics.mesh import PixelBox, bounding_box, interpolate
+from ...physics.mesh import PixelBox, interpolate
 from .apron import ApronedMesh
 
 __all__ = ["slit_vertices", "soften_slits"]
@@ -18,6 +18,7 @@ FloatImage = NDArray[np.float32]
 
 _PARTS = 3  # along each side of a pixel
 _UNEVEN = 0.75  # [px] by which places within a pixel come from apart in the drawing where an edge goes through it
+_REACH = 16  # around the vertices of a slit [px]
 _AT_REST = 0.01  # [px]
 _NOWHERE = -1e4
 _ROW = 4096  # places that are read at once
@@ -33,6 +34,7 @@ def slit_vertices(mesh: ApronedMesh) -> NDArray[np.int64]:
 def soften_slits(
     drawn: FloatImage,
     box: PixelBox,
+    shown: tuple[NDArray[np.float32], NDArray[np.float32]],
     *,
     mesh: ApronedMesh,
     points: NDArray[np.float64],
@@ -45,31 +47,52 @@ def soften_slits(
     Args:
         drawn: the layer, shape [box height, box width, c].
         box: pixels that it covers.
+        shown: column and row of the texture that each of them shows, shape [box height, box width] each.
         mesh: the layer's mesh.
         points: where its vertices are [px].
         slit: vertices along slits.
         canvas: pixels of the texture.
         parts: the texture in groups of channels.
     """
-    around = bounding_box(points[slit], margin=2)
-    left, top = max(around.left, box.left), max(around.top, box.top)
-    width = min(around.left + around.width, box.left + box.width) - left
-    height = min(around.top + around.height, box.top + box.height) - top
-    if width <= 0 or height <= 0:
-        return
-    finer = PixelBox(left * _PARTS, top * _PARTS, (left + width) * _PARTS, (top + height) * _PARTS)
-    away = interpolate(points * _PARTS, mesh.triangles, mesh.rest - points, finer, fill=_NOWHERE)
-    away = away.reshape(2, height, _PARTS, width, _PARTS).transpose(0, 1, 3, 2, 4).reshape(2, height, width, -1)
-    uneven = (away.max(axis=3) - away.min(axis=3) > _UNEVEN).any(axis=0)
-    moved = ((np.abs(away) > _AT_REST) & (away > _NOWHERE)).any(axis=(0, 3))
-    row, column = np.nonzero(uneven & moved)
-    if not len(row):
-        return
-    within = (np.arange(_PARTS) + 0.5) / _PARTS - 0.5
-    x = away[0, row, column] + (column + left - canvas.left)[:, None] + np.tile(within, _PARTS)
-    y = away[1, row, column] + (row + top - canvas.top)[:, None] + np.repeat(within, _PARTS)
-    values = np.concatenate([_read(part, x, y) for part in parts], axis=2).mean(axis=1)
-    drawn[row + top - box.top, column + left - box.left] = values
+    for place in _places_of_edges(box, shown, points[slit]):
+        finer = PixelBox(*(each * _PARTS for each in (place.left, place.top, place.right, place.bottom)))
+        away = interpolate(points * _PARTS, mesh.triangles, mesh.rest - points, finer, fill=_NOWHERE)
+        away = away.reshape(2, place.height, _PARTS, place.width, _PARTS)
+        away = away.transpose(0, 1, 3, 2, 4).reshape(2, place.height, place.width, -1)
+        uneven = (away.max(axis=3) - away.min(axis=3) > _UNEVEN).any(axis=0)
+        moved = ((np.abs(away) > _AT_REST) & (away > _NOWHERE)).any(axis=(0, 3))
+        row, column = np.nonzero(uneven & moved)
+        if not len(row):
+            continue
+        within = (np.arange(_PARTS) + 0.5) / _PARTS - 0.5
+        x = away[0, row, column] + (column + place.left - canvas.left)[:, None] + np.tile(within, _PARTS)
+        y = away[1, row, column] + (row + place.top - canvas.top)[:, None] + np.repeat(within, _PARTS)
+        values = np.concatenate([_read(part, x, y) for part in parts], axis=2).mean(axis=1)
+        drawn[row + place.top - box.top, column + place.left - box.left] = values
+
+
+def _places_of_edges(
+    box: PixelBox, shown: tuple[NDArray[np.float32], NDArray[np.float32]], slit: NDArray[np.float64]
+) -> list[PixelBox]:
+    """Boxes around the pixels near a slit beside which others show another place of the drawing."""
+    near = np.zeros((box.height, box.width), dtype=np.uint8)
+    for x, y in np.rint(slit - (box.left, box.top)).astype(int):
+        cv2.circle(near, (int(x), int(y)), _REACH, 1, -1)
+    columns, rows = np.nonzero(near.any(axis=0))[0], np.nonzero(near.any(axis=1))[0]
+    if not len(columns):
+        return []
+    window = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+    edge = np.zeros((window[0].stop - window[0].start, window[1].stop - window[1].start), dtype=np.uint8)
+    for plane in shown:
+        across, along = (np.abs(np.diff(plane[window], axis=axis)) > 1 + _UNEVEN for axis in (0, 1))
+        edge[1:] |= across
+        edge[:, 1:] |= along
+    edge = cv2.dilate(edge & near[window], np.ones((5, 5), np.uint8))
+    _, _, stats, _ = cv2.connectedComponentsWithStats(cv2.dilate(edge, np.ones((9, 9), np.uint8)))
+    left, top = box.left + window[1].start, box.top + window[0].start
+    return [
+        PixelBox(left + x, top + y, left + x + width, top + y + height) for x, y, width, height, _ in stats[1:].tolist()
+    ]
 
 
 def _read(texture: FloatImage, x: NDArray[np.floating], y: NDArray[np.floating]) -> FloatImage:
