@@ -279,7 +279,7 @@ def test_a_gap_is_found_where_the_hole_of_a_mask_lies_beside_it(
 @pytest.mark.parametrize("shade", [0.17, 0.3])
 @pytest.mark.parametrize("missed", [0, 12])
 def test_a_tip_that_a_lasso_cuts_off_says_nothing_about_what_is_around(shade: float, missed: int) -> None:
-    """Two curls of black hair, shaded on one side: of one the mask leaves out the tip, of the other some of that side."""
+    """Two curls of black hair, shaded on a side: of one the mask leaves out the tip, of the other some of that side."""
     hair, tip = np.hypot(X - 60, Y - 90) < 45, (np.abs(Y - 70) < 9) & (X > 90) & (X < 128)
     curl = (np.abs(Y - 108) < 11) & (X > 90) & (X < 160)
     shaded = (tip & (X > 100)) | (curl & (Y < 108)) | (hair & (np.abs(X - 66) < 12))
