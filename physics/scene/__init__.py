@@ -18,6 +18,7 @@ from .holds import Holds, holds_of, region_work
 from .paint import QUANTITIES, Paint
 from .query_points import QueryPoint
 from .scene import Body, Scene, check_scene_rate
+from .shapes import LayerRegion
 
 __all__ = [
     "ATTACHMENTS",
@@ -29,6 +30,7 @@ __all__ = [
     "Collider",
     "Contact",
     "Holds",
+    "LayerRegion",
     "OutlineCounts",
     "Paint",
     "QueryPoint",
