@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -11,6 +11,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from ..physics.document import LayerMasks
 from ..physics.errors import InvalidInputError
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
@@ -40,6 +41,8 @@ class Parts:
         covers: where something that stands still is in front of each, bool, shape [h, w]; None for nowhere.
         renderer: makes what draws a motion of the parts.
         own: each part alone, straight RGBA, shape [h, w, 4] each; empty where only masks are known.
+        still: names of layers that stand still by somebody's word.
+        layer_mask: gives the mask of the still layer of a name, or refuses it; None where there are no layers.
     """
 
     image: Image
@@ -50,6 +53,8 @@ class Parts:
     covers: tuple[NDArray[np.bool_] | None, ...]
     renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
     own: tuple[Image, ...] = ()
+    still: tuple[str, ...] = ()
+    layer_mask: LayerMasks | None = None
 
     def covered(self, scene: Scene) -> Scene:
         """The scene with what is in front of its bodies, in the order of the parts."""
@@ -103,7 +108,12 @@ def parts_of_picture(
 
 
 def parts_of_artwork(
-    artwork: Artwork, *, move: Sequence[str] = (), still: Sequence[str] = (), spacing: float | None = None
+    artwork: Artwork,
+    *,
+    move: Sequence[str] = (),
+    still: Sequence[str] = (),
+    spacing: float | None = None,
+    document: Mapping[str, Any] | None = None,
 ) -> Parts:
     """Parts that are layers of their own.
 
@@ -112,13 +122,16 @@ def parts_of_artwork(
         move: names of layers that move, whatever the table of names says.
         still: names of layers that stand still.
         spacing: distance of the meshes' vertices [px]; None chooses it.
+        document: a checked scene document, which says what moves where the user does not.
 
     Raises:
         InvalidInputError: there is no such layer, none moves, or one gives no mesh.
     """
-    from .artwork import flattened, moving_layers
+    from .artwork import flattened
+    from .layers_of_scenes import SCENE_SAYS, USER_SAYS, masks_of_still_layers, planned_layers
 
-    plans = [plan for plan in moving_layers(artwork, move, still) if plan.moves]
+    planned = planned_layers(artwork, move, still, document=document)
+    plans = [plan for plan in planned if plan.moves]
     artwork = arranged(artwork, move, still)
     if not plans:
         raise InvalidInputError(
@@ -141,6 +154,8 @@ def parts_of_artwork(
         tuple(covers),
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
         tuple(flattened(artwork, [replace(artwork.layers[index], blend="normal")]) for index in indices),
+        tuple(plan.name for plan in planned if not plan.moves and plan.shown and plan.why in (SCENE_SAYS, USER_SAYS)),
+        masks_of_still_layers(artwork, indices),
     )
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.assembly import work_of_minutes
-from ..physics.document import given_scene, materials_of
+from ..physics.document import LayerMasks, given_scene, materials_of
 from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
 from ..physics.process_end import working
@@ -115,7 +115,7 @@ def animate(
         plate = _checked_plate(plate, image)
         masks = coverages("masks", () if masks is None else masks, image)
         front = None if in_front is None else coverage("in_front", in_front, image)
-        colliders = coverages("colliders", touching.colliders, image)
+        _colliders(touching.colliders, image)
         with timed(seconds, "segment"):
             cut = (*masks, *_segmented(over(image), points or ()))
         _check_parts(cut)
@@ -129,8 +129,8 @@ def animate(
     else:
         _check_layers_alone(masks=masks, points=points, plate=plate, in_front=in_front, pixel_art=pixel_art or None)
         with timed(seconds, "mesh"):
-            parts = parts_of_artwork(image, move=layers.move, still=layers.still, spacing=spacing)
-        colliders = coverages("colliders", touching.colliders, parts.image)
+            said = None if isinstance(scene, Scene) else scene
+            parts = parts_of_artwork(image, move=layers.move, still=layers.still, spacing=spacing, document=said)
     with timed(seconds, "scene"):
         if scene is None:
             suiting = [each or "hair" for each in parts.presets]
@@ -138,10 +138,19 @@ def animate(
             whole = _automatic(parts.bodies(materials), wind, timing, attach=attach, sway_by_size=sway is None)
         else:
             given = list(parts.meshes)
-            whole = given_scene(scene, given, preset=preset, sway=sway, frame_rate=timing.frame_rate)
+            whole = given_scene(
+                scene,
+                given,
+                names=parts.names,
+                layers=parts.layer_mask,
+                preset=preset,
+                sway=sway,
+                frame_rate=timing.frame_rate,
+            )
+        whole = replace(whole, still=parts.still) if parts.still else whole
         whole = parts.covered(whole if timing.loop is None else replace(whole, loop=timing.loop))
         timing = _settled(timing, whole)
-        whole = _touching(whole, touching.contact, colliders)
+        whole = _touching(whole, touching.contact, _colliders(touching.colliders, parts.image, parts.layer_mask))
     if watch.on_scene is not None:
         watch.on_scene(whole)
     with timed(seconds, "simulate"):
@@ -217,14 +226,30 @@ def _check_parts(parts: Sequence[Mask]) -> None:
         raise InvalidInputError("an animation needs at least one mask, or points on a part. Got: neither")
 
 
-def _touching(scene: Scene, contact: Contact | None, colliders: Sequence[Mask]) -> Scene:
+def _colliders(given: Sequence[Mask | str], image: Image, layers: LayerMasks | None = None) -> list[Collider]:
+    """What parts keep out of: masks, and still layers by their names."""
+    found = []
+    for number, each in enumerate(given):
+        if not isinstance(each, str):
+            mask = coverage(f"colliders[{number}]", each, image)
+            found.append(Collider.from_mask(mask > 0.5))
+            continue
+        if layers is None:
+            raise InvalidInputError(f"colliders[{number}] must be a mask where the picture is flat. Got: {each[:60]!r}")
+        try:
+            found.append(Collider.from_mask(layers(each), layer=each))
+        except InvalidInputError as error:
+            raise InvalidInputError(f"colliders[{number}] {str(error).removeprefix('layer ')}") from error
+    return found
+
+
+def _touching(scene: Scene, contact: Contact | None, colliders: Sequence[Collider]) -> Scene:
     if contact is not None:
         scene = replace(scene, contact=contact)
     if not colliders:
         return scene
     require("contact", scene.contact, scene.contact is not None, "given where there are colliders")
-    added = tuple(Collider.from_mask(each > 0.5) for each in colliders)
-    return replace(scene, colliders=(*scene.colliders, *added))
+    return replace(scene, colliders=(*scene.colliders, *colliders))
 
 
 def _stage(name: str, progress: StageProgress | None) -> Progress | None:
