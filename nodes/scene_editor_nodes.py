@@ -11,16 +11,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from comfy_api.latest import io, ui
 
-from ..physics.errors import require
+from ..physics.errors import InvalidInputError, require
 from .background_inputs import image_alpha_input
+from .edited_layers import EditedLayers, edited_layers
 from .host import batch_of_pictures, checked_document, picture_with_alpha, refusal
-from .host.wires import BodiesWire, MaskedBody
+from .host.wires import BodiesWire, LayersWire, MaskedBody
 from .preview import STORE, PreviewBodies
 from .preview.server import start_warm_up
 from .scene_nodes import scene_output, scene_outputs
 
 if TYPE_CHECKING:
     import torch
+
+    from ..rendering.artwork import Artwork
 
 __all__ = ["SceneEditor"]
 
@@ -44,7 +47,9 @@ class SceneEditor(io.ComfyNode):
                     socketless=True,
                     tooltip="What is drawn, as a scene document [JSON]: positions and radii in px, times in s.",
                 ),
-                BodiesWire.Input("bodies", tooltip="What moves."),
+                BodiesWire.Input(
+                    "bodies", optional=True, tooltip="What moves; may be left out where layers are connected."
+                ),
                 io.Image.Input("image", optional=True, tooltip="The illustration, to draw on."),
                 io.Image.Input(
                     "plate",
@@ -53,6 +58,12 @@ class SceneEditor(io.ComfyNode):
                     " made when none is connected.",
                 ),
                 image_alpha_input(),
+                LayersWire.Input(
+                    "layers",
+                    optional=True,
+                    tooltip="An illustration in layers instead of bodies: those whose names say so move, and in the"
+                    " editor's list you choose others.",
+                ),
             ],
             outputs=scene_outputs(),
         )
@@ -65,22 +76,29 @@ class SceneEditor(io.ComfyNode):
     def execute(
         cls,
         scene: str,
-        bodies: tuple[MaskedBody, ...],
+        bodies: tuple[MaskedBody, ...] = (),
         image: torch.Tensor | None = None,
         plate: torch.Tensor | None = None,
         image_alpha: torch.Tensor | None = None,
+        layers: dict[str, Any] | None = None,
     ) -> io.NodeOutput:
         from ..physics.document import checked_scene_over
 
-        drawn = checked_scene_over(checked_document(scene), [item.body for item in bodies])
+        if not bodies and layers is None:
+            raise InvalidInputError("bodies or layers must be connected, to know what moves. Got: neither")
+        document = checked_document(scene)
+        found = edited_layers(document, bodies, None if layers is None else _artwork(layers))
+        bodies = bodies if found is None else found.bodies
+        drawn = checked_scene_over(document, [item.body for item in bodies], layers=found and found.masks)
         shown = None if image is None else _shown(image, drawn.width, drawn.height, "image", image_alpha)
         behind = None if plate is None else _shown(plate, drawn.width, drawn.height, "plate")
         info = {
-            "key": STORE.put(_kept(bodies, shown)),
+            "key": STORE.put(_kept(bodies, shown, found)),
             "width": drawn.width,
             "height": drawn.height,
             "image": _saved(shown),
             "plate": _saved(behind),
+            "layers": None if found is None else found.told(),
         }
         # Where several bodies are drawn on, contact may be switched on at any moment.
         start_warm_up(contact=len(bodies) > 1 or drawn.contact is not None)
@@ -97,8 +115,16 @@ def _shown(image: torch.Tensor, width: int, height: int, name: str, alpha: torch
     return as_uint8(picture)
 
 
-def _kept(bodies: tuple[MaskedBody, ...], picture: np.ndarray | None) -> PreviewBodies:
+def _artwork(layers: dict[str, Any]) -> Artwork:
+    from ..rendering.artwork import from_layers_dictionary
+
+    return from_layers_dictionary(layers)
+
+
+def _kept(bodies: tuple[MaskedBody, ...], picture: np.ndarray | None, found: EditedLayers | None) -> PreviewBodies:
     physical = tuple(item.body for item in bodies)
+    if found is not None:
+        return PreviewBodies(physical, layers=found.pictures, layer_masks=found.masks, layer_bytes=found.memory)
     if picture is None:
         return PreviewBodies(physical)
     from ..rendering.pictures import as_uint8

@@ -68,7 +68,8 @@ def _rearranged(document: Mapping[str, Any], places: Sequence[int | None], count
     left_over = []
     for entry, place in zip(entries, places, strict=False):
         if place is not None:
-            bodies[place] = entry
+            # Who covers whom follows from the parts' order, which is another now.
+            bodies[place] = {key: value for key, value in entry.items() if key != "layer"}
         elif not entry.get("name"):
             left_over.append(entry)  # one too many, which the check of the scene speaks of
     lists = {name: _following(document[name], places, count) for name in _OF_BODIES if name in document}

@@ -66,11 +66,12 @@ def given_scene(
 
 
 def _with_names(scene: Scene, names: Sequence[str]) -> Scene:
-    """The scene whose bodies without a name have those of the parts."""
+    """The scene whose bodies have the names of the parts, where they have some, and their order."""
     if not any(names) or len(names) != len(scene.bodies):
         return scene
-    bodies = zip(scene.bodies, names, strict=True)
-    return replace(scene, bodies=tuple(replace(body, name=body.name or name) for body, name in bodies))
+    bodies = enumerate(zip(scene.bodies, names, strict=True))
+    named = (replace(body, name=body.name or name, layer=rank) for rank, (body, name) in bodies)
+    return replace(scene, bodies=tuple(named))
 
 
 def _missing_meshes(document: Mapping[str, Any], meshes: list[TriangleMesh]) -> list[TriangleMesh]:
