@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.errors import InvalidInputError
+from ...physics.limits import MAX_PICTURE_PIXELS
 from .artwork import ArtLayer, Blend
 from .blending import lay_over, planes_of
 from .flattening import as_whole_numbers, laid_together
@@ -16,6 +18,8 @@ from .flattening import as_whole_numbers, laid_together
 __all__ = ["carried_down", "clipped", "extent_of", "masked"]
 
 Box = tuple[int, int, int, int]
+
+_MOST_PIXELS = 4 * MAX_PICTURE_PIXELS
 
 
 def carried_down(
@@ -101,16 +105,22 @@ def masked(layer: ArtLayer, mask: NDArray[Any], left: int, top: int, outside: fl
 
 
 def extent_of(layers: Sequence[ArtLayer]) -> Box:
-    """The box around layers; an empty one where there is nothing."""
+    """The box around layers; an empty one where there is nothing.
+
+    Raises:
+        InvalidInputError: it is far larger than any canvas.
+    """
     boxes = [layer.box for layer in layers if layer.pixels.size]
     if not boxes:
         return 0, 0, 0, 0
-    return (
-        min(box[0] for box in boxes),
-        min(box[1] for box in boxes),
-        max(box[2] for box in boxes),
-        max(box[3] for box in boxes),
-    )
+    left, top = min(box[0] for box in boxes), min(box[1] for box in boxes)
+    right, bottom = max(box[2] for box in boxes), max(box[3] for box in boxes)
+    if (right - left) * (bottom - top) > _MOST_PIXELS:
+        raise InvalidInputError(
+            f"layers of a group must lie within {_MOST_PIXELS / 1e6:.0f} million pixels; move what is far outside"
+            f" the canvas. Got: {right - left} x {bottom - top} px"
+        )
+    return left, top, right, bottom
 
 
 def _overlap(layers: Sequence[ArtLayer]) -> bool:

@@ -56,7 +56,7 @@ def load_artwork(path: StrPath) -> Artwork:
         ...         save_image(Path(folder, name + ".png"), np.full((4, 6, 3), 200, np.uint8))
         ...     artwork = load_artwork(folder)
         >>> artwork.names
-        ('1 sky', '2 hair')
+        ('sky', 'hair')
     """
     if Path(path).is_dir():
         return read_layer_folder(path)

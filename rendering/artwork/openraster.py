@@ -53,13 +53,22 @@ def read_openraster(path: StrPath) -> Artwork:
         InvalidInputError: there is no such file, it is no OpenRaster file, it is damaged, or too large.
     """
     name = f"artwork {os.fspath(path)}"
-    with reading(path, name), zipfile.ZipFile(path) as archive:
+    with reading(path, name), _archive(path) as archive:
         image = _stack_xml(archive, name)
         width, height = (_whole(image, key, name) for key in ("w", "h"))
         check_canvas(width, height, name)
         reader = _Reader(archive, name)
         layers = [layer for child in image if child.tag == "stack" for layer in reader.stack(child, 0, 0, 0)]
         return Artwork(width, height, as_one_dtype(layers), tuple(reader.remarks))
+
+
+def _archive(path: StrPath) -> zipfile.ZipFile:
+    with open(path, "rb") as file:
+        if file.read(2) != b"PK":
+            raise InvalidInputError(
+                f"artwork must be an OpenRaster file, which is a zip archive. Got: {path}, which is none"
+            )
+    return zipfile.ZipFile(path)
 
 
 class _Reader:

@@ -110,6 +110,23 @@ def test_a_psb_file(tmp_path: Path) -> None:
     assert len(assert_same_picture(saved(psd, tmp_path, "art.psb")).layers) == 2
 
 
+def test_a_colour_profile_is_applied(tmp_path: Path) -> None:
+    """Grey colours stay, others become those of sRGB: here from a profile with the primaries in another order."""
+    from PIL import ImageCms
+    from psd_tools.constants import Resource
+    from psd_tools.psd.image_resources import ImageResource
+
+    psd = document()
+    profile = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
+    swapped = profile.replace(b"rXYZ", b"tmp0").replace(b"bXYZ", b"rXYZ").replace(b"tmp0", b"bXYZ")
+    other = swapped.replace("sRGB".encode("utf-16-be"), "mine".encode("utf-16-be"))
+    for each, changed in ((profile, False), (other, True), (b"none", False)):
+        psd.image_resources[Resource.ICC_PROFILE] = ImageResource(key=Resource.ICC_PROFILE, data=each)
+        read = read_psd(saved(psd, tmp_path)).layers[0].pixels[..., :3].astype(int)
+        wanted = np.asarray(opaque(1)).astype(int)
+        assert np.abs(read - (wanted[..., ::-1] if changed else wanted)).max() <= (3 if changed else 0)
+
+
 @pytest.mark.parametrize(("mode", "word"), [("CMYK", "CMYK"), ("LAB", "Lab")])
 def test_other_colours_are_refused_with_the_remedy(tmp_path: Path, mode: str, word: str) -> None:
     psd = PSDImage.new(mode, (WIDTH, HEIGHT))
@@ -170,6 +187,26 @@ def test_groups_in_groups(tmp_path: Path) -> None:
     inner.opacity = 128
     psd.create_group([inner, *layers[2:]], name="outer").opacity = 170
     assert len(assert_same_picture(saved(psd, tmp_path)).layers) == 5
+
+
+@pytest.mark.parametrize("seed", range(16))
+def test_random_trees_of_groups(tmp_path: Path, seed: int) -> None:
+    random = np.random.default_rng(seed)
+    psd = PSDImage.new("RGBA", (WIDTH, HEIGHT), depth=16 if seed % 2 else 8)
+    pool: list[Any] = []
+    for number in range(int(random.integers(3, 9))):
+        height, width = (int(each) for each in random.integers(3, 30, 2))
+        top, left = int(random.integers(-12, 30)), int(random.integers(-12, 40))
+        layer = psd.create_pixel_layer(noise(100 * seed + number, height, width), name=str(number), top=top, left=left)
+        layer.opacity, layer.visible = int(random.integers(0, 256)), bool(random.random() > 0.15)
+        pool.append(layer)
+        if len(pool) > 1 and random.random() < 0.5:
+            count = int(random.integers(1, len(pool) + 1))
+            group = psd.create_group(pool[-count:], name=f"group {number}")
+            group.opacity, group.visible = int(random.integers(0, 256)), bool(random.random() > 0.1)
+            group.blend_mode = BlendMode.NORMAL if random.random() < 0.5 else BlendMode.PASS_THROUGH
+            pool[-count:] = [group]
+    assert_same_picture(saved(psd, tmp_path))
 
 
 @pytest.mark.parametrize("outside", [0, 255])
@@ -275,6 +312,27 @@ def test_layers_that_need_too_much_memory_together_are_refused(tmp_path: Path) -
         read_psd(path)
 
 
+def test_layers_far_away_are_refused_before_anything_is_as_large(tmp_path: Path) -> None:
+    psd = document()
+    layers = [psd.create_pixel_layer(noise(n), name=f"layer {n}") for n in range(2)]
+    group = psd.create_group(layers, name="group")
+    group.opacity = 90
+    for place, said in (
+        (200_000, "layers of a group must lie within"),
+        (2_000_000_000, "layer 1 must lie within 300000 px"),
+    ):
+        psd = PSDImage.open(saved(psd, tmp_path))
+        record = psd[1][1]._record
+        height, width = record.bottom - record.top, record.right - record.left
+        record.left = record.top = place
+        record.bottom, record.right = place + height, place + width
+        as_it_is(psd, tmp_path / "art.psd")
+        with pytest.raises(InvalidInputError, match=said):
+            read_psd(tmp_path / "art.psd")
+        record.left = record.top = 0
+        record.bottom, record.right = height, width
+
+
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     psd = document()
@@ -306,7 +364,7 @@ def test_a_damaged_file_gets_one_sentence(whole: bytes, tmp_path: Path, kind: st
 
 def test_what_is_no_psd(tmp_path: Path) -> None:
     (tmp_path / "art.psd").write_bytes(b"not one")
-    with pytest.raises(InvalidInputError, match="damaged"):
+    with pytest.raises(InvalidInputError, match="begins with 8BPS"):
         read_psd(tmp_path / "art.psd")
     with pytest.raises(InvalidInputError, match="existing file"):
         read_psd(tmp_path / "none.psd")
