@@ -103,7 +103,12 @@ def parts_of_picture(
 
 
 def parts_of_artwork(
-    artwork: Artwork, *, move: Sequence[str] = (), still: Sequence[str] = (), spacing: float | None = None
+    artwork: Artwork,
+    *,
+    move: Sequence[str] = (),
+    still: Sequence[str] = (),
+    spacing: float | None = None,
+    elements_across: int | None = None,
 ) -> Parts:
     """Parts that are layers of their own.
 
@@ -112,6 +117,7 @@ def parts_of_artwork(
         move: names of layers that move, whatever the table of names says.
         still: names of layers that stand still.
         spacing: distance of the meshes' vertices [px]; None chooses it.
+        elements_across: triangles across thin strands; None for the usual number.
 
     Raises:
         InvalidInputError: there is no such layer, none moves, or one gives no mesh.
@@ -131,7 +137,10 @@ def parts_of_artwork(
     for index in indices:
         masks.append(mask_of_layer(artwork, index))
         covers.append(hidden_by(artwork, index, moving=indices))
-    meshes = tuple(_meshed(mask, spacing, f"layer {plan.name}", None) for mask, plan in zip(masks, plans, strict=True))
+    meshes = tuple(
+        _meshed(mask, spacing, f"layer {plan.name}", None, elements_across)
+        for mask, plan in zip(masks, plans, strict=True)
+    )
     return Parts(
         image,
         tuple(masks),
@@ -191,10 +200,13 @@ def coverage(name: str, mask: Mask, image: Image) -> Mask:
     return fitted(coverage_of(mask, name=name), width, height, name=name)
 
 
-def _meshed(part: Mask, spacing: float | None, name: str, image: Image | None) -> TriangleMesh:
+def _meshed(
+    part: Mask, spacing: float | None, name: str, image: Image | None, across: int | None = None
+) -> TriangleMesh:
     with about(name):
         if image is None:
-            return mesh_from_mask(part, spacing=spacing)
+            fineness = {} if across is None else {"elements_across": across}
+            return mesh_from_mask(part, spacing=spacing, **fineness)
         return part_mesh(image, part, spacing=spacing)
 
 
