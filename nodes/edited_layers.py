@@ -87,7 +87,8 @@ def edited_layers(
     Raises:
         InvalidInputError: nothing moves, or bodies and layers do not belong together.
     """
-    from ..rendering.layers_of_scenes import bodies_of_moving, planned_layers
+    from ..rendering.layer_bodies import bodies_of_moving
+    from ..rendering.layers_of_scenes import planned_layers
     from ..rendering.moving_layers import LayerSource, moving_layers_of
     from ..rendering.parts import arranged
 

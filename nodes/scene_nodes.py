@@ -218,7 +218,7 @@ def scene_output(scene: PhysicalScene, bodies: tuple[MaskedBody, ...], *, ui: An
     """What the nodes of this file give: the scene with the bodies' masks, and its document."""
     from ..physics.document import dumps
 
-    return io.NodeOutput(MaskedScene(scene, tuple(item.mask for item in bodies)), dumps(scene, meshes=False), ui=ui)
+    return io.NodeOutput(MaskedScene.of(scene, bodies), dumps(scene, meshes=False), ui=ui)
 
 
 def scene_outputs() -> list[io.Output]:

@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from ..physics.document import bodies_named, still_layers
 from ..physics.errors import InvalidInputError, printable
-from ..physics.scene import Body
 
 if TYPE_CHECKING:
     from .artwork import Artwork, LayerPlan
 
-__all__ = ["SCENE_SAYS", "USER_SAYS", "bodies_of_moving", "masks_of_still_layers", "planned_layers"]
+__all__ = ["SCENE_SAYS", "USER_SAYS", "masks_of_still_layers", "planned_layers"]
 
 SCENE_SAYS = "the scene says so"
 USER_SAYS = "asked for"
@@ -90,36 +89,3 @@ def masks_of_still_layers(artwork: Artwork, moving: Collection[int]) -> Callable
         return mask
 
     return mask_of
-
-
-def bodies_of_moving(
-    artwork: Artwork, plans: Sequence[LayerPlan], known: Mapping[int, tuple[Body, NDArray[np.float32]]]
-) -> list[tuple[Body, NDArray[np.float32]]]:
-    """The layers that move as bodies with their masks, from back to front; those that are bodies already stay.
-
-    Args:
-        artwork: the layers.
-        plans: of the layers that move, in the artwork's order.
-        known: body and mask of layers that are bodies, by the layer's index.
-
-    Raises:
-        InvalidInputError: a layer gives no mesh.
-    """
-    from ..physics.material import preset
-    from ..physics.mesh import mesh_from_mask
-    from .composite import hidden_by, mask_of_layer
-    from .parts import about
-
-    moving = [plan.index for plan in plans]
-    made = []
-    for rank, plan in enumerate(plans):
-        cover = hidden_by(artwork, plan.index, moving=moving)
-        if plan.index in known:
-            body, mask = known[plan.index]
-            made.append((replace(body, layer=rank, name=plan.name, cover=cover), mask))
-            continue
-        mask = mask_of_layer(artwork, plan.index)
-        with about(f"layer {plan.name}"):
-            mesh = mesh_from_mask(mask)
-        made.append((Body(mesh, preset(plan.preset or "hair"), rank, plan.name, cover), mask))
-    return made

@@ -114,6 +114,7 @@ def parts_of_artwork(
     still: Sequence[str] = (),
     spacing: float | None = None,
     document: Mapping[str, Any] | None = None,
+    elements_across: int | None = None,
 ) -> Parts:
     """Parts that are layers of their own.
 
@@ -123,6 +124,7 @@ def parts_of_artwork(
         still: names of layers that stand still.
         spacing: distance of the meshes' vertices [px]; None chooses it.
         document: a checked scene document, which says what moves where the user does not.
+        elements_across: triangles across thin strands; None for the usual number.
 
     Raises:
         InvalidInputError: there is no such layer, none moves, or one gives no mesh.
@@ -144,7 +146,10 @@ def parts_of_artwork(
     for index in indices:
         masks.append(mask_of_layer(artwork, index))
         covers.append(hidden_by(artwork, index, moving=indices))
-    meshes = tuple(_meshed(mask, spacing, f"layer {plan.name}", None) for mask, plan in zip(masks, plans, strict=True))
+    meshes = tuple(
+        _meshed(mask, spacing, f"layer {plan.name}", None, elements_across)
+        for mask, plan in zip(masks, plans, strict=True)
+    )
     return Parts(
         image,
         tuple(masks),
@@ -206,10 +211,13 @@ def coverage(name: str, mask: Mask, image: Image) -> Mask:
     return fitted(coverage_of(mask, name=name), width, height, name=name)
 
 
-def _meshed(part: Mask, spacing: float | None, name: str, image: Image | None) -> TriangleMesh:
+def _meshed(
+    part: Mask, spacing: float | None, name: str, image: Image | None, across: int | None = None
+) -> TriangleMesh:
     with about(name):
         if image is None:
-            return mesh_from_mask(part, spacing=spacing)
+            fineness = {} if across is None else {"elements_across": across}
+            return mesh_from_mask(part, spacing=spacing, **fineness)
         return part_mesh(image, part, spacing=spacing)
 
 

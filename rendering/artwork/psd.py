@@ -24,7 +24,7 @@ _MOST_OBJECTS = 2_000_000
 """Things in a file's descriptions that are read, such as points of paths and glyphs of text."""
 
 
-def read_psd(path: StrPath) -> Artwork:
+def read_psd(path: StrPath, *, groups: bool = False) -> Artwork:
     """Read the layers of a PSD or PSB file.
 
     Groups become their layers, with the group's opacity, mask and visibility; masks are applied; clipping layers
@@ -32,6 +32,7 @@ def read_psd(path: StrPath) -> Artwork:
 
     Args:
         path: of the file: RGB or greyscale, 8 or 16 bits a channel.
+        groups: make one layer of each outermost group.
 
     Raises:
         InvalidInputError: there is no such file, it is no PSD, it is damaged, too large, or of another kind.
@@ -44,7 +45,7 @@ def read_psd(path: StrPath) -> Artwork:
         _check_kind(document, name)
         check_canvas(document.width, document.height, name)
         check_layer_sizes(_sizes(document), document.depth // 8, name)
-        layers, remarks = layers_of(document)
+        layers, remarks = layers_of(document, groups=groups)
         if not layers:
             return _flat(document, remarks)
         layers = in_srgb_colours(layers, document, remarks)

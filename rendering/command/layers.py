@@ -36,7 +36,7 @@ def list_layers(options: argparse.Namespace) -> None:
     if options.save_png is not None:
         with named_as("--save-png", "output", "folder"):
             check_layer_folder(options.save_png)
-    artwork = load_artwork(options.file)
+    artwork = load_artwork(options.file, groups=options.groups)
     for sentence in artwork.warnings:
         warn(f"physanimator: warning: {sentence}")
     plans = moving_layers(artwork, options.move, options.still)

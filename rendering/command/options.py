@@ -75,6 +75,7 @@ def add_layers(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--still", metavar="NAME", action="extend", nargs="+", default=[], help="layers that stand still"
     )
+    parser.add_argument("--groups", action="store_true", help="make one layer of each outermost group")
     parser.add_argument("--save-psd", metavar="OUT", help="write the layers as a .psd or .psb file")
     parser.add_argument(
         "--save-png",

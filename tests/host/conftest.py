@@ -36,6 +36,7 @@ editor_page = _sibling("editor_page")
 _sibling("frame_interpolation_graph")
 _sibling("graphs")
 _sibling("small_graphs")
+_sibling("layered_files")
 _sibling("video_model_graphs")
 
 

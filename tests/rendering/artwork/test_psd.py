@@ -9,11 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.artwork import Artwork, flattened, read_psd
+from physanimator.rendering.artwork import ArtLayer, Artwork, flattened, read_psd
 from PIL import Image, ImageDraw
 from psd_tools import PSDImage
-from psd_tools.constants import BlendMode
+from psd_tools.constants import BlendMode, Tag
 from psd_tools.psd.layer_and_mask import MaskFlags
+from psd_tools.psd.tagged_blocks import TaggedBlock
+from psd_tools.psd.vector import ClosedKnotLinked, ClosedPath, PathFillRule, VectorMaskSetting
+from psd_tools.psd.vector import Path as Outline
 
 WIDTH, HEIGHT = 48, 32
 
@@ -372,21 +375,74 @@ def test_what_is_no_psd(tmp_path: Path) -> None:
         read_psd(tmp_path)
 
 
-def test_a_drawn_mask(tmp_path: Path) -> None:
-    """A path of Photoshop: a rectangle in shares of the canvas."""
-    from psd_tools.constants import Tag
-    from psd_tools.psd.tagged_blocks import TaggedBlock
-    from psd_tools.psd.vector import ClosedKnotLinked, ClosedPath, PathFillRule, VectorMaskSetting
-
+def with_path(layer: Any) -> None:
+    """Give a layer a path of Photoshop's: a rectangle in shares of the canvas."""
     corners = [(0.25, 0.25), (0.25, 0.75), (0.75, 0.75), (0.75, 0.25)]
-    knots = [ClosedKnotLinked(corner, corner, corner) for corner in corners]
-    psd = document()
-    layer = psd.create_pixel_layer(opaque(4), name="hair")
-    from psd_tools.psd.vector import Path as Outline
-
-    setting = VectorMaskSetting(path=Outline([PathFillRule(), ClosedPath(knots, operation=1)]))
+    outline = ClosedPath([ClosedKnotLinked(corner, corner, corner) for corner in corners], operation=1)
+    setting = VectorMaskSetting(path=Outline([PathFillRule(), outline]))
     layer._record.tagged_blocks[Tag.VECTOR_MASK_SETTING1] = TaggedBlock(key=Tag.VECTOR_MASK_SETTING1, data=setting)
+
+
+def test_a_drawn_mask(tmp_path: Path) -> None:
+    psd = document()
+    with_path(psd.create_pixel_layer(opaque(4), name="hair"))
     artwork = read_psd(saved(psd, tmp_path))
     wanted = Image.new("L", (WIDTH, HEIGHT))
     ImageDraw.Draw(wanted).rectangle((WIDTH // 4, HEIGHT // 4, WIDTH * 3 // 4 - 1, HEIGHT * 3 // 4 - 1), 255)
     assert np.array_equal(artwork.layers[1].pixels[..., 3], np.asarray(wanted))
+
+
+def test_the_soft_edge_of_a_shape_counts_once(tmp_path: Path) -> None:
+    """Photoshop writes a shape's coverage as its alpha, as its path, and sometimes as a mask as well."""
+    psd = document()
+    drawn = noise(4, HEIGHT, WIDTH)
+    layer = psd.create_pixel_layer(drawn, name="ribbon")
+    layer.create_mask(drawn.getchannel("A"))
+    layer.mask.data.flags = MaskFlags(user_mask_from_render=True)
+    layer._record.flags.pixel_data_irrelevant = True
+    with_path(layer)
+    read = read_psd(saved(psd, tmp_path)).layers[1].pixels
+    assert np.array_equal(read[..., 3], np.asarray(drawn)[..., 3])
+
+
+def test_groups_as_layers_on_request(tmp_path: Path) -> None:
+    psd = document()
+    first, second, third = (psd.create_pixel_layer(noise(n), name=str(n), top=3 * n, left=4 * n) for n in range(3))
+    inner = psd.create_group([first], name="inner")
+    group = psd.create_group([inner, second], name="hair")
+    group.opacity = 120
+    third.move_to(psd)
+    path = saved(psd, tmp_path)
+    artwork = read_psd(path, groups=True)
+    assert sorted(artwork.names) == ["2", "hair", "paper"]
+    assert artwork.layers[artwork.names.index("hair")].opacity == 120 / 255
+    assert artwork.warnings == ()
+    assert np.abs(times_alpha(flattened(artwork)) - own_composite(path)).max() <= 2
+
+
+def test_layers_clipped_to_a_group(tmp_path: Path) -> None:
+    psd = document()
+    layers = [psd.create_pixel_layer(hard_edged(n), name=str(n), top=3 * n, left=9 * n) for n in range(2)]
+    psd.create_group(layers, name="head")
+    psd.create_pixel_layer(noise(8, 25, 25), name="shade", top=2, left=2).clipping = True
+    artwork = assert_same_picture(saved(psd, tmp_path))
+    assert artwork.names == ("paper", "head")
+    assert artwork.warnings == ("layers are clipped to group head: it is read as one layer",)
+
+
+@pytest.mark.parametrize(("mode", "count"), [("NORMAL", 1), ("PASS_THROUGH", 0)])
+def test_a_mode_that_its_group_shuts_in_is_told(tmp_path: Path, mode: str, count: int) -> None:
+    psd = document()
+    layers = [psd.create_pixel_layer(hard_edged(n), name=str(n), top=3 * n, left=9 * n) for n in range(2)]
+    layers[1].blend_mode = BlendMode.MULTIPLY
+    psd.create_group(layers, name="head").blend_mode = BlendMode[mode]
+    warnings = read_psd(saved(psd, tmp_path)).warnings
+    assert len(warnings) == count
+    assert all("reaches beyond what is drawn in group head" in each for each in warnings)
+
+
+def test_names_are_never_alike() -> None:
+    pixels = np.zeros((0, 0, 4), np.uint8)
+    given = ("a", "a (2)", "a", "a", " ", "layer 5", "a (3)", "a")
+    names = Artwork(1, 1, tuple(ArtLayer(name, pixels) for name in given)).names
+    assert names == ("a", "a (2)", "a (4)", "a (5)", "layer 5", "layer 5 (2)", "a (3)", "a (6)")
