@@ -196,7 +196,7 @@ export class Editor {
     if (!this.options.moves) return;
     if (this.live.run && !isAsRun(this.document, this.layerList.layers)) {
       this.live.hold();
-      this.backdrop.offerRun("Other layers move now: they are known once this node has run.");
+      this.backdrop.offerRun("Other layers are to move: run this node to see them move.");
     } else if (this.live.run) this.live.request(this.document, this.frameCount);
     else this.backdrop.offerRun();
   }
