@@ -56,11 +56,10 @@ def absent_bodies(scene: Scene) -> list[str]:
     shown = [printable(name[:60]) for name in scene.absent[:_NAMED]]
     names = ", ".join(shown) + ("" if len(scene.absent) <= _NAMED else " and others")
     there = ", ".join(printable(body.name[:60]) for body in scene.bodies[:_LISTED] if body.name)
-    it = "body" if len(scene.absent) == 1 else "bodies"
-    return [
-        f"the scene names {it} that no moving part is: {names}; what it says of them is left out. The parts are"
-        f" {there}" + ("" if len(scene.bodies) <= _LISTED else " and others")
-    ]
+    one = len(scene.absent) == 1
+    which, them = ("a body that is no moving part", "it") if one else ("bodies that are no moving parts", "them")
+    more = "" if len(scene.bodies) <= _LISTED else " and others"
+    return [f"the scene names {which}: {names}; what it says of {them} is left out. The parts are {there}{more}"]
 
 
 def inverted_masks(scene: Scene) -> list[str]:
