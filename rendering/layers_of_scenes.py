@@ -86,6 +86,7 @@ def masks_of_still_layers(artwork: Artwork, moving: Collection[int]) -> Callable
         mask = mask_of_layer(artwork, index) > 0.5
         if not mask.any():
             raise InvalidInputError(f"layer must have something drawn on it. Got: {printable(name[:60])}")
+        mask.setflags(write=False)  # so that it need not be copied for each collider
         return mask
 
     return mask_of
