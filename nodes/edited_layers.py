@@ -111,10 +111,10 @@ def edited_layers(
     if {plan.index for plan in moving} == known.keys():
         return EditedLayers(shown, bodies, before, plans)
     made = bodies_of_moving(shown, moving, {index: (item.body, item.mask) for index, item in known.items()})
-    chain = tuple(
-        MaskedBody(body, mask, source=LayerSource(shown, plan.index))
-        for (body, mask), plan in zip(made, moving, strict=True)
-    )
+    chain = tuple(MaskedBody(body, mask, source=LayerSource(shown, index)) for index, (body, mask) in made.items())
+    # What would move by its name, but gives no mesh, stands still.
+    gone = {plan.index for plan in moving} - made.keys()
+    before = {index: name for index, name in before.items() if index not in gone}
     return EditedLayers(shown, chain, before, plans)
 
 

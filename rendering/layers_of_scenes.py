@@ -15,10 +15,9 @@ from ..physics.errors import InvalidInputError, printable
 if TYPE_CHECKING:
     from .artwork import Artwork, LayerPlan
 
-__all__ = ["SCENE_SAYS", "USER_SAYS", "masks_of_still_layers", "planned_layers"]
+__all__ = ["SCENE_SAYS", "masks_of_still_layers", "planned_layers"]
 
 SCENE_SAYS = "the scene says so"
-USER_SAYS = "asked for"
 """Why a layer moves or stands still, in a plan of it."""
 
 _SHOWN = 20
@@ -50,7 +49,7 @@ def planned_layers(
     moving, held = set(bodies_named(document)), set(still_layers(document))
 
     def settled(plan: LayerPlan) -> LayerPlan:
-        if plan.why == USER_SAYS or not plan.shown:  # what the user has hidden stays so
+        if plan.asked or not plan.shown:  # what the user has hidden stays so
             return plan
         if plan.name in moving:
             preset = plan.preset or rule_of(plan.name).preset or "hair"

@@ -20,7 +20,7 @@ from .composite import LayeredRenderer, PixelArtRenderer, behind_still, hidden_b
 from .matting import part_mesh
 
 if TYPE_CHECKING:
-    from .artwork import Artwork
+    from .artwork import Artwork, LayerPlan
 
 __all__ = ["Parts", "about", "arranged", "coverage", "coverages", "parts_of_artwork", "parts_of_picture", "picture_of"]
 
@@ -43,6 +43,7 @@ class Parts:
         own: each part alone, straight RGBA, shape [h, w, 4] each; empty where only masks are known.
         still: names of layers that stand still by somebody's word.
         layer_mask: gives the mask of the still layer of a name, or refuses it; None where there are no layers.
+        notes: a sentence for each layer that stands still against its name.
     """
 
     image: Image
@@ -55,6 +56,7 @@ class Parts:
     own: tuple[Image, ...] = ()
     still: tuple[str, ...] = ()
     layer_mask: LayerMasks | None = None
+    notes: tuple[str, ...] = ()
 
     def covered(self, scene: Scene) -> Scene:
         """The scene with what is in front of its bodies, in the order of the parts."""
@@ -129,16 +131,18 @@ def parts_of_artwork(
     Raises:
         InvalidInputError: there is no such layer, none moves, or one gives no mesh.
     """
-    from .artwork import flattened
-    from .layers_of_scenes import SCENE_SAYS, USER_SAYS, masks_of_still_layers, planned_layers
+    from .layers_of_scenes import SCENE_SAYS, masks_of_still_layers, planned_layers
 
     planned = planned_layers(artwork, move, still, document=document)
-    plans = [plan for plan in planned if plan.moves]
+    plans, meshed, notes = _meshed_layers(artwork, planned, spacing, elements_across)
     artwork = arranged(artwork, move, still)
+    if not plans and notes:
+        raise InvalidInputError(f"no layer can move: {'; '.join(notes)[:600]}")
     if not plans:
+        seen = [name for name, layer in zip(artwork.names, artwork.layers, strict=True) if layer.visible]
         raise InvalidInputError(
-            "no layer has a name that says it moves; name those that do with --move, or the node's input move."
-            f" Got: {', '.join(artwork.names)[:300]}"
+            "no layer that is seen has a name that says it moves; name those that do with --move, or the node's input"
+            f" move. Got: {', '.join(seen)[:300] or 'none that is seen'}"
         )
     image = picture_of(artwork)
     indices = [plan.index for plan in plans]
@@ -146,22 +150,45 @@ def parts_of_artwork(
     for index in indices:
         masks.append(mask_of_layer(artwork, index))
         covers.append(hidden_by(artwork, index, moving=indices))
-    meshes = tuple(
-        _meshed(mask, spacing, f"layer {plan.name}", None, elements_across)
-        for mask, plan in zip(masks, plans, strict=True)
-    )
     return Parts(
         image,
         tuple(masks),
-        meshes,
+        tuple(meshed),
         tuple(plan.name for plan in plans),
         tuple(plan.preset for plan in plans),
         tuple(covers),
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
-        tuple(flattened(artwork, [replace(artwork.layers[index], blend="normal")]) for index in indices),
-        tuple(plan.name for plan in planned if not plan.moves and plan.shown and plan.why in (SCENE_SAYS, USER_SAYS)),
+        tuple(_alone(artwork, index) for index in indices),
+        tuple(plan.name for plan in planned if not plan.moves and (plan.asked or plan.why == SCENE_SAYS)),
         masks_of_still_layers(artwork, indices),
+        tuple(notes),
     )
+
+
+def _alone(artwork: Artwork, index: int) -> Image:
+    """A layer as a picture of its own, straight RGBA, uint8 or float32."""
+    from .artwork import flattened
+    from .pictures import as_picture
+
+    return as_picture(flattened(artwork, [replace(artwork.layers[index], blend="normal")]), alpha=True)
+
+
+def _meshed_layers(
+    artwork: Artwork, plans: Sequence[LayerPlan], spacing: float | None, across: int | None
+) -> tuple[list[LayerPlan], list[TriangleMesh], list[str]]:
+    """The layers that move, their meshes, and a sentence for each that would by its name, but gives no mesh."""
+    moving, meshes, notes = [], [], []
+    for plan in plans:
+        if not plan.moves:
+            continue
+        try:
+            meshes.append(_meshed(mask_of_layer(artwork, plan.index), spacing, f"layer {plan.name}", None, across))
+            moving.append(plan)
+        except InvalidInputError as error:
+            if plan.asked:
+                raise
+            notes.append(f"{error}: it stands still")
+    return moving, meshes, notes
 
 
 def arranged(artwork: Artwork, move: Sequence[str] = (), still: Sequence[str] = ()) -> Artwork:
