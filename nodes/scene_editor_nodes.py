@@ -14,16 +14,15 @@ from comfy_api.latest import io, ui
 from ..physics.errors import InvalidInputError, require
 from .background_inputs import image_alpha_input
 from .edited_layers import EditedLayers, edited_layers
-from .host import batch_of_pictures, checked_document, picture_with_alpha, refusal
+from .host import all_told, batch_of_pictures, checked_document, picture_with_alpha, refusal, tell_user
 from .host.wires import BodiesWire, LayersWire, MaskedBody
+from .layer_nodes import artwork_of
 from .preview import STORE, PreviewBodies
 from .preview.server import start_warm_up
 from .scene_nodes import scene_output, scene_outputs
 
 if TYPE_CHECKING:
     import torch
-
-    from ..rendering.artwork import Artwork
 
 __all__ = ["SceneEditor"]
 
@@ -83,13 +82,16 @@ class SceneEditor(io.ComfyNode):
         layers: dict[str, Any] | None = None,
     ) -> io.NodeOutput:
         from ..physics.document import checked_scene_over
+        from ..physics.scene import absent_bodies
 
         if not bodies and layers is None:
             raise InvalidInputError("bodies or layers must be connected, to know what moves. Got: neither")
         document = checked_document(scene)
-        found = edited_layers(document, bodies, None if layers is None else _artwork(layers))
+        artwork, told = (None, {}) if layers is None else artwork_of(cls, layers)
+        found = edited_layers(document, bodies, artwork)
         bodies = bodies if found is None else found.bodies
         drawn = checked_scene_over(document, [item.body for item in bodies], layers=found and found.masks)
+        told = all_told(told, tell_user(cls, absent_bodies(drawn)))
         shown = None if image is None else _shown(image, drawn.width, drawn.height, "image", image_alpha)
         behind = None if plate is None else _shown(plate, drawn.width, drawn.height, "plate")
         info = {
@@ -102,7 +104,7 @@ class SceneEditor(io.ComfyNode):
         }
         # Where several bodies are drawn on, contact may be switched on at any moment.
         start_warm_up(contact=len(bodies) > 1 or drawn.contact is not None)
-        return scene_output(drawn, bodies, ui={"physanimator_editor": [info]})
+        return scene_output(drawn, bodies, ui={"physanimator_editor": [info], **told})
 
 
 def _shown(image: torch.Tensor, width: int, height: int, name: str, alpha: torch.Tensor | None = None) -> np.ndarray:
@@ -113,12 +115,6 @@ def _shown(image: torch.Tensor, width: int, height: int, name: str, alpha: torch
     from ..rendering.pictures import as_uint8
 
     return as_uint8(picture)
-
-
-def _artwork(layers: dict[str, Any]) -> Artwork:
-    from ..rendering.artwork import from_layers_dictionary
-
-    return from_layers_dictionary(layers)
 
 
 def _kept(bodies: tuple[MaskedBody, ...], picture: np.ndarray | None, found: EditedLayers | None) -> PreviewBodies:

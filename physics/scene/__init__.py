@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .advising import advice, mask_advice, unused_rig_points
+from .advising import absent_bodies, advice, mask_advice, unused_rig_points
 from .automatic import ATTACHMENTS, Attachment, automatic_scene
 from .collider_outlines import (
     LEAST_SPACING,
@@ -35,6 +35,7 @@ __all__ = [
     "Paint",
     "QueryPoint",
     "Scene",
+    "absent_bodies",
     "advice",
     "automatic_scene",
     "check_scene_rate",

@@ -14,7 +14,7 @@ from ..mesh import PixelBox, TriangleMesh, may_be_inverted, triangle_ids
 from ..rig import Circle, MaskRegion, Polygon, RigPoint, coarseness_of, distances_of, leaders_of, vertices_of
 from .scene import Scene
 
-__all__ = ["advice", "inverted_masks", "loose_parts", "mask_advice", "unused_rig_points"]
+__all__ = ["absent_bodies", "advice", "inverted_masks", "loose_parts", "mask_advice", "unused_rig_points"]
 
 _NAMED = 3
 _LISTED = 10
