@@ -47,6 +47,10 @@ export class Live {
     this.run = null;
     /** @type {Mesh | null} */
     this.mesh = null;
+    /** @type {{drawn: any, box: [number, number, number, number], mesh: Mesh | null} | null} of one layer, made last */
+    this.outlined = null;
+    /** Displacements of a mesh at rest. */
+    this.still = new Int16Array(0);
     /** What was measured of the last request, for the tests [ms, px]. */
     this.measured = { asked: 0, firstFrame: 0, drawn: 0, frames: 0, largest: 0 };
   }
@@ -197,7 +201,7 @@ export class Live {
 
   /** @param {Mesh} mesh */
   #rest({ positions }) {
-    if (this.still?.length !== positions.length) this.still = new Int16Array(positions.length);
+    if (this.still.length !== positions.length) this.still = new Int16Array(positions.length);
     return this.still;
   }
 

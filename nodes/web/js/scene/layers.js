@@ -117,6 +117,7 @@ export function withPreset(document, layer, preset, layers) {
  * @param {number} gone  number of the body
  */
 function withoutBody(document, gone) {
+  /** @type {SceneDocument} */
   const changed = { ...document, bodies: document.bodies.filter((/** @type {Item} */ _, /** @type {number} */ i) => i !== gone) };
   for (const list of OF_BODIES) {
     if (!document[list]) continue;
