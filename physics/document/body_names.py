@@ -23,8 +23,8 @@ def still_layers(document: Mapping[str, Any]) -> list[str]:
 def arranged_for(document: Mapping[str, Any], names: Sequence[str]) -> tuple[Mapping[str, Any], tuple[str, ...]]:
     """A checked document whose bodies stand in the order of the parts, and the names that no part has.
 
-    A body with a name goes to the part of that name. Bodies without a name, and all of them where parts have none, go
-    in order to the parts that are left. What speaks of a body by number follows it; what speaks of a body that no part
+    A body with a name goes to the part of that name. Bodies without a name, later ones of a name, and all of them where
+    parts have none, go in order to the parts that are left. What speaks of a body by number follows it; what speaks of a body that no part
     is, is left out. Parts that the document does not know get an entry without values.
 
     Args:
@@ -49,12 +49,13 @@ def arranged_for(document: Mapping[str, Any], names: Sequence[str]) -> tuple[Map
     anywhere = iter(free)
     missing = []
     for index, entry in enumerate(entries):
-        if places[index] is None:
-            places[index] = next(
-                (number for number in (unnamed if entry.get("name") else anywhere) if number not in places), None
-            )
-        if places[index] is None and entry.get("name"):
-            missing.append(entry["name"])
+        if places[index] is not None:
+            continue
+        name = entry.get("name")
+        left = anywhere if not name or name in names else unnamed
+        places[index] = next((number for number in left if number not in places), None)
+        if places[index] is None and name:
+            missing.append(name)
     # Numbers beyond the document's own bodies go on with the parts that it does not know.
     places += [number for number in free if number not in places]
     return _rearranged(document, places, len(names)), tuple(dict.fromkeys(missing))

@@ -121,6 +121,14 @@ def test_a_body_without_a_name_among_named_ones_takes_the_next_part_that_is_free
     assert arranged_for(document, ["hair", "tail"])[0]["bodies"] == [{"name": "hair"}, {}]
 
 
+def test_later_bodies_of_one_name_take_the_next_parts_that_are_free() -> None:
+    document = {"version": 2, "width": 9, "height": 9, "bodies": [{"name": "lock", "layer": 1}, {"name": "lock"}]}
+    assert arranged_for(document, ["tail", "lock"]) == (
+        {**document, "bodies": [{"name": "lock"}, {"name": "lock"}]},
+        (),
+    )
+
+
 def test_names_that_no_part_has_are_told_once() -> None:
     document = scene_to_dict(scene_of(["hair", "tail"]), meshes=False)
     scene = scene_over(document, [Body(mesh(5), name="hair")])
