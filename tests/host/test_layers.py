@@ -139,7 +139,7 @@ def test_a_changed_file_is_read_again(host: Any) -> None:
         ("/etc/passwd", "file must be a layered file in the host's input folder"),
         ("a\0b.psd", "file must be a layered file in the host's input folder"),
         ("", "file must be a layered file in the host's input folder"),
-        ("nowhere.psd", "there must be a layered file of that name in the input folder"),
+        ("nowhere.psd", "file must be one of the layered files in the input folder"),
         ("note.txt", "file must be a .psd, .psb or .ora file, or a folder of PNG files"),
     ],
 )
