@@ -3,7 +3,7 @@
     COMFYUI_PATH=/path/to/ComfyUI /path/to/its/python tests/host/export_workflows.py [workflow ...]
 
 Without names, all of them. The graphs are described in graphs.py, layer_graphs.py and video_model_graphs.py. The
-frontend itself builds and serialises them, so that the files are what it would save; the API files are what it would post.
+frontend itself builds and serialises them: the files are what it would save; the API files are what it would post.
 """
 
 from __future__ import annotations

@@ -37,10 +37,9 @@ export function attachUpload(app, api, node, name) {
     const chosen = uploadOf(files, `layers_${Date.now().toString(36)}`);
     if (!chosen) return warn(app, "Choose a .psd, .psb or .ora file, or several PNG files of one size.");
     try {
-      for (const file of chosen.files) {
-        const stored = await upload(api, file, chosen.subfolder);
-        choose(app, node, name, chosen.subfolder || stored);
-      }
+      let stored = "";
+      for (const file of chosen.files) stored = await upload(api, file, chosen.subfolder);
+      choose(app, node, name, chosen.subfolder || stored);
     } catch (error) {
       warn(app, `The file could not be uploaded: ${error instanceof Error ? error.message : error}`);
     }
