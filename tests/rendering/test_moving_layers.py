@@ -89,6 +89,14 @@ def test_a_second_choice_keeps_the_bodies_of_the_first() -> None:
         bodies_of_layers(artwork(), move=["back hair"], before=before)
 
 
+def test_what_was_asked_for_before_still_moves() -> None:
+    first = bodies_of_layers(artwork(), move=["face"], still=["リボン"], spacing=8)
+    before = bodies_before(artwork(), list(zip(first.sources, first.bodies, strict=True)))
+    both = bodies_of_layers(artwork(), move=["リボン"], before=before)
+    assert [body.name for body in both.bodies] == ["back hair", "face", "リボン"]
+    assert [body.layer for body in both.bodies] == [0, 1, 2]
+
+
 def test_what_does_not_belong_together_is_refused() -> None:
     made = bodies_of_layers(artwork(), spacing=8)
     other = replace(artwork(), layers=(*artwork().layers[:4], box("arm", 10, 60, 99, 70, 250)))
