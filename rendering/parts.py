@@ -12,19 +12,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError
+from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
-from ..physics.scene import Body, Scene
-from .composite import LayeredRenderer, PixelArtRenderer, behind_still, hidden_by, mask_of_layer, renderer_of
+from ..physics.scene import Attachment, Body, Scene
+from .composite import (
+    LayeredRenderer,
+    PixelArtRenderer,
+    behind_still,
+    hidden_by,
+    mask_of_layer,
+    renderer_of,
+    resting_on,
+)
+from .layer_roots import attachment_of_layer, resting_on_held
 from .matting import part_mesh
 
 if TYPE_CHECKING:
-    from .artwork import Artwork
+    from .artwork import Artwork, LayerPlan
 
-__all__ = ["Parts", "about", "arranged", "coverage", "coverages", "parts_of_artwork", "parts_of_picture", "picture_of"]
+__all__ = [
+    "OF_STRANDS",
+    "Parts",
+    "about",
+    "arranged",
+    "coverage",
+    "coverages",
+    "parts_of_artwork",
+    "parts_of_picture",
+    "picture_of",
+]
 
 Image = NDArray[Any]
 Mask = NDArray[Any]
+
+OF_STRANDS = ("hair", "ribbon")
+"""Materials of what is drawn in strands."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,8 +61,11 @@ class Parts:
         names: of the parts; empty for those that have none.
         presets: name of the material that suits each; None where nothing says so.
         covers: where something that stands still is in front of each, bool, shape [h, w]; None for nowhere.
+        rests: where something that stands still is behind each, the backdrop apart, as ``covers``.
+        attachments: where each is held in an automatic scene.
         renderer: makes what draws a motion of the parts.
         own: each part alone, straight RGBA, shape [h, w, 4] each; empty where only masks are known.
+        notes: a sentence for each layer that stands still against its name.
     """
 
     image: Image
@@ -48,8 +74,11 @@ class Parts:
     names: tuple[str, ...]
     presets: tuple[str | None, ...]
     covers: tuple[NDArray[np.bool_] | None, ...]
+    rests: tuple[NDArray[np.bool_] | None, ...]
+    attachments: tuple[Attachment, ...]
     renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
     own: tuple[Image, ...] = ()
+    notes: tuple[str, ...] = ()
 
     def covered(self, scene: Scene) -> Scene:
         """The scene with what is in front of its bodies, in the order of the parts."""
@@ -58,10 +87,28 @@ class Parts:
         bodies = zip(scene.bodies, self.covers, strict=True)
         return replace(scene, bodies=tuple(replace(body, cover=cover) for body, cover in bodies))
 
-    def bodies(self, materials: Sequence[Any]) -> list[Body]:
-        """The parts as bodies of these materials, each in front of the one before."""
-        parts = zip(self.meshes, materials, self.names, strict=True)
-        return [Body(mesh, made, layer, name) for layer, (mesh, made, name) in enumerate(parts)]
+    def bodies(self, materials: Sequence[Material], strands: Sequence[bool]) -> list[Body]:
+        """The parts as bodies of these materials, each in front of the one before, in strands or not."""
+        parts = zip(self.meshes, materials, self.names, strands, self.covers, self.rests, strict=True)
+        return [Body(*(mesh, made, layer, *rest)) for layer, (mesh, made, *rest) in enumerate(parts)]
+
+    def in_strands(self, chosen: Sequence[bool], attachments: Sequence[Attachment]) -> Parts:
+        """The parts with those chosen slit between the strands that are drawn on them.
+
+        Args:
+            chosen: whether each is.
+            attachments: where each is held.
+        """
+        if not any(chosen):
+            return self
+        from .strands import split_into_strands
+
+        meshes = list(self.meshes)
+        for number, body in enumerate(self.bodies([preset("hair")] * len(meshes), chosen)):
+            if chosen[number]:
+                shown = self.own[number] if self.own else self.image
+                meshes[number] = split_into_strands(shown, body, attach=attachments[number])
+        return replace(self, meshes=tuple(meshes))
 
 
 def parts_of_picture(
@@ -99,7 +146,8 @@ def parts_of_picture(
     seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
     meshes = tuple(_meshed(mask, spacing, name, seen) for mask, name in zip(masks, names, strict=True))
     count = len(masks)
-    return Parts(image, tuple(masks), meshes, ("",) * count, (None,) * count, (cover,) * count, renderer)
+    nothing, guessed = (None,) * count, tuple[Attachment, ...](["auto"] * count)
+    return Parts(image, tuple(masks), meshes, ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer)
 
 
 def parts_of_artwork(
@@ -122,35 +170,66 @@ def parts_of_artwork(
     Raises:
         InvalidInputError: there is no such layer, none moves, or one gives no mesh.
     """
-    from .artwork import flattened, moving_layers
+    from .artwork import moving_layers
 
-    plans = [plan for plan in moving_layers(artwork, move, still) if plan.moves]
+    plans, meshed, notes = _meshed_layers(artwork, moving_layers(artwork, move, still), spacing, elements_across)
     artwork = arranged(artwork, move, still)
+    if not plans and notes:
+        raise InvalidInputError(f"no layer can move: {'; '.join(notes)[:600]}")
     if not plans:
+        seen = [name for name, layer in zip(artwork.names, artwork.layers, strict=True) if layer.visible]
         raise InvalidInputError(
-            "no layer has a name that says it moves; name those that do with --move, or the node's input move."
-            f" Got: {', '.join(artwork.names)[:300]}"
+            "no layer that is seen has a name that says it moves; name those that do with --move, or the node's input"
+            f" move. Got: {', '.join(seen)[:300] or 'none that is seen'}"
         )
     image = picture_of(artwork)
     indices = [plan.index for plan in plans]
-    masks, covers = [], []
+    masks, covers, rests = [], [], []
     for index in indices:
         masks.append(mask_of_layer(artwork, index))
         covers.append(hidden_by(artwork, index, moving=indices))
-    meshes = tuple(
-        _meshed(mask, spacing, f"layer {plan.name}", None, elements_across)
-        for mask, plan in zip(masks, plans, strict=True)
-    )
+        rests.append(resting_on(artwork, index, moving=indices))
+    attachments = tuple(attachment_of_layer(plan) for plan in plans)
     return Parts(
         image,
         tuple(masks),
-        meshes,
+        tuple(meshed),
         tuple(plan.name for plan in plans),
         tuple(plan.preset for plan in plans),
         tuple(covers),
+        resting_on_held(rests, masks, meshed, covers, attachments),
+        attachments,
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
-        tuple(flattened(artwork, [replace(artwork.layers[index], blend="normal")]) for index in indices),
+        tuple(_alone(artwork, index) for index in indices),
+        tuple(notes),
     )
+
+
+def _alone(artwork: Artwork, index: int) -> Image:
+    """A layer as a picture of its own, straight RGBA, uint8 or float32."""
+    from .artwork import flattened
+    from .pictures import as_picture
+
+    return as_picture(flattened(artwork, [replace(artwork.layers[index], blend="normal")]), alpha=True)
+
+
+def _meshed_layers(
+    artwork: Artwork, plans: Sequence[LayerPlan], spacing: float | None, across: int | None
+) -> tuple[list[LayerPlan], list[TriangleMesh], list[str]]:
+    """The layers that move, their meshes, and a sentence for each that would by its name, but gives no mesh."""
+    moving, meshes, notes = [], [], []
+    for plan in plans:
+        if not plan.moves:
+            continue
+        try:
+            mask = mask_of_layer(artwork, plan.index)
+            meshes.append(_meshed(mask, spacing, f"layer {plan.name}", None, across))
+            moving.append(plan)
+        except InvalidInputError as error:
+            if plan.asked:
+                raise
+            notes.append(f"{error}: it stands still")
+    return moving, meshes, notes
 
 
 def arranged(artwork: Artwork, move: Sequence[str] = (), still: Sequence[str] = ()) -> Artwork:

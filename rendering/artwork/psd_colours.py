@@ -49,7 +49,7 @@ def _is_srgb(profile: bytes) -> bool:
 def _converted(layer: ArtLayer, profile: bytes) -> ArtLayer:
     from PIL import Image
 
-    from ..pictures.picture_files import in_srgb
+    from ..pictures.picture_modes import in_srgb
 
     if not layer.pixels.size:
         return layer

@@ -24,7 +24,8 @@ def failure(host: Any, prompt: dict[str, Any]) -> str:
 
 
 def bodies(**changes: Any) -> dict[str, Any]:
-    usual = {"layers": ["load", 0], "move": "", "still": "", "preset": "by name", "spacing": 8.0, "elements_across": 2}
+    usual = {"layers": ["load", 0], "move": "", "still": "", "preset": "by name", "spacing": 8.0, "elements_across": 2,
+             "strands": True}  # fmt: skip
     return ours("ArtworkToBodies", **(usual | changes))
 
 
