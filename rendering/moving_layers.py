@@ -164,8 +164,9 @@ def bodies_of_layers(
         strands and made.name in OF_STRANDS and plan.index not in before
         for plan, made in zip(moving, materials, strict=True)
     ]
-    parts = parts.in_strands(split, parts.attachments)
-    bodies = parts.bodies(materials, split)
+    whole, parts = parts.meshes, parts.in_strands(split, parts.attachments)
+    slit = [mesh is not before_it for mesh, before_it in zip(parts.meshes, whole, strict=True)]
+    bodies = parts.bodies(materials, slit)
     for number, plan in enumerate(moving):
         if plan.index in before:
             kept = {name: getattr(before[plan.index], name) for name in ("mesh", "material", "strands")}

@@ -217,12 +217,18 @@ def test_layers_of_one_artwork_can_be_bodies_in_two_nodes(host: Any, file: str) 
 
 
 def test_slit_strands_and_contact_are_refused(host: Any, file: str) -> None:
-    prompt = moved_layers(file, frames=2)
+    moved = moved_layers("PhysAnimator example.psd", spacing=0.0)
+    prompt = {key: moved[key] for key in ("load", "bodies", "scene")} | {
+        "json": core("PreviewAny", source=["scene", 1])
+    }
     prompt["contact"] = ours("Contact", friction=0.0, thickness=1.0, self_contact=False)
     prompt["scene"]["inputs"]["contact"] = ["contact", 0]
     assert "switch strands off in Artwork to Bodies" in failure(host, prompt)
     prompt["bodies"]["inputs"]["strands"] = False
-    assert len(pictures(host, host.run(prompt), "seen")) == 2
+    assert '"contact"' in host.run(prompt)["json"]["text"][0]
+    whole = moved_layers(file, frames=2) | {"contact": prompt["contact"]}
+    whole["scene"]["inputs"]["contact"] = ["contact", 0]
+    assert len(pictures(host, host.run(whole), "seen")) == 2, "hair without lines stays whole"
 
 
 @pytest.mark.parametrize(
