@@ -66,6 +66,12 @@ class ArtworkToBodies(io.ComfyNode):
                     max=20,
                     tooltip="How many triangles thin strands get across, where the spacing alone would give fewer.",
                 ),
+                io.Boolean.Input(
+                    "strands",
+                    default=True,
+                    tooltip="Slit hair and ribbons along the lines that are drawn between their strands, so that these"
+                    " swing apart. Switch it off where the scene has Contact.",
+                ),
                 BodiesWire.Input(
                     "bodies",
                     optional=True,
@@ -89,6 +95,7 @@ class ArtworkToBodies(io.ComfyNode):
         preset: str,
         spacing: float,
         elements_across: int,
+        strands: bool,
         bodies: tuple[MaskedBody, ...] = (),
         material: PhysicalMaterial | None = None,
     ) -> io.NodeOutput:
@@ -102,15 +109,18 @@ class ArtworkToBodies(io.ComfyNode):
             material=material or (None if preset == _BY_NAME else preset),
             spacing=spacing or None,
             elements_across=elements_across,
+            strands=strands,
             before=bodies_before(artwork, [(item.source, item.body) for item in bodies]),
         )
         chain = tuple(
-            MaskedBody(body, mask, source=source)
-            for body, mask, source in zip(made.bodies, made.parts.masks, made.sources, strict=True)
+            MaskedBody(body, mask, attach, source)
+            for body, mask, attach, source in zip(
+                made.bodies, made.parts.masks, made.parts.attachments, made.sources, strict=True
+            )
         )
         report = told_layers(made.plans)
         left_out = [f"{plan.name}: {plan.why}." for plan in made.plans if plan.why.startswith("left out")]
-        told = all_told(told, tell_user(cls, left_out))
+        told = all_told(told, tell_user(cls, [*left_out, *made.parts.notes]))
         return io.NodeOutput(chain, batch_of_pictures([made.parts.image], 1), report, ui={"text": [report], **told})
 
 

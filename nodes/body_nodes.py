@@ -20,7 +20,7 @@ __all__ = ["Body", "Material"]
 
 _CUSTOM = "custom"
 _ELASTIC = ("youngs_modulus", "poisson_ratio", "density")
-_OPTIONAL = ("stretch_limit", "wind_response")
+_OPTIONAL = ("stretch_limit", "wind_response", "root_stiffness")
 _TITLES = {"youngs_modulus": "Young's modulus", "poisson_ratio": "Poisson's ratio"}
 
 

@@ -87,7 +87,7 @@ def edited_layers(
     Raises:
         InvalidInputError: nothing moves, or bodies and layers do not belong together.
     """
-    from ..rendering.layer_bodies import bodies_of_moving
+    from ..rendering.layer_bodies import bodies_of_document, bodies_of_moving
     from ..rendering.layers_of_scenes import planned_layers
     from ..rendering.moving_layers import LayerSource, moving_layers_of
     from ..rendering.parts import arranged
@@ -110,7 +110,10 @@ def edited_layers(
         )
     if {plan.index for plan in moving} == known.keys():
         return EditedLayers(shown, bodies, before, plans)
-    made = bodies_of_moving(shown, moving, {index: (item.body, item.mask) for index, item in known.items()})
+    if known:
+        made = bodies_of_moving(shown, moving, {index: (item.body, item.mask) for index, item in known.items()})
+    else:
+        made = bodies_of_document(shown, document)
     chain = tuple(MaskedBody(body, mask, source=LayerSource(shown, index)) for index, (body, mask) in made.items())
     # What would move by its name, but gives no mesh, stands still.
     gone = {plan.index for plan in moving} - made.keys()

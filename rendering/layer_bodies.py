@@ -4,28 +4,54 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError
+from ..physics.document import bodies_named
+from ..physics.errors import InvalidInputError, require
 from ..physics.material import preset
 from ..physics.mesh import mesh_from_mask
 from ..physics.scene import Body
 from .composite import hidden_by, mask_of_layer
 from .layers_of_scenes import SCENE_SAYS
-from .parts import about
+from .parts import OF_STRANDS, about, parts_of_artwork
 
 if TYPE_CHECKING:
     from .artwork import Artwork, LayerPlan
 
-__all__ = ["bodies_of_moving"]
+__all__ = ["bodies_of_document", "bodies_of_moving"]
+
+LayerBody = tuple[Body, NDArray[np.float32]]
+
+
+def bodies_of_document(artwork: Artwork, document: Mapping[str, Any]) -> dict[int, LayerBody]:
+    """The layers that move by a scene document and by their names, as bodies with their masks, by their index.
+
+    Hair and ribbons are slit between the strands that are drawn on them, as in ``animate``.
+
+    Args:
+        artwork: the layers.
+        document: a checked scene document.
+
+    Raises:
+        InvalidInputError: none moves, or one that the document names gives no mesh.
+    """
+    parts = parts_of_artwork(artwork, document=document)
+    wanted = [name for name in bodies_named(document) if name in artwork.names and name not in parts.names]
+    for note in parts.notes:
+        require("layer", note, not any(f"layer {name}:" in note for name in wanted), "one that gives a mesh")
+    materials = [preset(each or "hair") for each in parts.presets]
+    whole, parts = parts.meshes, parts.in_strands([each.name in OF_STRANDS for each in materials], parts.attachments)
+    slit = [mesh is not before for mesh, before in zip(parts.meshes, whole, strict=True)]
+    bodies = zip(parts.names, parts.bodies(materials, slit), parts.masks, strict=True)
+    return {artwork.names.index(name): (body, mask) for name, body, mask in bodies}
 
 
 def bodies_of_moving(
-    artwork: Artwork, plans: Sequence[LayerPlan], known: Mapping[int, tuple[Body, NDArray[np.float32]]]
-) -> dict[int, tuple[Body, NDArray[np.float32]]]:
+    artwork: Artwork, plans: Sequence[LayerPlan], known: Mapping[int, LayerBody]
+) -> dict[int, LayerBody]:
     """The layers that move as bodies with their masks, by their index, from back to front.
 
     Layers that are bodies already stay what they are. One that moves by its name alone, but gives no mesh, is left out.
@@ -52,7 +78,7 @@ def bodies_of_moving(
     return made
 
 
-def _body(artwork: Artwork, plan: LayerPlan) -> tuple[Body, NDArray[np.float32]]:
+def _body(artwork: Artwork, plan: LayerPlan) -> LayerBody:
     mask = mask_of_layer(artwork, plan.index)
     with about(f"layer {plan.name}"):
         mesh = mesh_from_mask(mask)

@@ -14,7 +14,7 @@ from ..physics.material import Material, preset
 from ..physics.motion import Motion
 from ..physics.scene import Body
 from .composite import LayeredRenderer
-from .parts import Parts, arranged, parts_of_artwork, picture_of
+from .parts import OF_STRANDS, Parts, arranged, parts_of_artwork, picture_of
 
 if TYPE_CHECKING:
     from .artwork import Artwork, LayerPlan
@@ -131,6 +131,7 @@ def bodies_of_layers(
     material: Material | str | None = None,
     spacing: float | None = None,
     elements_across: int | None = None,
+    strands: bool = True,
     before: Mapping[int, Body] | None = None,
 ) -> LayerBodies:
     """The layers that move as bodies.
@@ -142,6 +143,7 @@ def bodies_of_layers(
         material: of all that move, or the name of its preset, instead of what suits each; ``NAME=PRESET`` stands above.
         spacing: distance of the meshes' vertices [px]; None chooses it.
         elements_across: triangles across thin strands; None for the usual number.
+        strands: slit hair and ribbons along the lines that are drawn between their strands, so that these swing apart.
         before: bodies that layers of this artwork are already, by the layers' index.
 
     Raises:
@@ -156,13 +158,19 @@ def bodies_of_layers(
     move = [*(names[index] for index in before), *move]
     plans = moving_layers(artwork, move, still)
     parts = parts_of_artwork(artwork, move=move, still=still, spacing=spacing, elements_across=elements_across)
-    moving = [plan for plan in plans if plan.moves]
+    moving = [plan for plan in plans if plan.moves and plan.name in parts.names]
     materials = [_material(plan, None if plan.index in with_preset else material) for plan in moving]
-    bodies = [replace(body, cover=cover) for body, cover in zip(parts.bodies(materials), parts.covers, strict=True)]
+    split = [
+        strands and made.name in OF_STRANDS and plan.index not in before
+        for plan, made in zip(moving, materials, strict=True)
+    ]
+    whole, parts = parts.meshes, parts.in_strands(split, parts.attachments)
+    slit = [mesh is not before_it for mesh, before_it in zip(parts.meshes, whole, strict=True)]
+    bodies = parts.bodies(materials, slit)
     for number, plan in enumerate(moving):
         if plan.index in before:
-            earlier = before[plan.index]
-            bodies[number] = replace(bodies[number], mesh=earlier.mesh, material=earlier.material)
+            kept = {name: getattr(before[plan.index], name) for name in ("mesh", "material", "strands")}
+            bodies[number] = replace(bodies[number], **kept)
     shown = arranged(artwork, move, still)
     return LayerBodies(parts, tuple(bodies), tuple(LayerSource(shown, plan.index) for plan in moving), plans)
 
@@ -207,7 +215,7 @@ def _asked(artwork: Artwork, move: Sequence[str]) -> list[LayerPlan]:
     """The layers that somebody named."""
     from .artwork import moving_layers
 
-    return [plan for plan in moving_layers(artwork, move) if plan.moves and plan.why == "asked for"]
+    return [plan for plan in moving_layers(artwork, move) if plan.moves and plan.asked]
 
 
 def _material(plan: LayerPlan, chosen: Material | str | None) -> Material:

@@ -13,19 +13,42 @@ from numpy.typing import NDArray
 
 from ..physics.document import LayerMasks
 from ..physics.errors import InvalidInputError
+from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
-from ..physics.scene import Body, Scene
-from .composite import LayeredRenderer, PixelArtRenderer, behind_still, hidden_by, mask_of_layer, renderer_of
+from ..physics.scene import Attachment, Body, Scene
+from .composite import (
+    LayeredRenderer,
+    PixelArtRenderer,
+    behind_still,
+    hidden_by,
+    mask_of_layer,
+    renderer_of,
+    resting_on,
+)
+from .layer_roots import attachment_of_layer, resting_on_held
 from .matting import part_mesh
 
 if TYPE_CHECKING:
     from .artwork import Artwork, LayerPlan
 
-__all__ = ["Parts", "about", "arranged", "coverage", "coverages", "parts_of_artwork", "parts_of_picture", "picture_of"]
+__all__ = [
+    "OF_STRANDS",
+    "Parts",
+    "about",
+    "arranged",
+    "coverage",
+    "coverages",
+    "parts_of_artwork",
+    "parts_of_picture",
+    "picture_of",
+]
 
 Image = NDArray[Any]
 Mask = NDArray[Any]
+
+OF_STRANDS = ("hair", "ribbon")
+"""Materials of what is drawn in strands."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +62,8 @@ class Parts:
         names: of the parts; empty for those that have none.
         presets: name of the material that suits each; None where nothing says so.
         covers: where something that stands still is in front of each, bool, shape [h, w]; None for nowhere.
+        rests: where something that stands still is behind each, the backdrop apart, as ``covers``.
+        attachments: where each is held in an automatic scene.
         renderer: makes what draws a motion of the parts.
         own: each part alone, straight RGBA, shape [h, w, 4] each; empty where only masks are known.
         still: names of layers that stand still by somebody's word.
@@ -52,6 +77,8 @@ class Parts:
     names: tuple[str, ...]
     presets: tuple[str | None, ...]
     covers: tuple[NDArray[np.bool_] | None, ...]
+    rests: tuple[NDArray[np.bool_] | None, ...]
+    attachments: tuple[Attachment, ...]
     renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
     own: tuple[Image, ...] = ()
     still: tuple[str, ...] = ()
@@ -65,10 +92,28 @@ class Parts:
         bodies = zip(scene.bodies, self.covers, strict=True)
         return replace(scene, bodies=tuple(replace(body, cover=cover) for body, cover in bodies))
 
-    def bodies(self, materials: Sequence[Any]) -> list[Body]:
-        """The parts as bodies of these materials, each in front of the one before."""
-        parts = zip(self.meshes, materials, self.names, strict=True)
-        return [Body(mesh, made, layer, name) for layer, (mesh, made, name) in enumerate(parts)]
+    def bodies(self, materials: Sequence[Material], strands: Sequence[bool]) -> list[Body]:
+        """The parts as bodies of these materials, each in front of the one before, in strands or not."""
+        parts = zip(self.meshes, materials, self.names, strands, self.covers, self.rests, strict=True)
+        return [Body(*(mesh, made, layer, *rest)) for layer, (mesh, made, *rest) in enumerate(parts)]
+
+    def in_strands(self, chosen: Sequence[bool], attachments: Sequence[Attachment]) -> Parts:
+        """The parts with those chosen slit between the strands that are drawn on them.
+
+        Args:
+            chosen: whether each is.
+            attachments: where each is held.
+        """
+        if not any(chosen):
+            return self
+        from .strands import split_into_strands
+
+        meshes = list(self.meshes)
+        for number, body in enumerate(self.bodies([preset("hair")] * len(meshes), chosen)):
+            if chosen[number]:
+                shown = self.own[number] if self.own else self.image
+                meshes[number] = split_into_strands(shown, body, attach=attachments[number])
+        return replace(self, meshes=tuple(meshes))
 
 
 def parts_of_picture(
@@ -106,7 +151,8 @@ def parts_of_picture(
     seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
     meshes = tuple(_meshed(mask, spacing, name, seen) for mask, name in zip(masks, names, strict=True))
     count = len(masks)
-    return Parts(image, tuple(masks), meshes, ("",) * count, (None,) * count, (cover,) * count, renderer)
+    nothing, guessed = (None,) * count, tuple[Attachment, ...](["auto"] * count)
+    return Parts(image, tuple(masks), meshes, ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer)
 
 
 def parts_of_artwork(
@@ -146,10 +192,12 @@ def parts_of_artwork(
         )
     image = picture_of(artwork)
     indices = [plan.index for plan in plans]
-    masks, covers = [], []
+    masks, covers, rests = [], [], []
     for index in indices:
         masks.append(mask_of_layer(artwork, index))
         covers.append(hidden_by(artwork, index, moving=indices))
+        rests.append(resting_on(artwork, index, moving=indices))
+    attachments = tuple(attachment_of_layer(plan) for plan in plans)
     return Parts(
         image,
         tuple(masks),
@@ -157,6 +205,8 @@ def parts_of_artwork(
         tuple(plan.name for plan in plans),
         tuple(plan.preset for plan in plans),
         tuple(covers),
+        resting_on_held(rests, masks, meshed, covers, attachments),
+        attachments,
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
         tuple(_alone(artwork, index) for index in indices),
         tuple(plan.name for plan in planned if not plan.moves and (plan.asked or plan.why == SCENE_SAYS)),
@@ -182,7 +232,8 @@ def _meshed_layers(
         if not plan.moves:
             continue
         try:
-            meshes.append(_meshed(mask_of_layer(artwork, plan.index), spacing, f"layer {plan.name}", None, across))
+            mask = mask_of_layer(artwork, plan.index)
+            meshes.append(_meshed(mask, spacing, f"layer {plan.name}", None, across))
             moving.append(plan)
         except InvalidInputError as error:
             if plan.asked:

@@ -24,7 +24,7 @@ from ..physics.scene import Attachment, Body, Collider, Contact, Scene, automati
 from ..physics.simulation import loop_frames, simulate
 from .animation import Animation, StageProgress, timed
 from .options import DEFAULT_FRAME_RATE, DEFAULT_FRAMES, AutomaticWind, LayerChoice, Timing, Touching, Watch
-from .parts import about, coverage, coverages, parts_of_artwork, parts_of_picture
+from .parts import OF_STRANDS, about, coverage, coverages, parts_of_artwork, parts_of_picture
 from .pictures import as_picture, over
 
 if TYPE_CHECKING:
@@ -57,6 +57,7 @@ def animate(
     in_front: Mask | None = None,
     layers: LayerChoice = _BY_THEIR_NAMES,
     pixel_art: bool = False,
+    strands: bool | None = None,
     max_minutes: float = DEFAULT_MINUTES,
     watch: Watch = _NOBODY,
 ) -> Animation:
@@ -86,6 +87,9 @@ def animate(
             ``masks`` may have; the parts go on behind it.
         layers: which layers of an artwork move.
         pixel_art: move whole pixels, or the blocks that an enlarged picture shows for them, and mix no colours.
+        strands: whether parts are slit along the lines that are drawn between their strands, so that these swing apart;
+            when None, hair and ribbon are where there is no scene, and otherwise what the scene says is. Nothing is in
+            pixel art, nor where parts touch.
         max_minutes: minutes that the simulation may take, by the estimate for one core of an ordinary machine; what
             would take longer is refused before it begins.
         watch: who hears of the work while it is done.
@@ -134,12 +138,18 @@ def animate(
     if watch.on_note is not None:
         for note in parts.notes:
             watch.on_note(note)
+    bars_strands = "pixel_art" if pixel_art else "contact" if touching.contact or _has_contact(scene) else ""
     with timed(seconds, "scene"):
         if scene is None:
             suiting = [each or "hair" for each in parts.presets]
             materials = materials_of(preset or suiting, sway, len(parts.meshes))
-            whole = _automatic(parts.bodies(materials), wind, timing, attach=attach, sway_by_size=sway is None)
+            sides = parts.attachments if attach == "auto" else (attach,) * len(parts.meshes)
+            split = _split(strands, [each.name in OF_STRANDS for each in materials], bars_strands)
+            parts = parts.in_strands(split, sides)
+            whole = _automatic(parts.bodies(materials, split), wind, timing, attach=sides, sway_by_size=sway is None)
         else:
+            split = _split(strands, _split_by(scene, len(parts.meshes)), bars_strands)
+            parts = parts.in_strands(split, parts.attachments)
             given = list(parts.meshes)
             whole = given_scene(
                 scene,
@@ -164,8 +174,40 @@ def animate(
     return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds, parts.own)
 
 
+def _split(asked: bool | None, suiting: list[bool], barring: str) -> list[bool]:
+    """Which parts are slit: as asked, or else those that it suits; none with what bars it.
+
+    The sides of a slit lie on each other, which contact would drive apart, and go through blocks of pixel art.
+    """
+    if asked and barring:
+        raise InvalidInputError(f"strands must be left out, or off, with {barring}. Got: both")
+    if barring:
+        return [False] * len(suiting)
+    return suiting if asked is None else [asked] * len(suiting)
+
+
+def _has_contact(scene: Scene | Mapping[str, Any] | None) -> bool:
+    if scene is None or isinstance(scene, Scene):
+        return scene is not None and scene.contact is not None
+    return scene.get("contact") is not None
+
+
+def _split_by(scene: Scene | Mapping[str, Any], count: int) -> list[bool]:
+    """Which parts a scene, or a checked document, wants slit between their strands."""
+    if isinstance(scene, Scene):
+        said = [body.strands for body in scene.bodies]
+    else:
+        said = [bool(body.get("strands")) for body in scene.get("bodies", [])]
+    return [*said, *[False] * count][:count]
+
+
 def _automatic(
-    bodies: Sequence[Body], wind: AutomaticWind, timing: Timing, *, attach: Attachment, sway_by_size: bool
+    bodies: Sequence[Body],
+    wind: AutomaticWind,
+    timing: Timing,
+    *,
+    attach: Attachment | Sequence[Attachment],
+    sway_by_size: bool,
 ) -> Scene:
     """The scene where none is given."""
     return automatic_scene(

@@ -141,6 +141,7 @@ _KEYS = [
     "density_scale",
     "damping_scale",
     "wind_response",
+    "root_stiffness",
     "layer",
     "mesh",
     "vertices",

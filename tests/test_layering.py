@@ -67,8 +67,8 @@ MAY_IMPORT = {
     "rendering/segmentation": "physics physics/document physics/scene rendering/pictures rendering/sketch",
     "rendering/sketch/drawings": "physics rendering/networks rendering/pictures rendering/sketch",
     "rendering": (
-        "physics physics/assembly physics/document physics/material physics/mesh physics/motion physics/scene "
-        "physics/simulation rendering/artwork rendering/composite rendering/files rendering/inbetweens "
+        "physics physics/assembly physics/document physics/material physics/mesh physics/motion physics/rig "
+        "physics/scene physics/simulation rendering/artwork rendering/composite rendering/files rendering/inbetweens "
         "rendering/matting rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
     ),
     "rendering/segmentation/sam": (

@@ -36,7 +36,7 @@ def place_of(name: str) -> Path:
     if place == root or root not in place.parents:
         raise InvalidInputError(f"file must be a layered file in the host's input folder. Got: {name[:60]!r}")
     if not place.exists():
-        raise InvalidInputError(f"there must be a layered file of that name in the input folder. Got: {name[:60]!r}")
+        raise InvalidInputError(f"file must be one of the layered files in the input folder. Got: {name[:60]!r}")
     return place
 
 

@@ -25,6 +25,7 @@ from ..mesh import TriangleMesh
 from ..scene import Body
 from ..solver import SAFETY, TICK, frequency_limits, vertex_frequencies
 from .joints import free_system, joint_factors
+from .roots import root_factors
 
 __all__ = ["SWAY_SUBSTEPS", "SwayPart", "first_frequency", "resolve_stiffness"]
 
@@ -78,7 +79,7 @@ def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> t
 
     The frequency is that of the body's longest part; shorter ones sway faster, as pendulums do, in proportion to
     1 / sqrt(length). Parts of which nothing is held, or everything, keep the material's own Young's modulus. Where a
-    part sways, narrow joints are stiffened first; see :mod:`.joints`.
+    part sways, narrow joints are stiffened first; see :mod:`.joints`. Roots are stiffer than tips as the material says.
 
     Args:
         body: the body.
@@ -92,6 +93,7 @@ def resolve_stiffness(body: Body, held: NDArray[np.bool_], number: int = 0) -> t
     modulus = np.full(len(mesh.triangles), float(material.youngs_modulus))
     if material.stiffness_scale is not None:
         modulus *= material.stiffness_scale
+    modulus *= root_factors(mesh, held, material.root_stiffness)
     report: list[SwayPart] = []
     if material.sway_frequency is None:
         return modulus, report

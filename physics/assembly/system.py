@@ -189,7 +189,8 @@ def _require_bearable(body: Body, number: int) -> None:
     """Refuse values with whose squares and ratios the step cannot be computed."""
     material, mesh = body.material, body.mesh
     scale = material.stiffness_scale
-    stiffness = material.youngs_modulus * (np.ones(1) if scale is None else scale)
+    scale = np.ones(1) if scale is None else scale
+    stiffness = material.youngs_modulus * np.array([scale.min(), scale.max() * material.root_stiffness])
     altitudes = 2 * mesh.areas / _longest_edges(mesh) / mesh.longest_side
     for name, values, (low, high) in (
         ("youngs_modulus", stiffness, _STIFFNESS),

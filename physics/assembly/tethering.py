@@ -7,19 +7,13 @@ ones would need many small steps; a thread of fixed length costs nothing and doe
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ..material import RestShape
-
-if TYPE_CHECKING:
-    from scipy.sparse import csr_array
+from ..mesh import ways_along
 
 __all__ = ["tethers"]
-
-IndexArray = NDArray[np.int32]
 
 _STRAIGHT = 1.06
 """A way along edges that is at most so many times as long as the straight line may stand for the line itself."""
@@ -45,7 +39,7 @@ def tethers(
     from scipy.sparse.csgraph import dijkstra
 
     ways, _, sources = dijkstra(
-        _ways(drawn, wanted),
+        ways_along(drawn.positions, drawn.triangles[wanted[drawn.triangles[:, 0]]]),
         directed=False,
         indices=np.flatnonzero(wanted & held),
         min_only=True,
@@ -56,27 +50,3 @@ def tethers(
     straight = np.linalg.norm(drawn.positions[found] - drawn.positions[anchors[found]], axis=1)
     lengths[found] = limits[found] * np.where(ways[found] <= _STRAIGHT * straight, straight, ways[found])
     return anchors, lengths
-
-
-def _ways(drawn: RestShape, wanted: NDArray[np.bool_]) -> csr_array:
-    """Lengths of all edges, and of the lines between the corners opposite each edge where these stay inside, [v, v]."""
-    from scipy.sparse import coo_array
-
-    triangles = drawn.triangles[wanted[drawn.triangles[:, 0]]]
-    edges = np.concatenate([triangles[:, [1, 2]], triangles[:, [2, 0]], triangles[:, [0, 1]]])
-    order = np.lexsort(np.sort(edges, axis=1).T)
-    ends, corners = np.sort(edges, axis=1)[order], triangles.T.ravel()[order]
-    shared = np.flatnonzero((ends[1:] == ends[:-1]).all(axis=1))
-    a, b, c, d = ends[shared, 0], ends[shared, 1], corners[shared], corners[shared + 1]
-    inside = _sides(drawn, c, d, a) * _sides(drawn, c, d, b) < 0
-    pairs = np.concatenate([ends, np.column_stack([c, d])[inside]])
-    pairs = np.unique(np.sort(pairs, axis=1), axis=0)
-    lengths = np.linalg.norm(np.diff(drawn.positions[pairs], axis=1)[:, 0], axis=1)
-    size = len(drawn.positions)
-    return coo_array((lengths, pairs.T), shape=(size, size)).tocsr()
-
-
-def _sides(drawn: RestShape, start: IndexArray, end: IndexArray, points: IndexArray) -> NDArray[np.float64]:
-    """Positive for points on one side of the lines from start to end and negative on the other."""
-    along, offset = drawn.positions[end] - drawn.positions[start], drawn.positions[points] - drawn.positions[start]
-    return along[:, 0] * offset[:, 1] - along[:, 1] * offset[:, 0]

@@ -24,8 +24,8 @@ def arranged_for(document: Mapping[str, Any], names: Sequence[str]) -> tuple[Map
     """A checked document whose bodies stand in the order of the parts, and the names that no part has.
 
     A body with a name goes to the part of that name. Bodies without a name, later ones of a name, and all of them where
-    parts have none, go in order to the parts that are left. What speaks of a body by number follows it; what speaks of a body that no part
-    is, is left out. Parts that the document does not know get an entry without values.
+    parts have none, go in order to the parts that are left. What speaks of a body by number follows it; what speaks of
+    a body that no part is, is left out. Parts that the document does not know get an entry without values.
 
     Args:
         document: as ``check_document`` lets it pass.

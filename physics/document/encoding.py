@@ -112,7 +112,9 @@ def encode(value: Any) -> Any:
 
 
 def _encode_body(body: Body, *, mesh: bool) -> dict[str, Any]:
-    encoded = {"name": body.name, "layer": int(body.layer), "material": encode(body.material)}
+    encoded: dict[str, Any] = {"name": body.name, "layer": int(body.layer), "material": encode(body.material)}
+    if body.strands:
+        encoded["strands"] = True
     if mesh:
         encoded["mesh"] = {"vertices": body.mesh.vertices.tolist(), "triangles": body.mesh.triangles.tolist()}
     return encoded

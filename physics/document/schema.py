@@ -105,6 +105,7 @@ def _body() -> dict[str, Schema]:
     return {
         "name": own["name"],
         "layer": own["layer"],
+        "strands": own["strands"],
         "material": {"$ref": "#/$defs/material"},
         "mesh": {"$ref": "#/$defs/mesh"},
     }

@@ -160,6 +160,23 @@ class Material:
             step=0.1,
         ),
     ] = 1.0
+    root_stiffness: Annotated[
+        float,
+        Field(
+            "Root stiffness",
+            "How many times as stiff the body is where it is held as at its farthest tip, measured along the shape;"
+            " Young's modulus is that of the tip. 1 bends alike everywhere, more keeps hair on its head and lets its"
+            " tips swing. A set sway_frequency stays.",
+            minimum=1,
+            maximum=1000,
+        ),
+        Input(
+            "How many times as stiff it is where it is held as at its tip [1]: 1 bends alike everywhere, 20 keeps the"
+            " root still and lets the tip swing.",
+            high=1000.0,
+            step=1.0,
+        ),
+    ] = 1.0
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -177,13 +194,31 @@ class Material:
 
 PRESETS: dict[str, Material] = {
     "hair": Material(
-        youngs_modulus=400.0, damping=1.0, sway_frequency=0.7, stretch_limit=1.06, wind_response=0.6, name="hair"
+        youngs_modulus=400.0,
+        damping=1.0,
+        sway_frequency=0.7,
+        stretch_limit=1.06,
+        wind_response=0.6,
+        root_stiffness=30.0,
+        name="hair",
     ),
     "ribbon": Material(
-        youngs_modulus=250.0, damping=1.4, sway_frequency=2.1, stretch_limit=1.06, wind_response=4.5, name="ribbon"
+        youngs_modulus=250.0,
+        damping=1.4,
+        sway_frequency=2.1,
+        stretch_limit=1.06,
+        wind_response=4.5,
+        root_stiffness=10.0,
+        name="ribbon",
     ),
     "cloth": Material(
-        youngs_modulus=300.0, damping=4.0, sway_frequency=0.6, stretch_limit=1.06, wind_response=0.5, name="cloth"
+        youngs_modulus=300.0,
+        damping=4.0,
+        sway_frequency=0.6,
+        stretch_limit=1.06,
+        wind_response=0.5,
+        root_stiffness=10.0,
+        name="cloth",
     ),
     "leaf": Material(youngs_modulus=900.0, damping=2.5, sway_frequency=2.8, wind_response=1.5, name="leaf"),
     "jelly": Material(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .boundary import boundary_edges
 from .contours import area_of, contours_at_half, resampled
+from .cutting import cut_along
 from .masks import coverage_of, fitted, may_be_inverted, refuse_noise
 from .meshing import mesh_from_mask
 from .outline_distances import signed_distances, within_reach
@@ -11,6 +12,7 @@ from .pixel_box import PixelBox, bounding_box
 from .raster import barycentric, interpolate, rasterise, triangle_ids
 from .run_lengths import mask_of, runs_of
 from .triangle_mesh import UNITS_ACROSS, TriangleMesh
+from .ways import ways_along, ways_from
 
 __all__ = [
     "UNITS_ACROSS",
@@ -22,6 +24,7 @@ __all__ = [
     "bounding_box",
     "contours_at_half",
     "coverage_of",
+    "cut_along",
     "fitted",
     "interpolate",
     "mask_of",
@@ -33,5 +36,7 @@ __all__ = [
     "runs_of",
     "signed_distances",
     "triangle_ids",
+    "ways_along",
+    "ways_from",
     "within_reach",
 ]

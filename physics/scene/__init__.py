@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from .advising import absent_bodies, advice, mask_advice, unused_rig_points
-from .automatic import ATTACHMENTS, Attachment, automatic_scene
+from .attachment import ATTACHMENTS, Attachment, pins
+from .automatic import automatic_scene
 from .collider_outlines import (
     LEAST_SPACING,
     MAX_OUTLINE_CROSSINGS,
@@ -43,6 +44,7 @@ __all__ = [
     "holds_of",
     "mask_advice",
     "outlines",
+    "pins",
     "region_work",
     "spacing_of",
     "unused_rig_points",

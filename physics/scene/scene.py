@@ -97,15 +97,27 @@ class Body:
         Input("A higher layer covers a lower one; of equal layers, the later one in the chain does.", -99, 99),
     ] = 0
     name: Annotated[str, Field("Name", 'For people, such as "left sleeve".')] = ""
+    strands: Annotated[
+        bool,
+        Field(
+            "Strands",
+            "Whether a mesh that is made of the illustration is slit along the lines that are drawn between its"
+            " strands, so that they swing apart. Meshes that are given stay as they are.",
+        ),
+    ] = False
     cover: NDArray[np.bool_] | None = None
     """Where something that stands still is in front of it, shape [h, w] of the picture; None for nowhere."""
+    rests_on: NDArray[np.bool_] | None = None
+    """Where something that stands still is behind it, the backdrop apart, shape [h, w]; None where nothing says so."""
 
     def __post_init__(self) -> None:
         check_fields(self)
-        if self.cover is not None:
-            size = self.mesh.height, self.mesh.width
-            fits = self.cover.dtype == bool and self.cover.shape == size
-            require("cover", f"{self.cover.dtype} of shape {self.cover.shape}", fits, f"bool of shape {size}")
+        size = self.mesh.height, self.mesh.width
+        for name in ("cover", "rests_on"):
+            mask = getattr(self, name)
+            if mask is not None:
+                fits = mask.dtype == bool and mask.shape == size
+                require(name, f"{mask.dtype} of shape {mask.shape}", fits, f"bool of shape {size}")
         for name in SCALES:
             scale = getattr(self.material, name)
             if scale is not None and len(scale) != len(self.mesh.triangles):

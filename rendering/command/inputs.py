@@ -121,6 +121,7 @@ def read_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
         "preset": options.preset,
         "sway": options.sway,
         "spacing": options.spacing,
+        "strands": options.strands,
         "touching": Touching(
             _contact(options, scene), [_collider(path, image, width, height) for path in options.collider]
         ),

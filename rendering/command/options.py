@@ -190,6 +190,12 @@ def _add_direction(parser: argparse.ArgumentParser) -> None:
         help="mask of what stands still and parts keep out of, read as --mask is; of layered artwork also the name of a"
         " layer that stands still; implies --contact",
     )
+    how.add_argument(
+        "--strands",
+        action=argparse.BooleanOptionalAction,
+        help="slit parts along the lines that are drawn between their strands, so that these swing apart (default: hair"
+        " and ribbon; with --scene, as it says)",
+    )
     how.add_argument("--spacing", metavar="PX", type=float, help="distance of mesh vertices (default: from the mask)")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .apron import ApronedMesh, canvas_of
-from .artwork_layers import hidden_by, mask_of_layer
+from .artwork_layers import hidden_by, mask_of_layer, resting_on
 from .background import Background, background_of, renderer_of, shown_frame, shown_frame_and_alpha, usual_background
 from .beyond_border import on_canvas
 from .cutting import Layer
@@ -30,6 +30,7 @@ __all__ = [
     "on_canvas",
     "pixel_art_hint",
     "renderer_of",
+    "resting_on",
     "shown_frame",
     "shown_frame_and_alpha",
     "sprite_plate",

@@ -21,12 +21,13 @@ from .cutting import Layer, covered_by
 from .laying import lay_over
 from .still_layers import StillLayer, still_layer
 
-__all__ = ["bent", "hidden_by", "layers_of", "mask_of_layer", "texture_over"]
+__all__ = ["bent", "hidden_by", "layers_of", "mask_of_layer", "resting_on", "texture_over"]
 
 FloatImage = NDArray[np.float32]
 
 _OPAQUE = 1 - 0.5 / 255
 _HALF = 0.5
+_BACKDROP = 0.8  # a layer that fills this share of the canvas is what all stands before
 
 
 def layers_of(
@@ -125,6 +126,23 @@ def hidden_by(artwork: Artwork, index: int, *, moving: Collection[int]) -> NDArr
         if number not in moving and layer.visible and layer.blend == "normal" and layer.opacity >= _HALF:
             cover |= _alpha(artwork, number) * np.float32(layer.opacity) >= _HALF
     return cover if cover.any() else None
+
+
+def resting_on(artwork: Artwork, index: int, *, moving: Collection[int]) -> NDArray[np.bool_] | None:
+    """Where layers that stand still are behind a layer, backdrops apart, shape [h, w]; None for nowhere.
+
+    Args:
+        artwork: the layers.
+        index: of the layer in front.
+        moving: indices of all layers that move.
+    """
+    behind = np.zeros((artwork.height, artwork.width), dtype=bool)
+    for number in range(index):
+        layer = artwork.layers[number]
+        if number not in moving and layer.visible and layer.blend == "normal" and layer.opacity >= _HALF:
+            shape = _alpha(artwork, number) >= _HALF
+            behind |= shape & (shape.mean() < _BACKDROP)
+    return behind if behind.any() else None
 
 
 def _alpha(artwork: Artwork, index: int) -> FloatImage:

@@ -22,6 +22,7 @@ from ..matting import fitting_plate, in_levels, mixed_rim, regular_mask, soft_al
 from ..plate import fill_hole, spread_colours
 from .apron import ApronedMesh, canvas_of, usual_reach
 from .beyond_border import on_canvas
+from .slit_edges import slit_vertices, soften_slits
 from .still_layers import StillLayer, still_layer
 
 if TYPE_CHECKING:
@@ -73,7 +74,17 @@ class Layer:
             cv2.remap(part, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
             for part in self._parts
         ]
-        return box, drawn[0] if len(drawn) == 1 else np.dstack(drawn)
+        whole = drawn[0] if len(drawn) == 1 else np.dstack(drawn)
+        if len(self._slit):
+            soften_slits(
+                whole, box, mesh=self.mesh, points=points, slit=self._slit, canvas=self.canvas, parts=self._parts
+            )
+        return box, whole
+
+    @cached_property
+    def _slit(self) -> NDArray[np.int64]:
+        """Vertices along the slits of the mesh."""
+        return slit_vertices(self.mesh)
 
     @cached_property
     def _parts(self) -> list[FloatImage]:

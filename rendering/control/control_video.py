@@ -69,8 +69,8 @@ def warped_frames(
         drawn, alpha = drawing.frame_and_alpha(t)
         frame = form.resized(as_float(over(drawn)))
         missing = cv2.dilate((drawing.uncovered_by(alpha) > 0.5).astype(np.uint8), square).astype(np.float32)
-        # Moved parts lie over the hole, however far it was grown.
-        missing *= alpha < 0.5
+        # Moved parts, and what stands still in front of them, lie over the hole, however far it was grown.
+        missing *= (alpha < 0.5) & (drawing.in_front < 0.5)
         hole = (form.resized(missing) > _HOLE).astype(np.float32)
         yield np.where(hole[..., None] > 0, np.float32(_UNKNOWN), frame), hole
 

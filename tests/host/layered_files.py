@@ -53,7 +53,8 @@ def write_ora(path: Path, layers: Sequence[tuple[str, np.ndarray]]) -> None:
 
 def moved_layers(file: str, frames: int = 5, **changes: Any) -> dict[str, Any]:
     """A file, its bodies in a strong wind, and their motion."""
-    usual = {"layers": ["load", 0], "move": "", "still": "", "preset": "by name", "spacing": 8.0, "elements_across": 2}
+    usual = {"layers": ["load", 0], "move": "", "still": "", "preset": "by name", "spacing": 8.0, "elements_across": 2,
+             "strands": True}  # fmt: skip
     return {
         "load": ours("LoadLayers", file=file),
         "bodies": ours("ArtworkToBodies", **(usual | changes)),

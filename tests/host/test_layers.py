@@ -81,7 +81,7 @@ def test_every_step_takes_layers(host: Any, file: str) -> None:
         "metrics": ours("Metrics", images=["render", 0], drawing=["bodies", 1], **motion),
         "frame": ours("FrameAsLayers", frame=-1, **motion),
         "again": ours("ArtworkToBodies", layers=["frame", 0], move="", still="", preset="by name", spacing=8.0,
-                      elements_across=2),
+                      elements_across=2, strands=True),
         "seen_frame": core("PreviewImage", images=["again", 1]),
     }  # fmt: skip
     outputs = host.run(prompt)
@@ -139,7 +139,7 @@ def test_a_changed_file_is_read_again(host: Any) -> None:
         ("/etc/passwd", "file must be a layered file in the host's input folder"),
         ("a\0b.psd", "file must be a layered file in the host's input folder"),
         ("", "file must be a layered file in the host's input folder"),
-        ("nowhere.psd", "there must be a layered file of that name in the input folder"),
+        ("nowhere.psd", "file must be one of the layered files in the input folder"),
         ("note.txt", "file must be a .psd, .psb or .ora file, or a folder of PNG files"),
     ],
 )
@@ -172,7 +172,7 @@ def test_a_batch_becomes_layers(host: Any) -> None:
         "alpha": core("MaskToImage", mask=["layers", 2]),
         "seen_alpha": core("PreviewImage", images=["alpha", 0]),
         "bodies": ours("ArtworkToBodies", layers=["layers", 0], move="", still="", preset="by name", spacing=0.0,
-                       elements_across=3),
+                       elements_across=3, strands=True),
         "report": core("PreviewAny", source=["bodies", 2]),
     }  # fmt: skip
     outputs = host.run(prompt)
@@ -204,7 +204,7 @@ def test_bodies_of_layers_and_of_masks_do_not_mix(host: Any, file: str) -> None:
 def test_layers_of_one_artwork_can_be_bodies_in_two_nodes(host: Any, file: str) -> None:
     prompt = moved_layers(file, still="前髪") | {
         "more": ours("ArtworkToBodies", layers=["load", 0], move="前髪=ribbon", still="", preset="by name", spacing=5.0,
-                     elements_across=2, bodies=["bodies", 0]),
+                     elements_across=2, strands=True, bodies=["bodies", 0]),
         "more_report": core("PreviewAny", source=["more", 2]),
     }  # fmt: skip
     prompt["scene"]["inputs"]["bodies"] = ["more", 0]
@@ -214,6 +214,21 @@ def test_layers_of_one_artwork_can_be_bodies_in_two_nodes(host: Any, file: str) 
     assert "前髪: moves as ribbon (asked for)" in outputs["more_report"]["text"][0]
     again = prompt | {"more": prompt["more"] | {"inputs": prompt["more"]["inputs"] | {"move": "後ろ髪"}}}
     assert "move must be of layers that are no bodies yet" in failure(host, again)
+
+
+def test_slit_strands_and_contact_are_refused(host: Any, file: str) -> None:
+    moved = moved_layers("PhysAnimator example.psd", spacing=0.0)
+    prompt = {key: moved[key] for key in ("load", "bodies", "scene")} | {
+        "json": core("PreviewAny", source=["scene", 1])
+    }
+    prompt["contact"] = ours("Contact", friction=0.0, thickness=1.0, self_contact=False)
+    prompt["scene"]["inputs"]["contact"] = ["contact", 0]
+    assert "switch strands off in Artwork to Bodies" in failure(host, prompt)
+    prompt["bodies"]["inputs"]["strands"] = False
+    assert '"contact"' in host.run(prompt)["json"]["text"][0]
+    whole = moved_layers(file, frames=2) | {"contact": prompt["contact"]}
+    whole["scene"]["inputs"]["contact"] = ["contact", 0]
+    assert len(pictures(host, host.run(whole), "seen")) == 2, "hair without lines stays whole"
 
 
 @pytest.mark.parametrize(

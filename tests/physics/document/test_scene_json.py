@@ -397,7 +397,7 @@ WRONG = [
     ([*BODY, "material"], {"density": -1}, "bodies[0].material.density", "must be above 0"),
     ([*BODY, "material"], {"damping": "5"}, "bodies[0].material.damping", 'must be a number. Got: "5"'),
     ([*BODY, "material"], {"sway_frequency": 0}, "bodies[0].material.sway_frequency", "at least 0.001 Hz"),
-    ([*BODY, "material"], {"stiffness": 3}, "bodies[0].material.stiffness", "did you mean 'stiffness_scale'?"),
+    ([*BODY, "material"], {"stiffness": 3}, "bodies[0].material.stiffness", "did you mean 'root_stiffness'?"),
     ([*BODY, "material"], {"stiffness_scale": [1, 2]}, "bodies[0].material.stiffness_scale", "each of the 1 triangles"),
     ([*BODY, "material"], {"stiffness_scale": [0]}, "bodies[0].material.stiffness_scale[0]", "must be above 0"),
     ([*BODY, "mesh"], {}, "bodies[0].mesh.vertices", "is missing"),

@@ -10,7 +10,7 @@ from physanimator.physics.material import preset
 from physanimator.physics.mesh import TriangleMesh
 from physanimator.physics.rig import vertices_of
 from physanimator.physics.scene import Body, automatic_scene
-from physanimator.physics.scene.automatic import attachment_of
+from physanimator.physics.scene.attachment import attachment_of
 
 
 def grid(x0: float, y0: float, x1: float, y1: float, *, columns: int = 6, rows: int = 12) -> TriangleMesh:
@@ -109,9 +109,9 @@ def test_sides_are_one_or_one_each() -> None:
 
 
 def test_smaller_bodies_sway_faster_unless_told_otherwise() -> None:
-    bodies = [body_of(grid(0, 0, 180, 240)), body_of(grid(0, 0, 45, 60))]
+    bodies = [Body(grid(0, 0, 180, 240), preset("cloth")), Body(grid(0, 0, 45, 60), preset("cloth"))]
     large, small = automatic_scene(bodies).bodies
-    usual = preset("hair").sway_frequency
+    usual = preset("cloth").sway_frequency
     # The larger one is taken for as large as a head of hair usually is, wherever it is and on whatever picture.
     assert large.material.sway_frequency == pytest.approx(usual * np.sqrt(0.3 / 0.46))
     assert small.material.sway_frequency == pytest.approx(2 * large.material.sway_frequency)
