@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.assembly import work_of_minutes
-from ..physics.document import LayerMasks, given_scene, materials_of
+from ..physics.document import LayerMasks, arranged_for, given_scene, materials_of
 from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
 from ..physics.process_end import working
@@ -148,6 +148,9 @@ def animate(
             parts = parts.in_strands(split, sides)
             whole = _automatic(parts.bodies(materials, split), wind, timing, attach=sides, sway_by_size=sway is None)
         else:
+            absent: tuple[str, ...] = ()
+            if not isinstance(scene, Scene):
+                scene, absent = arranged_for(scene, parts.names)
             split = _split(strands, _split_by(scene, len(parts.meshes)), bars_strands)
             parts = parts.in_strands(split, parts.attachments)
             given = list(parts.meshes)
@@ -160,6 +163,7 @@ def animate(
                 sway=sway,
                 frame_rate=timing.frame_rate,
             )
+            whole = replace(whole, absent=absent)
         whole = replace(whole, still=parts.still) if parts.still else whole
         whole = parts.covered(whole if timing.loop is None else replace(whole, loop=timing.loop))
         timing = _settled(timing, whole)

@@ -84,6 +84,14 @@ def test_the_written_scene_gives_the_same_frames(tmp_path: Path) -> None:
         np.testing.assert_array_equal(one, other)
 
 
+def test_strands_follow_the_layer_that_has_them() -> None:
+    made = document()
+    for body in made["bodies"]:
+        body["strands"] = body["name"] == "hair"
+    scene = animated(["paper", "ribbon", "hair", "tail"], scene=made).scene
+    assert [(body.name, body.strands) for body in scene.bodies] == [("ribbon", False), ("hair", True), ("tail", False)]
+
+
 def test_hidden_layers_stay_hidden_whatever_a_scene_says() -> None:
     hidden = replace(artwork(["paper", "hair"]), layers=(layer("paper"), layer("hair"), layer("thing", visible=False)))
     plans = planned_layers(hidden, document={"bodies": [{"name": "thing"}]})
