@@ -49,7 +49,7 @@ def bodies_of_document(artwork: Artwork, document: Mapping[str, Any]) -> dict[in
         made.name in OF_STRANDS if said.get(name) is None else said[name]
         for name, made in zip(parts.names, materials, strict=True)
     ]
-    chosen = [bool(each) and not document.get("contact") for each in suits]
+    chosen = [bool(each) and document.get("contact") is None for each in suits]
     whole, parts = parts.meshes, parts.in_strands(chosen, parts.attachments)
     slit = [mesh is not before for mesh, before in zip(parts.meshes, whole, strict=True)]
     bodies = zip(parts.names, parts.bodies(materials, slit), parts.masks, strict=True)

@@ -190,7 +190,7 @@ def test_query_points_of_a_document_cut_the_part_out(host: Any) -> None:
 
 
 def layered(document: dict[str, Any], *, bodies: bool) -> dict[str, Any]:
-    moved = {"move": "", "still": "plant", "preset": "by name", "spacing": 0.0, "elements_across": 3}
+    moved = {"move": "", "still": "plant", "preset": "by name", "spacing": 0.0, "elements_across": 3, "strands": False}
     given = {"bodies": ["bodies", 0]} if bodies else {"layers": ["load", 0]}
     return {
         "load": ours("LoadLayers", file="PhysAnimator example.psd"),
