@@ -52,7 +52,7 @@ export const STYLE = `
 .physanimator-editor .physanimator-layer button.physanimator-eye[aria-pressed] { min-width: 22px; color: var(--physanimator-text); background: transparent; }
 .physanimator-editor .physanimator-layer button.physanimator-eye[aria-pressed="false"] { opacity: 0.3; }
 .physanimator-editor .physanimator-layer button.physanimator-layer-name[aria-pressed] { flex: 1; min-width: 0; display: block; text-align: left; color: var(--physanimator-text); background: transparent; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
-.physanimator-editor .physanimator-layer select { width: 66px; height: 20px; padding: 0; appearance: auto; }
+.physanimator-editor .physanimator-layer select { width: 76px; height: 20px; padding: 0; appearance: auto; }
 .physanimator-editor .physanimator-layer select[hidden] { display: none; }
 .physanimator-layer input[type="checkbox"] { flex: none; margin: 0; }
 .physanimator-heading { margin: 2px 0 6px; font-weight: 600; }
