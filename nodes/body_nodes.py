@@ -11,6 +11,7 @@ from ..physics.material import Material as PhysicalMaterial
 from ..physics.material import preset as preset_material
 from ..physics.scene import ATTACHMENTS, Attachment
 from ..physics.scene import Body as PhysicalBody
+from ..rendering.moving_layers import moving_layers_of
 from .host import chosen
 from .host.field_inputs import input_of
 from .host.wires import BodiesWire, MaskedBody, MaskedMesh, MaterialWire, MeshWire
@@ -93,7 +94,9 @@ class Body(io.ComfyNode):
         material: PhysicalMaterial | None = None,
     ) -> io.NodeOutput:
         body = PhysicalBody(mesh.mesh, material or preset_material(preset), layer)
-        return io.NodeOutput((*bodies, MaskedBody(body, mesh.mask, attach)))
+        chain = (*bodies, MaskedBody(body, mesh.mask, attach, in_front=mesh.in_front))
+        moving_layers_of([item.source for item in chain])
+        return io.NodeOutput(chain)
 
 
 def _inputs(material: PhysicalMaterial, *names: str) -> list[io.Input]:

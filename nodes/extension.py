@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from comfy_api.latest import ComfyExtension, io
 
+from .artwork_nodes import ArtworkToBodies, FrameAsLayers
 from .body_nodes import Body, Material
 from .contact_nodes import Contact
 from .example_nodes import ExampleIllustration
 from .flow_nodes import OpticalFlow, PreviewFlow
 from .host import checked, watch_prompts
+from .layer_nodes import LayersFromImageBatch, LoadLayers, SaveLayers, SeeThroughLayers
 from .mask_nodes import MaskToMesh, SegmentByPoints
 from .metric_nodes import Metrics
 from .motion_nodes import PreviewMotion, Simulate
@@ -56,6 +58,12 @@ NODES: list[type[io.ComfyNode]] = [
     WarpedVideo,
     LineControlVideo,
     FirstAndLastFrame,
+    LoadLayers,
+    LayersFromImageBatch,
+    SeeThroughLayers,
+    ArtworkToBodies,
+    FrameAsLayers,
+    SaveLayers,
 ]
 
 

@@ -9,7 +9,7 @@ from comfy_api.latest import io
 
 from .host import announce_batch, host_progress, picture_batch, shown_with
 from .host.previews import animated
-from .host.wires import FlowWire, MaskedMotion, MotionWire
+from .host.wires import FlowOfMotion, FlowWire, MaskedMotion, MotionWire
 
 if TYPE_CHECKING:
     from ..physics.motion import FlowSequence
@@ -31,9 +31,7 @@ class OpticalFlow(io.ComfyNode):
 
     @classmethod
     def execute(cls, motion: MaskedMotion) -> io.NodeOutput:
-        from ..physics.motion import FlowSequence
-
-        return io.NodeOutput(FlowSequence(motion.motion))
+        return io.NodeOutput(FlowOfMotion(motion))
 
 
 class PreviewFlow(io.ComfyNode):
@@ -61,7 +59,7 @@ class PreviewFlow(io.ComfyNode):
         )
 
     @classmethod
-    def execute(cls, flow: FlowSequence, every: int, largest: float) -> io.NodeOutput:
+    def execute(cls, flow: FlowOfMotion, every: int, largest: float) -> io.NodeOutput:
         from ..rendering.overlays import flow_to_color
 
         shown, report = range(0, len(flow), every), host_progress()

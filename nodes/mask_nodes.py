@@ -12,6 +12,7 @@ from comfy_api.latest import io, ui
 from ..physics.document import parse_points
 from ..physics.errors import InvalidInputError, MeshingError
 from .background_inputs import image_alpha_input
+from .drawing import in_front_input, in_front_of
 from .host import (
     batch_of_masks,
     batch_of_pictures,
@@ -211,6 +212,7 @@ class MaskToMesh(io.ComfyNode):
                     optional=True,
                     tooltip="As in Render, which then moves the very pixels of the mask: so does the mesh.",
                 ),
+                in_front_input(),
             ],
             outputs=[
                 MeshWire.Output(display_name="mesh", tooltip="The triangles, with the mask that they came from."),
@@ -228,9 +230,11 @@ class MaskToMesh(io.ComfyNode):
         image: torch.Tensor | None = None,
         image_alpha: torch.Tensor | None = None,
         pixel_art: bool = False,
+        in_front: torch.Tensor | None = None,
     ) -> io.NodeOutput:
         from ..physics.mesh import fitted, mesh_from_mask
         from ..physics.scene import mask_advice
+        from ..rendering.composite import behind_still
         from ..rendering.matting import part_mesh
         from ..rendering.overlays import draw_wireframe
         from ..rendering.pictures import over
@@ -242,7 +246,10 @@ class MaskToMesh(io.ComfyNode):
             raise MeshingError(_EMPTY)
         coverage = fitted(coverage, picture.shape[1], picture.shape[0])
         told = tell_user(cls, mask_advice(coverage))
+        front = in_front_of(in_front, picture.shape[1], picture.shape[0])
+        if front is not None:
+            coverage = behind_still(coverage, front > 0.5)
         meshed = partial(part_mesh, picture) if given and not pixel_art else mesh_from_mask
         mesh = meshed(coverage, spacing=spacing or None, elements_across=elements_across)
         preview = batch_of_pictures([draw_wireframe(over(picture), mesh)], 1)
-        return io.NodeOutput(MaskedMesh(mesh, coverage), preview, ui=shown_with(ui.PreviewImage(preview), told))
+        return io.NodeOutput(MaskedMesh(mesh, coverage, front), preview, ui=shown_with(ui.PreviewImage(preview), told))

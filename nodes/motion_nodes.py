@@ -96,7 +96,8 @@ class Simulate(io.ComfyNode):
                 compile_aside(contact=touches)
             motion = simulate(acting, frames=wanted, progress=host_progress(), max_minutes=max_minutes)
         told = all_told(told, tell_user(cls, stillness(motion)))
-        return io.NodeOutput(MaskedMotion(motion, scene.masks), motion.frame_rate, ui=told or None)
+        moved = MaskedMotion(motion, scene.masks, scene.layers, scene.in_front)
+        return io.NodeOutput(moved, motion.frame_rate, ui=told or None)
 
 
 class PreviewMotion(io.ComfyNode):

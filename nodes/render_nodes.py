@@ -9,6 +9,7 @@ from comfy_api.latest import io
 
 from ..physics.errors import require
 from .background_inputs import background_chosen, background_inputs, image_alpha_input
+from .drawing import drawing_of, in_front_input, told_of_another_picture
 from .host import (
     all_told,
     announce_batch,
@@ -76,6 +77,7 @@ class Render(io.ComfyNode):
                     tooltip="The picture without the moving parts. Painted automatically when left out.",
                 ),
                 *background_inputs(),
+                in_front_input(),
             ],
             outputs=[
                 io.Image.Output(display_name="frames", tooltip="One picture a frame: for Create Video."),
@@ -109,8 +111,8 @@ class Render(io.ComfyNode):
         background: dict[str, Any] | None = None,
         image_alpha: torch.Tensor | None = None,
         pixel_art: bool = False,
+        in_front: torch.Tensor | None = None,
     ) -> io.NodeOutput:
-        from ..rendering.composite import renderer_of
         from ..rendering.pictures import over
 
         behind, by_model = background_chosen(background), renderer is not None and renderer["renderer"] == _SVD
@@ -120,15 +122,17 @@ class Render(io.ComfyNode):
             transparent = behind.has_alpha or pixel_art
             require("background", behind.kind, not transparent, "opaque, and pixel_art off, with sketch-guided SVD")
             picture, plate = over(picture, behind.colour), plate if plate is None else over(plate, behind.colour)
+        drawing = drawing_of(motion, picture, plate=plate, pixel_art=pixel_art, in_front=in_front)
         count, (height, width) = len(motion.motion), picture.shape[:2]
         frames = picture_batch(count) if is_wanted(_FRAMES) else None
         alpha = mask_batch(count) if is_wanted(_ALPHA) else None
         channels = (3 + behind.has_alpha) * (frames is not None) + (alpha is not None)
         instead = "" if by_model else "use Save Animation, which holds one frame at a time"
         told = announce_batch(cls, count, width, height, channels=channels, instead=instead)
-        if not (by_model or pixel_art):
+        if not (by_model or pixel_art or motion.layers):
             told = all_told(told, hint_of_pixel_art(cls, picture))
-        layers = renderer_of(picture, motion.masks, motion.motion, plate=plate, pixel_art=pixel_art)
+        told = all_told(told, told_of_another_picture(cls, motion, picture))
+        layers = drawing(motion.motion)
         if by_model and frames is not None:
             for frame in svd_frames(picture, layers, renderer):
                 frames.put(frame)
@@ -269,7 +273,7 @@ class Interpolate(io.ComfyNode):
 def _shown_masks(
     motion: MaskedMotion | None, image: torch.Tensor | None, image_alpha: torch.Tensor | None
 ) -> list[NDArray[Any]]:
-    """The masks of a motion, with their edges where the picture has them if there is one."""
+    """The masks of a motion, with their edges where the picture has them if there is one; of layers as they are."""
     from ..rendering.matting import shown_part
 
     if motion is None or image is None:
@@ -278,7 +282,7 @@ def _shown_masks(
     got = f"{picture.shape[1]} x {picture.shape[0]} px"
     size = f"{known.width} x {known.height} px"
     require("image", got, picture.shape[:2] == (known.height, known.width), f"of the motion's size, {size}")
-    return [shown_part(picture, mask) for mask in motion.masks]
+    return list(motion.masks) if motion.layers else [shown_part(picture, mask) for mask in motion.masks]
 
 
 def _numbers_of(keyframes_at: str, images_are: str | None) -> tuple[int, ...]:

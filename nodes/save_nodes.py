@@ -11,10 +11,12 @@ from comfy_api.latest import io, ui
 from ..physics.errors import require
 from ..rendering.pictures import FORMATS, check_output
 from .background_inputs import background_chosen, background_inputs
+from .drawing import drawing_of, in_front_input, told_of_another_picture
 from .host import (
     FILE_TYPES,
     FRAMES,
     Place,
+    all_told,
     check_prefix,
     free_place,
     hint_of_pixel_art,
@@ -75,6 +77,7 @@ class SaveAnimation(io.ComfyNode):
                     tooltip="The picture without the moving parts. Painted automatically when left out.",
                 ),
                 *background_inputs(),
+                in_front_input(),
             ],
             outputs=[io.String.Output(display_name="path", tooltip="The file, or the folder of frames.")],
         )
@@ -107,8 +110,8 @@ class SaveAnimation(io.ComfyNode):
         background: dict[str, Any] | None = None,
         image_alpha: torch.Tensor | None = None,
         pixel_art: bool = False,
+        in_front: torch.Tensor | None = None,
     ) -> io.NodeOutput:
-        from ..rendering.composite import renderer_of
         from ..rendering.pictures import as_uint8, write_animation
 
         behind = background_chosen(background)
@@ -116,11 +119,13 @@ class SaveAnimation(io.ComfyNode):
         # In the depth in which they are written.
         picture = as_uint8(picture_with_alpha(image, image_alpha))
         plate = None if clean_plate is None else as_uint8(picture_with_alpha(clean_plate, name="clean_plate"))
+        drawing = drawing_of(motion, picture, plate=plate, pixel_art=pixel_art, in_front=in_front)
         size = _size(picture, width)
         place = free_place(filename_prefix, file_type, *size)
         check_output(place.path, alpha=behind.has_alpha)
-        told = {} if pixel_art else hint_of_pixel_art(cls, picture)
-        renderer = renderer_of(picture, motion.masks, motion.motion, plate=plate, pixel_art=pixel_art)
+        told = {} if pixel_art or motion.layers else hint_of_pixel_art(cls, picture)
+        told = all_told(told, told_of_another_picture(cls, motion, picture))
+        renderer = drawing(motion.motion)
         frames = _frames(renderer, behind, size, nearest=pixel_art)
         write_animation(frames, place.path, motion.motion.frame_rate, exact=pixel_art)
         return io.NodeOutput(place.path, ui=shown_with(_preview(place, file_type, len(renderer)), told))

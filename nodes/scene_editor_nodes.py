@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from comfy_api.latest import io, ui
 
-from ..physics.errors import require
+from ..physics.errors import InvalidInputError, require
 from .background_inputs import image_alpha_input
-from .host import batch_of_pictures, checked_document, picture_with_alpha, refusal
-from .host.wires import BodiesWire, MaskedBody
+from .edited_layers import EditedLayers, edited_layers
+from .host import all_told, batch_of_pictures, checked_document, picture_with_alpha, refusal, tell_user
+from .host.wires import BodiesWire, LayersWire, MaskedBody
+from .layer_nodes import artwork_of
 from .preview import STORE, PreviewBodies
 from .preview.server import start_warm_up
 from .scene_nodes import scene_output, scene_outputs
@@ -44,7 +46,9 @@ class SceneEditor(io.ComfyNode):
                     socketless=True,
                     tooltip="What is drawn, as a scene document [JSON]: positions and radii in px, times in s.",
                 ),
-                BodiesWire.Input("bodies", tooltip="What moves."),
+                BodiesWire.Input(
+                    "bodies", optional=True, tooltip="What moves; may be left out where layers are connected."
+                ),
                 io.Image.Input("image", optional=True, tooltip="The illustration, to draw on."),
                 io.Image.Input(
                     "plate",
@@ -53,6 +57,12 @@ class SceneEditor(io.ComfyNode):
                     " made when none is connected.",
                 ),
                 image_alpha_input(),
+                LayersWire.Input(
+                    "layers",
+                    optional=True,
+                    tooltip="An illustration in layers instead of bodies: those whose names say so move, and in the"
+                    " editor's list you choose others.",
+                ),
             ],
             outputs=scene_outputs(),
         )
@@ -65,26 +75,36 @@ class SceneEditor(io.ComfyNode):
     def execute(
         cls,
         scene: str,
-        bodies: tuple[MaskedBody, ...],
+        bodies: tuple[MaskedBody, ...] = (),
         image: torch.Tensor | None = None,
         plate: torch.Tensor | None = None,
         image_alpha: torch.Tensor | None = None,
+        layers: dict[str, Any] | None = None,
     ) -> io.NodeOutput:
         from ..physics.document import checked_scene_over
+        from ..physics.scene import absent_bodies
 
-        drawn = checked_scene_over(checked_document(scene), [item.body for item in bodies])
+        if not bodies and layers is None:
+            raise InvalidInputError("bodies or layers must be connected, to know what moves. Got: neither")
+        document = checked_document(scene)
+        artwork, told = (None, {}) if layers is None else artwork_of(cls, layers)
+        found = edited_layers(document, bodies, artwork)
+        bodies = bodies if found is None else found.bodies
+        drawn = checked_scene_over(document, [item.body for item in bodies], layers=found and found.masks)
+        told = all_told(told, tell_user(cls, absent_bodies(drawn)))
         shown = None if image is None else _shown(image, drawn.width, drawn.height, "image", image_alpha)
         behind = None if plate is None else _shown(plate, drawn.width, drawn.height, "plate")
         info = {
-            "key": STORE.put(_kept(bodies, shown)),
+            "key": STORE.put(_kept(bodies, shown, found)),
             "width": drawn.width,
             "height": drawn.height,
             "image": _saved(shown),
             "plate": _saved(behind),
+            "layers": None if found is None else found.told(),
         }
         # Where several bodies are drawn on, contact may be switched on at any moment.
         start_warm_up(contact=len(bodies) > 1 or drawn.contact is not None)
-        return scene_output(drawn, bodies, ui={"physanimator_editor": [info]})
+        return scene_output(drawn, bodies, ui={"physanimator_editor": [info], **told})
 
 
 def _shown(image: torch.Tensor, width: int, height: int, name: str, alpha: torch.Tensor | None = None) -> np.ndarray:
@@ -97,8 +117,10 @@ def _shown(image: torch.Tensor, width: int, height: int, name: str, alpha: torch
     return as_uint8(picture)
 
 
-def _kept(bodies: tuple[MaskedBody, ...], picture: np.ndarray | None) -> PreviewBodies:
+def _kept(bodies: tuple[MaskedBody, ...], picture: np.ndarray | None, found: EditedLayers | None) -> PreviewBodies:
     physical = tuple(item.body for item in bodies)
+    if found is not None:
+        return PreviewBodies(physical, layers=found.pictures, layer_masks=found.masks, layer_bytes=found.memory)
     if picture is None:
         return PreviewBodies(physical)
     from ..rendering.pictures import as_uint8

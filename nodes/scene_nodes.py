@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
@@ -25,6 +25,9 @@ from .host.wires import (
     Touch,
     WindWire,
 )
+
+if TYPE_CHECKING:
+    from ..physics.document import LayerMasks
 
 __all__ = ["AutomaticScene", "Scene", "SceneFromJSON", "scene_output", "scene_outputs"]
 
@@ -184,7 +187,17 @@ class SceneFromJSON(io.ComfyNode):
     def execute(cls, bodies: tuple[MaskedBody, ...], scene: str) -> io.NodeOutput:
         from ..physics.document import checked_scene_over
 
-        return scene_output(checked_scene_over(checked_document(scene), _physical(bodies)), bodies)
+        layers = layer_masks_of(bodies)
+        return scene_output(checked_scene_over(checked_document(scene), _physical(bodies), layers=layers), bodies)
+
+
+def layer_masks_of(bodies: tuple[MaskedBody, ...]) -> LayerMasks | None:
+    """What gives the mask of a still layer by its name, where the bodies are layers."""
+    from ..rendering.layers_of_scenes import masks_of_still_layers
+    from ..rendering.moving_layers import moving_layers_of
+
+    found = moving_layers_of([item.source for item in bodies])
+    return None if found is None else masks_of_still_layers(found.artwork, found.indices)
 
 
 def _touching(scene: PhysicalScene, touch: Touch | None) -> PhysicalScene:
@@ -205,7 +218,10 @@ def scene_output(scene: PhysicalScene, bodies: tuple[MaskedBody, ...], *, ui: An
     """What the nodes of this file give: the scene with the bodies' masks, and its document."""
     from ..physics.document import dumps
 
-    return io.NodeOutput(MaskedScene(scene, tuple(item.mask for item in bodies)), dumps(scene, meshes=False), ui=ui)
+    if scene.contact is not None and any(item.source is not None and item.body.strands for item in bodies):
+        # The sides of a slit lie on each other, which contact would drive apart.
+        raise InvalidInputError("contact needs whole parts: switch strands off in Artwork to Bodies. Got: slit ones")
+    return io.NodeOutput(MaskedScene.of(scene, bodies), dumps(scene, meshes=False), ui=ui)
 
 
 def scene_outputs() -> list[io.Output]:

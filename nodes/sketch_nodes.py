@@ -17,13 +17,12 @@ from .host import (
     picture_batch,
     picture_of,
 )
-from .host.wires import FlowWire
+from .host.wires import FlowOfMotion, FlowWire
 from .models.drawing_network import drawing_network_inputs, missing_drawing_file, network_sketch
 
 if TYPE_CHECKING:
     import torch
 
-    from ..physics.motion import FlowSequence
     from ..rendering.sketch import WarpMode
 
 __all__ = ["ExtractSketch", "WarpSketch"]
@@ -148,7 +147,7 @@ class WarpSketch(io.ComfyNode):
                     "lines_behind",
                     optional=True,
                     tooltip="Sketch of the clean plate: lines that show where a body leaves. Only layered takes it;"
-                    " without it paper is there.",
+                    " without it paper is there, and of layers what is drawn there.",
                 ),
             ],
             outputs=[
@@ -169,7 +168,7 @@ class WarpSketch(io.ComfyNode):
     def execute(
         cls,
         sketch: torch.Tensor,
-        flow: FlowSequence,
+        flow: FlowOfMotion,
         mode: WarpMode,
         blur_sigma: float,
         lines_behind: torch.Tensor | None = None,
@@ -181,7 +180,11 @@ class WarpSketch(io.ComfyNode):
         count, (height, width) = len(flow), drawing.shape
         sketches, holes = picture_batch(count), mask_batch(count) if is_wanted(_HOLES) else None
         told = announce_batch(cls, count, width, height, channels=3 + (holes is not None))
-        warped = warped_sketches(drawing, flow, mode=mode, behind=behind, blur_sigma=blur_sigma)
+        own = None
+        if flow.layers is not None and mode == "layered":
+            own = flow.layers.own_sketches()
+            behind = flow.layers.sketch_behind(flow.motion) if behind is None else behind
+        warped = warped_sketches(drawing, flow, mode=mode, behind=behind, own=own, blur_sigma=blur_sigma)
         for number, each in enumerate(warped, start=1):
             sketches.put(each.sketch)
             if holes is not None:

@@ -8,7 +8,8 @@ from comfy_api.latest import io
 
 from ..physics.motion import FITS, Fit
 from ..rendering.control import FRAME_STEP, SIZE_STEP, ModelFormat
-from .host import announce_batch, batch_of_pictures, host_progress, mask_batch, picture_batch, picture_of
+from .drawing import drawing_of, in_front_input, told_of_another_picture
+from .host import all_told, announce_batch, batch_of_pictures, host_progress, mask_batch, picture_batch, picture_of
 from .host.wires import MaskedMotion, MotionWire
 
 if TYPE_CHECKING:
@@ -101,6 +102,7 @@ class WarpedVideo(io.ComfyNode):
                     tooltip="How far holes reach beyond what was uncovered [px of the illustration].",
                 ),
                 _plate(),
+                in_front_input(),
             ],
             outputs=[
                 io.Image.Output(display_name="control_video", tooltip="For WanVaceToVideo's control_video."),
@@ -120,13 +122,16 @@ class WarpedVideo(io.ComfyNode):
         fit: Fit,
         grow: int,
         clean_plate: torch.Tensor | None = None,
+        in_front: torch.Tensor | None = None,
     ) -> io.NodeOutput:
         from ..rendering.control import warped_frames
 
-        form, plate, report = ModelFormat(frames, width, height, fit), _given(clean_plate), host_progress()
+        form, picture, report = ModelFormat(frames, width, height, fit), picture_of(image), host_progress()
+        drawing = drawing_of(motion, picture, plate=_given(clean_plate), in_front=in_front)
         told = announce_batch(cls, frames, width, height, channels=4)
+        told = all_told(told, told_of_another_picture(cls, motion, picture))
         pictures, holes = picture_batch(frames), mask_batch(frames)
-        drawn = warped_frames(picture_of(image), motion.masks, motion.motion, form, plate=plate, grow=grow)
+        drawn = warped_frames(picture, motion.masks, motion.motion, form, grow=grow, renderer=drawing)
         for number, (picture, hole) in enumerate(drawn, start=1):
             pictures.put(picture)
             holes.put(hole)
@@ -170,7 +175,10 @@ class LineControlVideo(io.ComfyNode):
         form, report = ModelFormat(frames, width, height, fit), host_progress()
         told, batch = announce_batch(cls, frames, width, height), picture_batch(frames)
         drawing = picture_of(sketch, name="sketch").mean(axis=2)
-        drawn = line_frames(drawing, motion.motion, form, bright_lines=lines == _LINES[0])
+        own = behind = None
+        if motion.layers is not None:
+            own, behind = motion.layers.own_sketches(), motion.layers.sketch_behind(motion.motion)
+        drawn = line_frames(drawing, motion.motion, form, bright_lines=lines == _LINES[0], behind=behind, own=own)
         for number, picture in enumerate(drawn, start=1):
             batch.put(picture)
             report(number, frames)
@@ -205,6 +213,7 @@ class FirstAndLastFrame(io.ComfyNode):
                 ),
                 *_size(),
                 _plate(),
+                in_front_input(),
             ],
             outputs=[
                 io.Image.Output(display_name="start_image", tooltip="For WanFirstLastFrameToVideo."),
@@ -225,11 +234,14 @@ class FirstAndLastFrame(io.ComfyNode):
         height: int,
         fit: Fit,
         clean_plate: torch.Tensor | None = None,
+        in_front: torch.Tensor | None = None,
     ) -> io.NodeOutput:
         from ..rendering.control import first_and_last
 
-        form, plate = ModelFormat(width=width, height=height, fit=fit), _given(clean_plate)
-        chosen = {"first": first_frame, "last": last_frame, "plate": plate}
-        both = first_and_last(picture_of(image), motion.masks, motion.motion, form, **chosen)
-        start, end = (batch_of_pictures([picture], 1) for picture in both)
-        return io.NodeOutput(start, end, width, height)
+        form, picture = ModelFormat(width=width, height=height, fit=fit), picture_of(image)
+        drawing = drawing_of(motion, picture, plate=_given(clean_plate), in_front=in_front)
+        told = told_of_another_picture(cls, motion, picture)
+        chosen = {"first": first_frame, "last": last_frame, "renderer": drawing}
+        both = first_and_last(picture, motion.masks, motion.motion, form, **chosen)
+        start, end = (batch_of_pictures([each], 1) for each in both)
+        return io.NodeOutput(start, end, width, height, ui=told or None)

@@ -278,6 +278,20 @@ class Animation:
         check_text_output(path, ".json")
         write_text(path, motion_to_json(self.shown_motion))
 
+    def save_scene(self, path: StrPath) -> None:
+        """Write the scene as a document without meshes, for ``animate(..., scene=...)`` and the scene editor.
+
+        Args:
+            path: a name in .json.
+
+        Raises:
+            InvalidInputError: nothing can be written there.
+        """
+        from ..physics.document import dumps
+
+        check_text_output(path, ".json")
+        write_text(path, dumps(self.scene, meshes=False))
+
     def save_svg(self, path: StrPath) -> None:
         """Write the moving meshes over the faded illustration as an SVG that plays in a browser.
 

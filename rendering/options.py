@@ -74,11 +74,12 @@ class Touching:
 
     Attributes:
         contact: how they keep out of each other, instead of what the scene says; None: as the scene says.
-        colliders: masks of what they keep out of besides the scene's colliders; they need contact. Shape [h, w] each.
+        colliders: masks of what they keep out of besides the scene's colliders, shape [h, w] each, or names of layers
+            that stand still; they need contact.
     """
 
     contact: Contact | None = None
-    colliders: Sequence[NDArray[Any]] = ()
+    colliders: Sequence[NDArray[Any] | str] = ()
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -11,6 +11,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from ..physics.document import LayerMasks
 from ..physics.errors import InvalidInputError
 from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
@@ -31,10 +32,23 @@ from .matting import part_mesh
 if TYPE_CHECKING:
     from .artwork import Artwork, LayerPlan
 
-__all__ = ["Parts", "about", "arranged", "coverage", "coverages", "parts_of_artwork", "parts_of_picture", "picture_of"]
+__all__ = [
+    "OF_STRANDS",
+    "Parts",
+    "about",
+    "arranged",
+    "coverage",
+    "coverages",
+    "parts_of_artwork",
+    "parts_of_picture",
+    "picture_of",
+]
 
 Image = NDArray[Any]
 Mask = NDArray[Any]
+
+OF_STRANDS = ("hair", "ribbon")
+"""Materials of what is drawn in strands."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +66,8 @@ class Parts:
         attachments: where each is held in an automatic scene.
         renderer: makes what draws a motion of the parts.
         own: each part alone, straight RGBA, shape [h, w, 4] each; empty where only masks are known.
+        still: names of layers that stand still by somebody's word.
+        layer_mask: gives the mask of the still layer of a name, or refuses it; None where there are no layers.
         notes: a sentence for each layer that stands still against its name.
     """
 
@@ -65,6 +81,8 @@ class Parts:
     attachments: tuple[Attachment, ...]
     renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
     own: tuple[Image, ...] = ()
+    still: tuple[str, ...] = ()
+    layer_mask: LayerMasks | None = None
     notes: tuple[str, ...] = ()
 
     def covered(self, scene: Scene) -> Scene:
@@ -144,7 +162,13 @@ def parts_of_picture(
 
 
 def parts_of_artwork(
-    artwork: Artwork, *, move: Sequence[str] = (), still: Sequence[str] = (), spacing: float | None = None
+    artwork: Artwork,
+    *,
+    move: Sequence[str] = (),
+    still: Sequence[str] = (),
+    spacing: float | None = None,
+    document: Mapping[str, Any] | None = None,
+    elements_across: int | None = None,
 ) -> Parts:
     """Parts that are layers of their own.
 
@@ -153,13 +177,16 @@ def parts_of_artwork(
         move: names of layers that move, whatever the table of names says.
         still: names of layers that stand still.
         spacing: distance of the meshes' vertices [px]; None chooses it.
+        document: a checked scene document, which says what moves where the user does not.
+        elements_across: triangles across thin strands; None for the usual number.
 
     Raises:
         InvalidInputError: there is no such layer, none moves, or one gives no mesh.
     """
-    from .artwork import moving_layers
+    from .layers_of_scenes import SCENE_SAYS, masks_of_still_layers, planned_layers
 
-    plans, meshed, notes = _meshed_layers(artwork, moving_layers(artwork, move, still), spacing)
+    planned = planned_layers(artwork, move, still, document=document)
+    plans, meshed, notes = _meshed_layers(artwork, planned, spacing, elements_across)
     artwork = arranged(artwork, move, still)
     if not plans and notes:
         raise InvalidInputError(f"no layer can move: {'; '.join(notes)[:600]}")
@@ -188,6 +215,8 @@ def parts_of_artwork(
         attachments,
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
         tuple(_alone(artwork, index) for index in indices),
+        tuple(plan.name for plan in planned if not plan.moves and (plan.asked or plan.why == SCENE_SAYS)),
+        masks_of_still_layers(artwork, indices),
         tuple(notes),
     )
 
@@ -201,7 +230,7 @@ def _alone(artwork: Artwork, index: int) -> Image:
 
 
 def _meshed_layers(
-    artwork: Artwork, plans: Sequence[LayerPlan], spacing: float | None
+    artwork: Artwork, plans: Sequence[LayerPlan], spacing: float | None, across: int | None
 ) -> tuple[list[LayerPlan], list[TriangleMesh], list[str]]:
     """The layers that move, their meshes, and a sentence for each that would by its name, but gives no mesh."""
     moving, meshes, notes = [], [], []
@@ -209,7 +238,8 @@ def _meshed_layers(
         if not plan.moves:
             continue
         try:
-            meshes.append(_meshed(mask_of_layer(artwork, plan.index), spacing, f"layer {plan.name}", None))
+            mask = mask_of_layer(artwork, plan.index)
+            meshes.append(_meshed(mask, spacing, f"layer {plan.name}", None, across))
             moving.append(plan)
         except InvalidInputError as error:
             if plan.asked:
@@ -265,10 +295,13 @@ def coverage(name: str, mask: Mask, image: Image) -> Mask:
     return fitted(coverage_of(mask, name=name), width, height, name=name)
 
 
-def _meshed(part: Mask, spacing: float | None, name: str, image: Image | None) -> TriangleMesh:
+def _meshed(
+    part: Mask, spacing: float | None, name: str, image: Image | None, across: int | None = None
+) -> TriangleMesh:
     with about(name):
         if image is None:
-            return mesh_from_mask(part, spacing=spacing)
+            fineness = {} if across is None else {"elements_across": across}
+            return mesh_from_mask(part, spacing=spacing, **fineness)
         return part_mesh(image, part, spacing=spacing)
 
 

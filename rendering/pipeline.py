@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.assembly import work_of_minutes
-from ..physics.document import given_scene, materials_of
+from ..physics.document import LayerMasks, arranged_for, given_scene, materials_of
 from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
 from ..physics.process_end import working
@@ -24,7 +24,7 @@ from ..physics.scene import Attachment, Body, Collider, Contact, Scene, automati
 from ..physics.simulation import loop_frames, simulate
 from .animation import Animation, StageProgress, timed
 from .options import DEFAULT_FRAME_RATE, DEFAULT_FRAMES, AutomaticWind, LayerChoice, Timing, Touching, Watch
-from .parts import about, coverage, coverages, parts_of_artwork, parts_of_picture
+from .parts import OF_STRANDS, about, coverage, coverages, parts_of_artwork, parts_of_picture
 from .pictures import as_picture, over
 
 if TYPE_CHECKING:
@@ -37,7 +37,6 @@ Mask = NDArray[Any]
 
 _USUAL_WIND, _USUAL_TIMING, _AS_THE_SCENE_SAYS, _NOBODY = AutomaticWind(), Timing(), Touching(), Watch()
 _BY_THEIR_NAMES = LayerChoice()
-_OF_STRANDS = ("hair", "ribbon")  # materials of what is drawn in strands
 
 
 @working()
@@ -120,7 +119,7 @@ def animate(
         plate = _checked_plate(plate, image)
         masks = coverages("masks", () if masks is None else masks, image)
         front = None if in_front is None else coverage("in_front", in_front, image)
-        colliders = coverages("colliders", touching.colliders, image)
+        _colliders(touching.colliders, image)
         with timed(seconds, "segment"):
             cut = (*masks, *_segmented(over(image), points or ()))
         _check_parts(cut)
@@ -134,8 +133,8 @@ def animate(
     else:
         _check_layers_alone(masks=masks, points=points, plate=plate, in_front=in_front, pixel_art=pixel_art or None)
         with timed(seconds, "mesh"):
-            parts = parts_of_artwork(image, move=layers.move, still=layers.still, spacing=spacing)
-        colliders = coverages("colliders", touching.colliders, parts.image)
+            said = None if isinstance(scene, Scene) else scene
+            parts = parts_of_artwork(image, move=layers.move, still=layers.still, spacing=spacing, document=said)
     if watch.on_note is not None:
         for note in parts.notes:
             watch.on_note(note)
@@ -145,17 +144,30 @@ def animate(
             suiting = [each or "hair" for each in parts.presets]
             materials = materials_of(preset or suiting, sway, len(parts.meshes))
             sides = parts.attachments if attach == "auto" else (attach,) * len(parts.meshes)
-            split = _split(strands, [each.name in _OF_STRANDS for each in materials], bars_strands)
+            split = _split(strands, [each.name in OF_STRANDS for each in materials], bars_strands)
             parts = parts.in_strands(split, sides)
             whole = _automatic(parts.bodies(materials, split), wind, timing, attach=sides, sway_by_size=sway is None)
         else:
+            absent: tuple[str, ...] = ()
+            if not isinstance(scene, Scene):
+                scene, absent = arranged_for(scene, parts.names)
             split = _split(strands, _split_by(scene, len(parts.meshes)), bars_strands)
             parts = parts.in_strands(split, parts.attachments)
             given = list(parts.meshes)
-            whole = given_scene(scene, given, preset=preset, sway=sway, frame_rate=timing.frame_rate)
+            whole = given_scene(
+                scene,
+                given,
+                names=parts.names,
+                layers=parts.layer_mask,
+                preset=preset,
+                sway=sway,
+                frame_rate=timing.frame_rate,
+            )
+            whole = replace(whole, absent=absent)
+        whole = replace(whole, still=parts.still) if parts.still else whole
         whole = parts.covered(whole if timing.loop is None else replace(whole, loop=timing.loop))
         timing = _settled(timing, whole)
-        whole = _touching(whole, touching.contact, colliders)
+        whole = _touching(whole, touching.contact, _colliders(touching.colliders, parts.image, parts.layer_mask))
     if watch.on_scene is not None:
         watch.on_scene(whole)
     with timed(seconds, "simulate"):
@@ -263,14 +275,30 @@ def _check_parts(parts: Sequence[Mask]) -> None:
         raise InvalidInputError("an animation needs at least one mask, or points on a part. Got: neither")
 
 
-def _touching(scene: Scene, contact: Contact | None, colliders: Sequence[Mask]) -> Scene:
+def _colliders(given: Sequence[Mask | str], image: Image, layers: LayerMasks | None = None) -> list[Collider]:
+    """What parts keep out of: masks, and still layers by their names."""
+    found = []
+    for number, each in enumerate(given):
+        if not isinstance(each, str):
+            mask = coverage(f"colliders[{number}]", each, image)
+            found.append(Collider.from_mask(mask > 0.5))
+            continue
+        if layers is None:
+            raise InvalidInputError(f"colliders[{number}] must be a mask where the picture is flat. Got: {each[:60]!r}")
+        try:
+            found.append(Collider.from_mask(layers(each), layer=each))
+        except InvalidInputError as error:
+            raise InvalidInputError(f"colliders[{number}] {str(error).removeprefix('layer ')}") from error
+    return found
+
+
+def _touching(scene: Scene, contact: Contact | None, colliders: Sequence[Collider]) -> Scene:
     if contact is not None:
         scene = replace(scene, contact=contact)
     if not colliders:
         return scene
     require("contact", scene.contact, scene.contact is not None, "given where there are colliders")
-    added = tuple(Collider.from_mask(each > 0.5) for each in colliders)
-    return replace(scene, colliders=(*scene.colliders, *added))
+    return replace(scene, colliders=(*scene.colliders, *colliders))
 
 
 def _stage(name: str, progress: StageProgress | None) -> Progress | None:

@@ -84,11 +84,12 @@ MAY_IMPORT = {
     ),
     # nodes: the host
     "nodes/host": (
-        "physics physics/document physics/mesh physics/motion physics/scene rendering/composite rendering/pictures"
+        "physics physics/document physics/mesh physics/motion physics/scene rendering rendering/composite "
+        "rendering/pictures"
     ),
     "nodes/preview": (
         "physics physics/assembly physics/document physics/forces physics/motion physics/rig physics/runtime "
-        "physics/scene physics/simulation rendering/composite rendering/pictures rendering/plate"
+        "physics/scene physics/simulation rendering rendering/composite rendering/pictures rendering/plate"
     ),
     "nodes/models": (
         "nodes/host physics rendering/composite rendering/inbetweens rendering/networks "
@@ -96,9 +97,9 @@ MAY_IMPORT = {
     ),
     "nodes": (
         "nodes/host nodes/models nodes/preview physics physics/document physics/forces physics/material "
-        "physics/mesh physics/motion physics/rig physics/scene physics/simulation rendering/composite "
-        "rendering/control rendering/inbetweens rendering/matting rendering/metrics rendering/metrics/learned "
-        "rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
+        "physics/mesh physics/motion physics/rig physics/scene physics/simulation rendering rendering/artwork "
+        "rendering/composite rendering/control rendering/inbetweens rendering/matting rendering/metrics "
+        "rendering/metrics/learned rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
     ),
     # the entry points
     "__init__": "nodes",

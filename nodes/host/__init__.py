@@ -7,6 +7,7 @@ from .choices import checked
 from .computing import PRECISIONS, dtype_of
 from .defaults import default_of
 from .documents import checked_document
+from .input_files import contents_of, layered_files, place_of
 from .literals import PATH_FORMS, boxes_of, chosen, keys_of, numbers_of, refusal, times_of, whole_numbers_of
 from .messages import all_told, hint_of_pixel_art, shown_with, tell_user
 from .progress import host_check, host_progress, watched_sampling
@@ -41,6 +42,7 @@ __all__ = [
     "checked",
     "checked_document",
     "chosen",
+    "contents_of",
     "default_of",
     "dtype_of",
     "free_place",
@@ -49,6 +51,7 @@ __all__ = [
     "host_progress",
     "is_wanted",
     "keys_of",
+    "layered_files",
     "mask_batch",
     "mask_of",
     "not_made",
@@ -58,6 +61,7 @@ __all__ = [
     "picture_with_alpha",
     "pictures_for",
     "pictures_of",
+    "place_of",
     "refusal",
     "sent_inputs",
     "server",

@@ -16,11 +16,14 @@ from ...physics.errors import InvalidInputError
 from .literals import refusal
 from .running import sent_inputs
 
-__all__ = ["check_choices", "check_values", "checked"]
+__all__ = ["OPEN", "check_choices", "check_values", "checked"]
 
 _DYNAMIC, _CHOICE, _NUMBERS = "COMFY_DYNAMICCOMBO_V3", "COMBO", ("INT", "FLOAT")
 _TYPED = (_DYNAMIC, _CHOICE, *_NUMBERS, "STRING", "BOOLEAN")
 _LISTED = 12
+
+OPEN = "others_too"
+"""Marks a choice, in its ``extra_dict``, for which the node itself checks values that are not listed."""
 
 
 class _Given(NamedTuple):
@@ -80,7 +83,7 @@ def check_choices(described: Mapping[str, Any], values: Mapping[str, Any], sent:
         if given.value is None:
             if given.required and not (given.linked and given.kind != _DYNAMIC) and _must_be_there(given, sent):
                 raise InvalidInputError(f"{given.name} must be {_offered(given)}. Got: {_absent(given)}")
-        elif given.kind in (_DYNAMIC, _CHOICE) and given.value not in _keys(given):
+        elif given.kind in (_DYNAMIC, _CHOICE) and not given.options.get(OPEN) and given.value not in _keys(given):
             raise InvalidInputError(f"{given.name} must be {_offered(given)}. Got: {_shown(given.value)}")
 
 

@@ -9,12 +9,16 @@ import threading
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ...physics.errors import InvalidInputError
 from .store import PreviewBodies
 
-__all__ = ["Plates"]
+__all__ = ["Plates", "png_of"]
 
 _MOST = 16
+_FAST = [16, 1]  # cv2.IMWRITE_PNG_COMPRESSION
 
 
 class Plates:
@@ -66,4 +70,11 @@ def _png_of(stored: PreviewBodies) -> bytes:
         plate = as_uint8(sprite_plate(as_float(stored.picture), as_float(stored.hole)))[..., [2, 1, 0, 3]]
     else:
         plate = clean_plate(stored.picture, stored.hole)[..., ::-1]
-    return bytes(cv2.imencode(".png", plate, [cv2.IMWRITE_PNG_COMPRESSION, 1])[1])
+    return bytes(cv2.imencode(".png", plate, _FAST)[1])
+
+
+def png_of(pixels: NDArray[np.uint8]) -> bytes:
+    """RGBA pixels as a PNG file, uint8, shape [h, w, 4]."""
+    import cv2
+
+    return bytes(cv2.imencode(".png", np.ascontiguousarray(pixels[..., [2, 1, 0, 3]]), _FAST)[1])

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...physics.checks import is_whole
-from ...physics.document import read_json
+from ...physics.document import LayerMasks, read_json
 from ...physics.errors import InvalidInputError, require
 from ...physics.limits import MAX_SIDE
 from ...physics.scene import Body, Scene
@@ -92,8 +92,15 @@ def read_request(body: bytes) -> PreviewRequest:
     return PreviewRequest(editor, key, document, frames)
 
 
-def preview_scene(request: PreviewRequest, bodies: Sequence[Body]) -> tuple[Scene, int]:
+def preview_scene(
+    request: PreviewRequest, bodies: Sequence[Body], layers: LayerMasks | None = None
+) -> tuple[Scene, int]:
     """The scene to simulate for a request, and how many frames of it.
+
+    Args:
+        request: what an editor asks for.
+        bodies: over which its scene is.
+        layers: gives the mask of a still layer by its name; None where there are no layers.
 
     Raises:
         SceneError: a value of the scene is wrong.
@@ -106,7 +113,7 @@ def preview_scene(request: PreviewRequest, bodies: Sequence[Body]) -> tuple[Scen
     _require_preview("triangles", triangles, MAX_PREVIEW_TRIANGLES, "mesh the bodies with a larger spacing")
     document = check_document(request.document)
     _require_preview("pixels of painted masks", mask_pixels(document), MAX_PREVIEW_MASK_PIXELS, _COARSER)
-    scene = checked_scene_over(document, bodies)
+    scene = checked_scene_over(document, bodies, layers=layers)
     frames = request.frames if scene.loop is None else loop_frames(scene)
     _require_preview("frames", frames, MAX_FRAMES, "shorten the loop")
     vertices = sum(len(body.mesh.vertices) for body in bodies)

@@ -10,6 +10,7 @@ import asyncio
 import functools
 import itertools
 import logging
+import re
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -22,7 +23,7 @@ from ...physics.errors import Cancelled, SimulationError
 from ...physics.interruption import interruptible
 from .guard import BUSY, KEEP_NOTHING, Guard, body_of, hung_up, refused
 from .limits import MAX_EDITORS, MAX_REQUEST_BYTES
-from .plates import Plates
+from .plates import Plates, png_of
 from .queue import RecordQueue
 from .records import encode_mesh
 from .requests import PreviewRequest, is_key, preview_scene, read_request
@@ -33,6 +34,7 @@ __all__ = ["PreviewRoutes"]
 
 _FORGOTTEN = "The server does not hold these bodies any more: run the graph once, then edit on."
 _EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example" / "illustration.png"
+_NUMBER = re.compile(r"[0-9]{1,4}")
 _WRITE_SECONDS = 60.0
 _POLL_SECONDS = 0.25
 _CHECK_SECONDS = 20.0
@@ -66,6 +68,7 @@ class PreviewRoutes:
         """Add the routes to a table such as the host's."""
         routes.get("/physanimator/mesh/{key}")(self._guard(self.mesh))
         routes.get("/physanimator/plate/{key}")(self._guard(self.plate))
+        routes.get("/physanimator/layer/{key}/{number}")(self._guard(self.layer))
         routes.post("/physanimator/preview")(self._guard(self.preview))
         routes.get("/physanimator/example")(self._guard(self.example))
         routes.post("/physanimator/warm-up")(self._guard(self.warm_up))
@@ -101,6 +104,14 @@ class PreviewRoutes:
             return refused(409, "Connect the illustration to image: a clean plate is made from it.")
         return web.Response(body=await self._plates.png(stored), content_type="image/png", headers=KEEP_NOTHING)
 
+    async def layer(self, request: web.Request) -> web.StreamResponse:
+        """The picture of a layer of a key, as PNG, by its place among those that are shown."""
+        stored, number = self._stored(request), request.match_info["number"]
+        if stored is None or not _NUMBER.fullmatch(number) or int(number) >= len(stored.layers):
+            return refused(404, _FORGOTTEN)
+        body = await self._on_a_thread(_Patience(request), png_of, stored.layers[int(number)].pixels)
+        return web.Response(body=body, content_type="image/png", headers=KEEP_NOTHING)
+
     async def preview(self, request: web.Request) -> web.StreamResponse:
         """A scene over the bodies of a key, simulated and streamed frame by frame."""
         order = next(self._order)
@@ -116,7 +127,7 @@ class PreviewRoutes:
         stored = self.store.get(wanted.key)
         if stored is None:
             return refused(404, _FORGOTTEN)
-        scene, frames = await self._on_a_thread(check, preview_scene, wanted, stored.bodies)
+        scene, frames = await self._on_a_thread(check, preview_scene, wanted, stored.bodies, stored.layer_masks)
         prepared = await self._on_a_thread(check, self.runs.prepare, scene)
         run = self.runs.enter(wanted.editor, order, prepared)
         if run is None:

@@ -12,8 +12,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics.document import encode
+from ...physics.document import LayerMasks, encode
 from ...physics.scene import Body
+from ...rendering.layer_pictures import LayerPicture
 from .limits import MAX_STORED_BYTES
 
 __all__ = ["PreviewBodies", "PreviewStore"]
@@ -29,11 +30,18 @@ class PreviewBodies:
         bodies: at least one, over a picture of one size.
         picture: the illustration, RGB or straight RGBA, uint8, shape [h, w, 3] or [h, w, 4]; None where there is none.
         hole: what moves in it, 0..255, uint8, shape [h, w]; None where there is no picture.
+        layers: pictures of the layers that the bodies are, and of the others, from back to front; empty where masks
+            cut the bodies out.
+        layer_masks: gives the mask of a still layer by its name; None where there are no layers.
+        layer_bytes: memory that it holds on to by that.
     """
 
     bodies: tuple[Body, ...]
     picture: NDArray[np.uint8] | None = None
     hole: NDArray[np.uint8] | None = None
+    layers: tuple[LayerPicture, ...] = ()
+    layer_masks: LayerMasks | None = None
+    layer_bytes: int = 0
 
     @cached_property
     def key(self) -> str:
@@ -43,6 +51,9 @@ class PreviewBodies:
             described = [body.mesh.content_hash, body.name, body.layer, encode(body.material)]
             digest.update(json.dumps(described).encode())
         digest.update(self.picture_key.encode())
+        for layer in self.layers:
+            digest.update(repr((layer.layer, layer.box, layer.blend, layer.pixels.shape)).encode())
+            digest.update(np.ascontiguousarray(layer.pixels))
         return digest.hexdigest()
 
     @cached_property
@@ -58,7 +69,8 @@ class PreviewBodies:
     def size(self) -> int:
         """Bytes of memory that it holds on to, about."""
         meshes = sum(body.mesh.vertices.nbytes + body.mesh.triangles.nbytes for body in self.bodies)
-        return _SHARE_OF_DERIVED * meshes + sum(image.nbytes for image in self._images)
+        shown = sum(layer.pixels.nbytes for layer in self.layers)
+        return _SHARE_OF_DERIVED * meshes + sum(image.nbytes for image in self._images) + shown + self.layer_bytes
 
     @property
     def _images(self) -> list[NDArray[np.uint8]]:

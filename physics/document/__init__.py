@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from .body_names import arranged_for, bodies_named, still_layers
 from .checking import check_document
 from .encoding import encode, scene_to_dict
 from .given import given_scene, materials_of
 from .json_text import read_json
 from .overlay import checked_scene_over, scene_over
 from .point_text import parse_points, parse_polyline, require_pixels
-from .scene_json import dumps, loads, mask_pixels, scene_from_dict
+from .scene_json import LayerMasks, dumps, loads, mask_pixels, scene_from_dict
 from .schema import scene_schema
 
 __all__ = [
+    "LayerMasks",
+    "arranged_for",
+    "bodies_named",
     "check_document",
     "checked_scene_over",
     "dumps",
@@ -28,4 +32,5 @@ __all__ = [
     "scene_over",
     "scene_schema",
     "scene_to_dict",
+    "still_layers",
 ]

@@ -22,15 +22,16 @@ from ..rig import (
     Swing,
     Wave,
 )
-from ..scene import Body, Scene
+from ..scene import Body, LayerRegion, Scene
 
-__all__ = ["COLLIDER_TYPES", "MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "encode", "scene_to_dict"]
+__all__ = ["COLLIDER_TYPES", "MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "SHAPE_TYPES", "encode", "scene_to_dict"]
 
 SCENE_VERSION = 2
 """Version of the document's format; a reader refuses what is newer."""
 
 REGION_TYPES: dict[str, type] = {"circle": Circle, "polygon": Polygon, "mask": MaskRegion}
-COLLIDER_TYPES: dict[str, type] = {"polygon": Polygon, "mask": MaskRegion}
+SHAPE_TYPES: dict[str, type] = {"polygon": Polygon, "mask": MaskRegion}
+COLLIDER_TYPES: dict[str, type] = {**SHAPE_TYPES, "layer": LayerRegion}
 MOTION_TYPES: dict[str, type] = {
     "pinned": Pinned,
     "path": KeyedPath,
@@ -42,7 +43,7 @@ MOTION_TYPES: dict[str, type] = {
     "combined": Combined,
 }
 
-_TYPE_NAMES = {kind: name for name, kind in (REGION_TYPES | MOTION_TYPES).items()}
+_TYPE_NAMES = {kind: name for name, kind in (REGION_TYPES | COLLIDER_TYPES | MOTION_TYPES).items()}
 
 
 def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
@@ -76,7 +77,7 @@ def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
         **({"contact": encode(scene.contact)} if scene.contact is not None else {}),
         **{
             name: encode(getattr(scene, name))
-            for name in ("colliders", "paint", "query_points")
+            for name in ("colliders", "paint", "query_points", "still")
             if getattr(scene, name)
         },
     }
@@ -97,6 +98,8 @@ def encode(value: Any) -> Any:
     if isinstance(value, tuple):
         return [encode(entry) for entry in value]
     tag = {"type": _TYPE_NAMES[type(value)]} if type(value) in _TYPE_NAMES else {}
+    if isinstance(value, LayerRegion):
+        return {**tag, "name": value.name}
     if isinstance(value, MaskRegion):
         height, width = value.mask.shape
         return {**tag, "width": width, "height": height, "runs": runs_of(value.mask)}

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InvalidInputError
 from ..material import Material
 from ..material import preset as preset_of
 from ..mesh import TriangleMesh
 from ..scene import Scene
+from .body_names import arranged_for
+
+if TYPE_CHECKING:
+    from .scene_json import LayerMasks
 
 __all__ = ["given_scene", "materials_of"]
 
@@ -19,6 +23,8 @@ def given_scene(
     scene: Scene | Mapping[str, Any],
     meshes: list[TriangleMesh],
     *,
+    names: Sequence[str] = (),
+    layers: LayerMasks | None = None,
     preset: str | Sequence[str] | None,
     sway: float | None,
     frame_rate: float | None,
@@ -28,6 +34,8 @@ def given_scene(
     Args:
         scene: a scene with one body for each mesh, or a decoded and checked scene document.
         meshes: those of the parts, in order; a document's bodies without a mesh of their own take them.
+        names: of the parts, by which a document's bodies are found; empty for those that have none.
+        layers: as for ``scene_from_dict``.
         preset: name of the material, one for all bodies or one for each; None keeps the scene's.
         sway: sway frequency of every body [Hz]; None keeps the materials'.
         frame_rate: frames a second; None keeps the scene's.
@@ -38,10 +46,13 @@ def given_scene(
     if not isinstance(scene, Scene):
         from .scene_json import scene_from_checked
 
-        scene = scene_from_checked(scene, meshes=_missing_meshes(scene, meshes))
+        document, absent = arranged_for(scene, names)
+        scene = scene_from_checked(document, meshes=_missing_meshes(document, meshes), layers=layers)
+        scene = replace(_with_names(scene, names), absent=absent)
     if len(scene.bodies) != len(meshes):
         raise InvalidInputError(
-            f"scene must have one body for each of the {len(meshes)} masks. Got: {len(scene.bodies)} bodies"
+            f"scene must have one body for each of the {len(meshes)} {'moving layers' if any(names) else 'masks'}."
+            f" Got: {len(scene.bodies)} bodies"
         )
     if (scene.width, scene.height) != (meshes[0].width, meshes[0].height):
         scene = scene.rescaled(meshes[0].width, meshes[0].height)
@@ -52,6 +63,15 @@ def given_scene(
         materials = [replace(each, sway_frequency=sway) for each in materials]
     bodies = tuple(replace(body, material=each) for body, each in zip(scene.bodies, materials, strict=True))
     return replace(scene, bodies=bodies, frame_rate=scene.frame_rate if frame_rate is None else frame_rate)
+
+
+def _with_names(scene: Scene, names: Sequence[str]) -> Scene:
+    """The scene whose bodies have the names of the parts, where they have some, and their order."""
+    if not any(names) or len(names) != len(scene.bodies):
+        return scene
+    bodies = enumerate(zip(scene.bodies, names, strict=True))
+    named = (replace(body, name=body.name or name, layer=rank) for rank, (body, name) in bodies)
+    return replace(scene, bodies=tuple(named))
 
 
 def _missing_meshes(document: Mapping[str, Any], meshes: list[TriangleMesh]) -> list[TriangleMesh]:

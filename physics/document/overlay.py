@@ -7,21 +7,24 @@ from dataclasses import replace
 from typing import Any
 
 from ..scene import Body, Scene
+from .body_names import arranged_for
 from .checking import check_document
-from .scene_json import scene_from_checked
+from .scene_json import LayerMasks, scene_from_checked
 
 __all__ = ["checked_scene_over", "scene_over"]
 
 
-def scene_over(document: object, bodies: Sequence[Body]) -> Scene:
+def scene_over(document: object, bodies: Sequence[Body], *, layers: LayerMasks | None = None) -> Scene:
     """The scene that a document describes for given bodies.
 
-    Names, layers and materials that the document's bodies give replace those of the bodies in order; meshes in it are
-    passed over. A document for a picture of another size is scaled to that of the bodies.
+    Names, layers and materials that the document's bodies give replace those of the bodies: of one name, where the
+    bodies have names, otherwise in order. Meshes in it are passed over. A document for a picture of another size is
+    scaled to that of the bodies.
 
     Args:
         document: a decoded scene document.
         bodies: what moves, at least one.
+        layers: as for ``scene_from_dict``.
 
     Raises:
         SceneError: a value is wrong; ``path`` says which.
@@ -36,15 +39,18 @@ def scene_over(document: object, bodies: Sequence[Body]) -> Scene:
         >>> scene_over(document, [Body(mesh)]).frame_rate
         12.0
     """
-    return checked_scene_over(check_document(document), bodies)
+    return checked_scene_over(check_document(document), bodies, layers=layers)
 
 
-def checked_scene_over(checked: Mapping[str, Any], bodies: Sequence[Body]) -> Scene:
+def checked_scene_over(
+    checked: Mapping[str, Any], bodies: Sequence[Body], *, layers: LayerMasks | None = None
+) -> Scene:
     """The same for a document that ``check_document`` has let pass."""
+    checked, absent = arranged_for(checked, [body.name for body in bodies])
     entries = [{key: value for key, value in entry.items() if key != "mesh"} for entry in checked.get("bodies", [])]
-    scene = scene_from_checked({**checked, "bodies": entries}, meshes=[body.mesh for body in bodies])
+    scene = scene_from_checked({**checked, "bodies": entries}, meshes=[body.mesh for body in bodies], layers=layers)
     named = [
         replace(body, **{field: getattr(found, field) for field in entry})
         for body, found, entry in zip(bodies, scene.bodies, entries, strict=False)
     ]
-    return replace(scene, bodies=(*named, *bodies[len(named) :]))
+    return replace(scene, bodies=(*named, *bodies[len(named) :]), absent=absent)

@@ -9,9 +9,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import cache, partial
 from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import InvalidInputError, SceneError
 from ..forces import EnergyStroke, Wind
@@ -22,13 +24,14 @@ from ..points import Scale
 from ..rig import Combined, MaskRegion, RigPoint
 from ..scene import Body, Collider, Contact, Paint, QueryPoint, Scene
 from .checking import check_document, join_path
-from .encoding import COLLIDER_TYPES, MOTION_TYPES, REGION_TYPES, SCENE_VERSION, scene_to_dict
+from .encoding import COLLIDER_TYPES, MOTION_TYPES, REGION_TYPES, SCENE_VERSION, SHAPE_TYPES, scene_to_dict
 from .json_text import read_json, write_json
 from .migration import migrated
 from .schema import scene_schema
 
 __all__ = [
     "SCENE_VERSION",
+    "LayerMasks",
     "dumps",
     "loads",
     "mask_pixels",
@@ -40,6 +43,9 @@ __all__ = [
 ]
 
 T = TypeVar("T")
+
+LayerMasks = Callable[[str], NDArray[np.bool_]]
+"""Gives the mask of the layer of a name, bool, shape [h, w]; InvalidInputError where there is none."""
 
 _NAMED = re.compile(r"([a-z_]+(?:\[\d+\])?(?:\.[a-z_]+)?) (must .*)", re.DOTALL)  # as `require` words it
 
@@ -57,12 +63,15 @@ def dumps(scene: Scene, *, meshes: bool = True) -> str:
     return write_json(scene_to_dict(scene, meshes=meshes))
 
 
-def loads(text: str | bytes, *, meshes: Sequence[TriangleMesh] | None = None) -> Scene:
+def loads(
+    text: str | bytes, *, meshes: Sequence[TriangleMesh] | None = None, layers: LayerMasks | None = None
+) -> Scene:
     """The scene that a JSON text describes.
 
     Args:
         text: the document; bytes are UTF-8.
         meshes: as for ``scene_from_dict``.
+        layers: as for ``scene_from_dict``.
 
     Raises:
         SceneError: the text is not JSON (with line and column) or not a scene (with the path of the wrong value).
@@ -76,10 +85,12 @@ def loads(text: str | bytes, *, meshes: Sequence[TriangleMesh] | None = None) ->
         >>> loads(dumps(Scene((Body(mesh),)))).width
         60
     """
-    return scene_from_dict(read_json(text), meshes=meshes)
+    return scene_from_dict(read_json(text), meshes=meshes, layers=layers)
 
 
-def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = None) -> Scene:
+def scene_from_dict(
+    data: object, *, meshes: Sequence[TriangleMesh] | None = None, layers: LayerMasks | None = None
+) -> Scene:
     """The scene that plain JSON data describes.
 
     Args:
@@ -87,6 +98,8 @@ def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = Non
         meshes: for the bodies that have none in the document, in order; what is left over makes further bodies of
             default material. Where they belong to a picture of another size than the document, the document's
             strokes, rig points and meshes are scaled to theirs.
+        layers: gives the mask of the artwork's layer of a name, bool, shape [h, w], for colliders that name one, or
+            refuses the name; None where the picture is not in layers.
 
     Raises:
         SceneError: a value is wrong; ``path`` says which, such as ``strokes[2].radius``.
@@ -101,18 +114,22 @@ def scene_from_dict(data: object, *, meshes: Sequence[TriangleMesh] | None = Non
         >>> len(scene_from_dict(document).bodies)
         1
     """
-    return scene_from_checked(check_document(data), meshes=meshes)
+    return scene_from_checked(check_document(data), meshes=meshes, layers=layers)
 
 
-def scene_from_checked(checked: Mapping[str, Any], *, meshes: Sequence[TriangleMesh] | None = None) -> Scene:
+def scene_from_checked(
+    checked: Mapping[str, Any], *, meshes: Sequence[TriangleMesh] | None = None, layers: LayerMasks | None = None
+) -> Scene:
     """The scene of a document that ``check_document`` has let pass; else as ``scene_from_dict``."""
     document = migrated(dict(checked))
     supply = list(meshes or ())
     size = (int(document["width"]), int(document["height"]))
     target = (supply[0].width, supply[0].height) if supply else size
     bodies = _read_bodies(document.get("bodies", []), supply, size, target)
-    _require_small_masks(document)
-    lists: dict[str, Any] = {name: _each(name, document, read) for name, read in _READERS.items()}
+    _require_small_masks(document, target)
+    colliders = partial(_read_collider, layers=layers and cache(layers))
+    readers: dict[str, Callable[[dict[str, Any], str], Any]] = {**_READERS, "colliders": colliders}
+    lists: dict[str, Any] = {name: _each(name, document, read) for name, read in readers.items()}
     fields: dict[str, Any] = {
         "wind": _read_one("wind", document, Wind),
         "contact": _read_one("contact", document, Contact),
@@ -124,7 +141,7 @@ def scene_from_checked(checked: Mapping[str, Any], *, meshes: Sequence[TriangleM
         }
         fields = {name: each and _rescaled(each, scale, name) for name, each in fields.items()}
     options: dict[str, Any] = {
-        name: document[name] for name in ("gravity", "frame_rate", "loop", "sag") if name in document
+        name: document[name] for name in ("gravity", "frame_rate", "loop", "sag", "still") if name in document
     }
     with _located(""):
         return Scene(tuple(bodies), **lists, **fields, **_floats(options))
@@ -192,15 +209,28 @@ def _read_typed(entry: dict[str, Any], types: dict[str, type], path: str) -> Any
         return kind(**values)
 
 
-def _read_collider(entry: dict[str, Any], path: str) -> Collider:
+def _read_collider(entry: dict[str, Any], path: str, *, layers: LayerMasks | None) -> Collider:
+    if entry["region"]["type"] == "layer":
+        return _collider_of_layer(entry["region"]["name"], f"{path}.region", layers)
     region = _read_typed(entry["region"], COLLIDER_TYPES, f"{path}.region")
     with _located(path):
         return Collider(region)
 
 
+def _collider_of_layer(name: str, path: str, layers: LayerMasks | None) -> Collider:
+    if layers is None:
+        raise SceneError(
+            path, f"must be a polygon or a mask where the picture is not in layers. Got: layer {name[:60]}"
+        )
+    try:
+        return Collider.from_mask(layers(name), layer=name)
+    except InvalidInputError as error:
+        raise SceneError(f"{path}.name", str(error).removeprefix("layer ")) from error
+
+
 def _read_paint(entry: dict[str, Any], path: str) -> Paint:
     values = _floats({name: value for name, value in entry.items() if name != "region"})
-    region = _read_typed(entry["region"], COLLIDER_TYPES, f"{path}.region")
+    region = _read_typed(entry["region"], SHAPE_TYPES, f"{path}.region")
     with _located(path):
         return Paint(region, **values)
 
@@ -217,15 +247,17 @@ def _read_query_point(entry: dict[str, Any], _path: str) -> QueryPoint:
 _READERS: dict[str, Callable[[dict[str, Any], str], Any]] = {
     "strokes": _read_stroke,
     "rig_points": _read_rig_point,
-    "colliders": _read_collider,
     "paint": _read_paint,
     "query_points": _read_query_point,
 }
 
 
-def _require_small_masks(document: dict[str, Any]) -> None:
+def _require_small_masks(document: dict[str, Any], target: tuple[int, int]) -> None:
     """Refuse before unpacking: a few characters can ask for any number of pixels."""
-    total = 0
+    regions = [entry["region"] for entry in document.get("colliders", []) if entry["region"]["type"] == "layer"]
+    total = target[0] * target[1] * len({region["name"] for region in regions})
+    if total > MAX_MASK_PIXELS:
+        raise SceneError("colliders", f"layers must have at most {MAX_MASK_PIXELS} pixels together. Got: {total}")
     for path, pixels in _masks(document):
         total += pixels
         if total > MAX_MASK_PIXELS:

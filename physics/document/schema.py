@@ -14,8 +14,8 @@ from ..limits import (
 )
 from ..material import PRESETS, SCALES, Material
 from ..rig import MOST_DEGREES, MOST_STRETCH
-from ..scene import Body, Collider, Contact, Paint, QueryPoint, Scene
-from .encoding import COLLIDER_TYPES, SCENE_VERSION
+from ..scene import Body, Collider, Contact, LayerRegion, Paint, QueryPoint, Scene
+from .encoding import COLLIDER_TYPES, SCENE_VERSION, SHAPE_TYPES
 from .migration import READABLE_VERSIONS
 from .rig_schema import rig_definitions
 from .schema_blocks import (
@@ -29,6 +29,7 @@ from .schema_blocks import (
     object_of,
     pair_of_numbers,
     properties_of,
+    typed_object,
     whole_number,
 )
 
@@ -55,7 +56,6 @@ def scene_schema() -> Schema:
         >>> scene_schema()["type"]
         'object'
     """
-    shape = choice_of(COLLIDER_TYPES)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": f"urn:physanimator:scene:{SCENE_VERSION}",
@@ -72,9 +72,10 @@ def scene_schema() -> Schema:
             "wind": {**object_of(Wind, "Wind", properties_of(Wind)), "type": ["object", "null"]},
             **rig_definitions(),
             "contact": {**object_of(Contact, "Contact", properties_of(Contact)), "type": ["object", "null"]},
-            "collider": object_of(Collider, "Collider", properties_of(Collider, region=shape)),
+            "collider": object_of(Collider, "Collider", properties_of(Collider, region=choice_of(COLLIDER_TYPES))),
+            "layer": typed_object(LayerRegion, "layer", "Layer", _layer(), required=["name"]),
             "query_point": object_of(QueryPoint, "Query point", properties_of(QueryPoint)),
-            "paint": object_of(Paint, "Paint", properties_of(Paint, region=shape)),
+            "paint": object_of(Paint, "Paint", properties_of(Paint, region=choice_of(SHAPE_TYPES))),
             **_entries(),
         },
     }
@@ -95,7 +96,7 @@ def _document() -> dict[str, Schema]:
         "wind": defined("wind"),
         **{name: own[name] for name in ("gravity", "sag", "bodies", "strokes", "rig_points")},
         "contact": {**defined("contact"), "type": ["object", "null"], "description": own["contact"]["description"]},
-        **{name: own[name] for name in ("colliders", "paint", "query_points")},
+        **{name: own[name] for name in ("colliders", "paint", "query_points", "still")},
     }
 
 
@@ -128,6 +129,11 @@ def _mesh() -> dict[str, Schema]:
     }
 
 
+def _layer() -> dict[str, Schema]:
+    about = "Name of a layer of the artwork that stands still."
+    return {"name": {"type": "string", "title": "Name", "description": about}}
+
+
 def _entries() -> dict[str, Schema]:
     """The entries of long lists."""
     whole = {"type": "integer", "minimum": 0}
@@ -137,6 +143,7 @@ def _entries() -> dict[str, Schema]:
             "Key", "Part of the path from 0 to 1, and a factor on the strength there.", **ANY_SIZE
         ),
         "speed_key": pair_of_numbers("Key", "Part of the path from 0 to 1, and a factor above 0 there.", **FROM_0),
+        "layer_name": {"type": "string"},
         "time": {"type": "number", **FROM_0},
         "factor": {"type": "number", **ABOVE_0},
         "angle": {"type": "number", "minimum": -MOST_DEGREES, "maximum": MOST_DEGREES},

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .advising import advice, mask_advice, unused_rig_points
+from .advising import absent_bodies, advice, mask_advice, unused_rig_points
 from .attachment import ATTACHMENTS, Attachment, pins
 from .automatic import automatic_scene
 from .collider_outlines import (
@@ -19,6 +19,7 @@ from .holds import Holds, holds_of, region_work
 from .paint import QUANTITIES, Paint
 from .query_points import QueryPoint
 from .scene import Body, Scene, check_scene_rate
+from .shapes import LayerRegion
 
 __all__ = [
     "ATTACHMENTS",
@@ -30,10 +31,12 @@ __all__ = [
     "Collider",
     "Contact",
     "Holds",
+    "LayerRegion",
     "OutlineCounts",
     "Paint",
     "QueryPoint",
     "Scene",
+    "absent_bodies",
     "advice",
     "automatic_scene",
     "check_scene_rate",

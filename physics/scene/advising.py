@@ -9,13 +9,15 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..errors import printable
 from ..mesh import PixelBox, TriangleMesh, may_be_inverted, triangle_ids
 from ..rig import Circle, MaskRegion, Polygon, RigPoint, coarseness_of, distances_of, leaders_of, vertices_of
 from .scene import Scene
 
-__all__ = ["advice", "inverted_masks", "loose_parts", "mask_advice", "unused_rig_points"]
+__all__ = ["absent_bodies", "advice", "inverted_masks", "loose_parts", "mask_advice", "unused_rig_points"]
 
 _NAMED = 3
+_LISTED = 10
 _LOOKED_AT = 128  # longest side at which it is seen what a mesh covers [px]
 # A smaller part, and a smaller share of the picture, is rather a slip of the brush than something that bends [px^2].
 _TINY = 64
@@ -39,7 +41,25 @@ def advice(scene: Scene, *, masks: bool = True) -> list[str]:
         ...     print(line)
         rig_points[0] touches no body: its region of radius 1 px lies 10.6 px away; a radius of 12 px would reach it
     """
-    return [*(inverted_masks(scene) if masks else ()), *unused_rig_points(scene), *loose_parts(scene)]
+    return [
+        *absent_bodies(scene),
+        *(inverted_masks(scene) if masks else ()),
+        *unused_rig_points(scene),
+        *loose_parts(scene),
+    ]
+
+
+def absent_bodies(scene: Scene) -> list[str]:
+    """A sentence about the bodies that the scene's document names and that are not there."""
+    if not scene.absent:
+        return []
+    shown = [printable(name[:60]) for name in scene.absent[:_NAMED]]
+    names = ", ".join(shown) + ("" if len(scene.absent) <= _NAMED else " and others")
+    there = ", ".join(printable(body.name[:60]) for body in scene.bodies[:_LISTED] if body.name)
+    one = len(scene.absent) == 1
+    which, them = ("a body that is no moving part", "it") if one else ("bodies that are no moving parts", "them")
+    more = "" if len(scene.bodies) <= _LISTED else " and others"
+    return [f"the scene names {which}: {names}; what it says of {them} is left out. The parts are {there}{more}"]
 
 
 def inverted_masks(scene: Scene) -> list[str]:

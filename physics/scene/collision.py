@@ -12,7 +12,7 @@ from ..fields import Field, Input, check_fields, described
 from ..mesh import refuse_noise
 from ..points import Scale
 from ..rig import MaskRegion
-from .shapes import Shape, shape_field
+from .shapes import LayerRegion, Shape, shape_field
 
 __all__ = ["Collider", "Contact"]
 
@@ -74,20 +74,26 @@ class Collider:
         4
     """
 
-    region: Annotated[Shape, shape_field("The shape: a polygon or a painted mask.")]
+    region: Annotated[
+        Shape, shape_field("The shape: a polygon, a painted mask, or what is drawn on a layer of the artwork.")
+    ]
 
     def __post_init__(self) -> None:
         check_fields(self)
 
     @staticmethod
-    def from_mask(mask: NDArray[np.bool_]) -> Collider:
-        """The collider that a mask paints, bool, shape [h, w].
+    def from_mask(mask: NDArray[np.bool_], *, layer: str = "") -> Collider:
+        """The collider that a mask paints.
+
+        Args:
+            mask: bool, shape [h, w].
+            layer: name of the layer that it shows; empty where it shows none.
 
         Raises:
             MeshingError: the mask is noise, whose outlines would take minutes.
         """
         refuse_noise(np.asarray(mask, dtype=np.float32))
-        return Collider(MaskRegion(mask))
+        return Collider(LayerRegion(mask, layer) if layer else MaskRegion(mask))
 
     def rescaled(self, scale: Scale) -> Collider:
         """The same collider over the picture at another size."""

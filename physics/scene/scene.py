@@ -252,6 +252,18 @@ class Scene:
             MAX_QUERY_POINTS,
         ),
     ] = ()
+    still: Annotated[
+        tuple[str, ...],
+        _several(
+            str,
+            "Still layers",
+            "Names of layers of an artwork that stand still although their names say that they move.",
+            "layer_name",
+            MAX_BODIES,
+        ),
+    ] = ()
+    absent: tuple[str, ...] = ()
+    """Names of bodies that the scene's document has and that none of the parts is."""
 
     def __post_init__(self) -> None:
         check_fields(self)

@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from ..errors import require
 from ..fields import Field
 from ..rig import MaskRegion, Polygon
 
-__all__ = ["Shape", "shape_field"]
+__all__ = ["LayerRegion", "Shape", "shape_field"]
 
 Shape = Polygon | MaskRegion
+
+
+@dataclass(frozen=True, eq=False)
+class LayerRegion(MaskRegion):
+    """What is drawn on a layer of an artwork.
+
+    Attributes:
+        mask: where that is, bool, shape [h, w].
+        name: of the layer.
+    """
+
+    name: str = ""
 
 
 def shape_field(about: str) -> Field:

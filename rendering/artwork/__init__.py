@@ -5,7 +5,7 @@ from __future__ import annotations
 from .artwork import ArtLayer, Artwork, Blend
 from .blending import lay_over, planes_of
 from .flattening import flattened, laid_together
-from .layers_dictionary import from_layers_dictionary, to_layers_dictionary
+from .layers_dictionary import MOST_LAYERS, from_layers_dictionary, to_layers_dictionary
 from .limits import MAX_LAYER_BYTES, MAX_LAYERS
 from .loading import is_artwork_file, load_artwork
 from .naming import LayerPlan, Rule, moving_layers, rule_of
@@ -18,6 +18,7 @@ from .see_through import from_see_through
 __all__ = [
     "MAX_LAYERS",
     "MAX_LAYER_BYTES",
+    "MOST_LAYERS",
     "ArtLayer",
     "Artwork",
     "Blend",

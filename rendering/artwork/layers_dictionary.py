@@ -18,10 +18,10 @@ from .limits import MAX_OFFSET, MemoryCount, check_canvas
 from .placement import Placement, placed
 from .png_layers import as_one_dtype, trimmed
 
-__all__ = ["from_layers_dictionary", "to_layers_dictionary"]
+__all__ = ["MOST_LAYERS", "from_layers_dictionary", "to_layers_dictionary"]
 
-_MOST = 50
-"""Layers that ComfyUI takes."""
+MOST_LAYERS = 50
+"""Layers that ComfyUI's own compositor takes."""
 
 _BLENDS: dict[str, Blend] = {
     "normal": "normal",
@@ -185,11 +185,17 @@ def _share(item: dict[str, Any], name: str) -> float:
     return min(max(float(value), 0.0), 1.0)
 
 
-def to_layers_dictionary(artwork: Artwork) -> dict[str, Any]:
+def to_layers_dictionary(artwork: Artwork, *, most: int | None = MOST_LAYERS) -> dict[str, Any]:
     """Artwork as ComfyUI's ``LAYERS``; empty layers are left out.
 
+    All have the same ``z_index``: their order in the list counts, and what ComfyUI's own nodes add comes to lie on top.
+
+    Args:
+        artwork: the layers.
+        most: how many layers there may be; None for any number, which only ComfyUI's own compositor does not take.
+
     Raises:
-        InvalidInputError: there are more layers than ComfyUI takes.
+        InvalidInputError: there are more layers.
 
     Examples:
         >>> import numpy as np
@@ -203,7 +209,8 @@ def to_layers_dictionary(artwork: Artwork) -> dict[str, Any]:
 
     modes = {ours: theirs for theirs, ours in _BLENDS.items()}
     layers = [(name, layer) for name, layer in zip(artwork.names, artwork.layers, strict=True) if layer.pixels.size]
-    require("layers", len(layers), len(layers) <= _MOST, f"at most {_MOST}, which is what ComfyUI takes")
+    if most is not None:
+        require("layers", len(layers), len(layers) <= most, f"at most {most}, which is what ComfyUI takes")
     return {
         "version": 1,
         "canvas": (artwork.width, artwork.height),
@@ -214,12 +221,12 @@ def to_layers_dictionary(artwork: Artwork) -> dict[str, Any]:
                 "name": name,
                 "x": layer.left,
                 "y": layer.top,
-                "z_index": index,
+                "z_index": 0,
                 "opacity": float(layer.opacity),
                 "blend_mode": modes[layer.blend],
                 "visible": layer.visible,
             }
-            for index, (name, layer) in enumerate(layers)
+            for name, layer in layers
         ],
     }
 

@@ -123,7 +123,7 @@ def read_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
         "spacing": options.spacing,
         "strands": options.strands,
         "touching": Touching(
-            _contact(options, scene), [_mask(path, "--collider", width, height) for path in options.collider]
+            _contact(options, scene), [_collider(path, image, width, height) for path in options.collider]
         ),
         "wind": _wind(options),
         **({} if options.attach is None else {"attach": options.attach}),
@@ -166,6 +166,15 @@ def _mask(path: str, option: str, width: int, height: int) -> Any:
     for note in found.notes:
         print(f"physanimator: warning: {note}", file=sys.stderr)
     return found.coverage
+
+
+def _collider(given: str, image: Any, width: int, height: int) -> Any:
+    """The mask in a file; of layered artwork also the name of a layer, where there is no such file."""
+    import numpy as np
+
+    if not isinstance(image, np.ndarray) and not Path(given).exists():
+        return given
+    return _mask(given, "--collider", width, height)
 
 
 def _scene(options: argparse.Namespace) -> dict[str, Any] | None:

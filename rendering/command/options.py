@@ -187,7 +187,8 @@ def _add_direction(parser: argparse.ArgumentParser) -> None:
         action="extend",
         nargs="+",
         default=[],
-        help="mask of what stands still and parts keep out of, read as --mask is; implies --contact",
+        help="mask of what stands still and parts keep out of, read as --mask is; of layered artwork also the name of a"
+        " layer that stands still; implies --contact",
     )
     how.add_argument(
         "--strands",
@@ -278,6 +279,12 @@ def _add_data(parser: argparse.ArgumentParser) -> None:
     data.add_argument("--track-static", metavar="N", type=int, help="points of the background (default: 16)")
     data.add_argument("--track-frames", metavar="N", type=int, help="samples over the clip (default: one a frame)")
     data.add_argument("--save-motion", metavar="OUT.json", help="write every vertex of the meshes in every frame")
+    data.add_argument(
+        "--save-scene",
+        metavar="OUT.json",
+        help="write the scene, what holds the parts and what they are made of included, to edit it and give it to"
+        " --scene",
+    )
     data.add_argument("--save-svg", metavar="OUT.svg", help="write the moving meshes as an SVG that plays in a browser")
 
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["background_for", "check_layers", "check_outputs", "check_sizes", "report", "write_outputs"]
 
 _TRACKED = ("--track-points", "--track-static", "--track-frames")
-_TEXTS = {"save_tracks": ".json", "save_motion": ".json", "save_svg": ".svg"}
+_TEXTS = {"save_tracks": ".json", "save_motion": ".json", "save_svg": ".svg", "save_scene": ".json"}
 
 LARGEST_WIDTH = 8192
 """The largest width that can be asked for [px]; its square is the most pixels that a frame may have."""
@@ -198,6 +198,8 @@ def _save_data(options: argparse.Namespace, animation: Animation) -> None:
         animation.save_motion(options.save_motion)
     if options.save_svg:
         animation.save_svg(options.save_svg)
+    if options.save_scene:
+        animation.save_scene(options.save_scene)
 
 
 def background_for(options: argparse.Namespace, image: Any) -> str:

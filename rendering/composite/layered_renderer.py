@@ -244,6 +244,16 @@ class LayeredRenderer:
         return np.asarray(np.clip(self._at_rest - alpha, 0, 1), dtype=np.float32)
 
     @cached_property
+    def in_front(self) -> FloatImage:
+        """How much of each pixel shows what stands still in front of something that moves, 0 to 1, shape [h, w]."""
+        shown = np.zeros(self.plate.shape[:2], dtype=np.float32)
+        for layer in self._layers:
+            if isinstance(layer, StillLayer) and layer.blend == "normal":
+                part = shown[layer.box.slices]
+                np.maximum(part, np.clip(layer.texture[..., -1], 0, 1), out=part)
+        return shown
+
+    @cached_property
     def _at_rest(self) -> FloatImage:
         """How much of each pixel the bodies cover as drawn, shape [h, w]."""
         rest = np.concatenate([body.mesh.vertices for body in self.motion.bodies]).astype(np.float32)

@@ -5,7 +5,7 @@ The model's node takes them as they are; see ``ModelFormat`` for their length an
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import cv2
@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from ...physics.errors import require
 from ...physics.motion import FlowSequence, Motion
 from ..composite import LayeredRenderer
-from ..pictures import as_float
-from ..sketch import warp_sketch
+from ..pictures import as_float, over
+from ..sketch import WarpMode, warped_sketches
 from .model_format import ModelFormat
 
 __all__ = ["first_and_last", "line_frames", "warped_frames"]
@@ -37,6 +37,7 @@ def warped_frames(
     *,
     plate: NDArray[Any] | None = None,
     grow: int = 4,
+    renderer: Callable[[Motion], LayeredRenderer] | None = None,
 ) -> Iterator[tuple[FloatImage, FloatImage]]:
     """The illustration with its parts moved, and what they have uncovered, for the model to paint.
 
@@ -47,6 +48,8 @@ def warped_frames(
         form: length and size of the clip.
         plate: what is behind all bodies, of the image's shape and dtype. With it nothing is missing: holes stay 0.
         grow: how far holes reach beyond what was uncovered [px of the illustration].
+        renderer: makes what draws a motion, such as :meth:`LayeredRenderer.of_artwork`, instead of cutting parts out of
+            the image. Where somebody drew what is behind the bodies, nothing is missing either.
 
     Yields:
         For each frame RGB in 0 to 1, shape [height, width, 3], grey in the holes; and the holes, 0 or 1, shape
@@ -56,24 +59,30 @@ def warped_frames(
         InvalidInputError: the inputs do not fit together.
     """
     require("grow", grow, 0 <= grow <= 64, "0 to 64 px")
-    renderer = LayeredRenderer(image, masks, form.sampled(motion), plate=plate)
+    drawing = _drawing(image, masks, form.sampled(motion), plate, renderer)
     square = np.ones((2 * grow + 1,) * 2, np.uint8)
-    for t in range(len(renderer)):
-        if plate is not None:
-            frame = form.resized(as_float(renderer.frame(t)))
+    for t in range(len(drawing)):
+        if drawing.drawn_plate:
+            frame = _shown(drawing, t, form)
             yield frame, np.zeros(frame.shape[:2], dtype=np.float32)
             continue
-        drawn, alpha = renderer.frame_and_alpha(t)
-        frame = form.resized(as_float(drawn))
-        missing = cv2.dilate((renderer.uncovered_by(alpha) > 0.5).astype(np.uint8), square).astype(np.float32)
-        # Moved parts lie over the hole, however far it was grown.
-        missing *= alpha < 0.5
+        drawn, alpha = drawing.frame_and_alpha(t)
+        frame = form.resized(as_float(over(drawn)))
+        missing = cv2.dilate((drawing.uncovered_by(alpha) > 0.5).astype(np.uint8), square).astype(np.float32)
+        # Moved parts, and what stands still in front of them, lie over the hole, however far it was grown.
+        missing *= (alpha < 0.5) & (drawing.in_front < 0.5)
         hole = (form.resized(missing) > _HOLE).astype(np.float32)
         yield np.where(hole[..., None] > 0, np.float32(_UNKNOWN), frame), hole
 
 
 def line_frames(
-    sketch: NDArray[Any], motion: Motion, form: ModelFormat, *, bright_lines: bool = True
+    sketch: NDArray[Any],
+    motion: Motion,
+    form: ModelFormat,
+    *,
+    bright_lines: bool = True,
+    behind: NDArray[Any] | None = None,
+    own: Sequence[NDArray[Any]] | None = None,
 ) -> Iterator[FloatImage]:
     """A line drawing that moves along with the bodies.
 
@@ -82,6 +91,9 @@ def line_frames(
         motion: of the bodies.
         form: length and size of the clip.
         bright_lines: white lines on black, as edge detectors draw; otherwise dark lines on white paper.
+        behind: sketch of what is behind the bodies; only beside ``own``.
+        own: sketch of each body's own layer, whose lines then move layer by layer: see
+            :func:`~physanimator.rendering.sketch.warped_sketches`.
 
     Yields:
         For each frame a picture in 0 to 1, shape [height, width].
@@ -89,8 +101,9 @@ def line_frames(
     Raises:
         InvalidInputError: the sketch has another size than the motion's illustration.
     """
-    for field in FlowSequence(form.sampled(motion)):
-        drawn = form.resized(warp_sketch(sketch, field).sketch)
+    mode: WarpMode = "paper" if own is None else "layered"
+    for warped in warped_sketches(sketch, FlowSequence(form.sampled(motion)), mode=mode, behind=behind, own=own):
+        drawn = form.resized(warped.sketch)
         yield np.asarray(1 - drawn if bright_lines else drawn, dtype=np.float32)
 
 
@@ -103,6 +116,7 @@ def first_and_last(
     first: int = 0,
     last: int = -1,
     plate: NDArray[Any] | None = None,
+    renderer: Callable[[Motion], LayeredRenderer] | None = None,
 ) -> tuple[FloatImage, FloatImage]:
     """Two frames of a motion, between which a video model draws its own.
 
@@ -114,6 +128,7 @@ def first_and_last(
         first: number of the first frame of the motion; negative ones count from its end.
         last: number of the last frame.
         plate: what is behind all bodies, of the image's shape and dtype; None makes a clean plate.
+        renderer: see :func:`warped_frames`.
 
     Returns:
         Both frames, RGB in 0 to 1, shape [height, width, 3].
@@ -139,6 +154,21 @@ def first_and_last(
     count = len(motion)
     for name, number in (("first_frame", first), ("last_frame", last)):
         require(name, number, -count <= number < count, f"a frame of the motion, {-count} to {count - 1}")
-    renderer = LayeredRenderer(image, masks, motion, plate=plate)
-    start, end = (form.resized(as_float(renderer.frame(number % count))) for number in (first, last))
+    drawing = _drawing(image, masks, motion, plate, renderer)
+    start, end = (_shown(drawing, number % count, form) for number in (first, last))
     return start, end
+
+
+def _drawing(
+    image: NDArray[Any],
+    masks: Sequence[ArrayLike],
+    motion: Motion,
+    plate: NDArray[Any] | None,
+    renderer: Callable[[Motion], LayeredRenderer] | None,
+) -> LayeredRenderer:
+    return LayeredRenderer(image, masks, motion, plate=plate) if renderer is None else renderer(motion)
+
+
+def _shown(drawing: LayeredRenderer, t: int, form: ModelFormat) -> FloatImage:
+    """A frame in the model's size, over white where it is transparent."""
+    return form.resized(as_float(over(drawing.frame(t))))

@@ -23,6 +23,8 @@ __all__ = ["PACK", "ROOT", "Host"]
 
 ROOT = Path(__file__).resolve().parents[2]
 PACK = "PhysAnimator"
+STAND_IN = Path(__file__).with_name("see_through_stand_in")
+"""A pack with the nodes of ComfyUI-See-through, without its models."""
 _START_SECONDS = 180
 _RUN_SECONDS = 300
 
@@ -45,6 +47,7 @@ class Host:
         self.url = f"http://127.0.0.1:{self.port}"
         (folder / "custom_nodes").mkdir()
         (folder / "custom_nodes" / PACK).symlink_to(ROOT, target_is_directory=True)
+        (folder / "custom_nodes" / STAND_IN.name).symlink_to(STAND_IN, target_is_directory=True)
         self._log = (folder / "server.log").open("wb")
         self._process = subprocess.Popen(
             [python, "main.py", "--cpu", "--port", str(self.port), "--disable-auto-launch", "--disable-api-nodes",

@@ -35,7 +35,9 @@ browser = _sibling("browser")
 editor_page = _sibling("editor_page")
 _sibling("frame_interpolation_graph")
 _sibling("graphs")
+_sibling("layer_graphs")
 _sibling("small_graphs")
+_sibling("layered_files")
 _sibling("video_model_graphs")
 
 

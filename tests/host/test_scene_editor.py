@@ -187,3 +187,52 @@ def test_query_points_of_a_document_cut_the_part_out(host: Any) -> None:
         "shown": core("PreviewImage", images=["cut", 1]),
     }
     assert "click on what shall move" in host.error_of(prompt)
+
+
+def layered(document: dict[str, Any], *, bodies: bool) -> dict[str, Any]:
+    moved = {"move": "", "still": "plant", "preset": "by name", "spacing": 0.0, "elements_across": 3, "strands": False}
+    given = {"bodies": ["bodies", 0]} if bodies else {"layers": ["load", 0]}
+    return {
+        "load": ours("LoadLayers", file="PhysAnimator example.psd"),
+        **({"bodies": ours("ArtworkToBodies", layers=["load", 0], **moved)} if bodies else {}),
+        "editor": ours("SceneEditor", scene=json.dumps(document), **given),
+        "json": core("PreviewAny", source=["editor", 1]),
+    }
+
+
+@pytest.mark.parametrize("bodies", [False, True])
+def test_what_moves_is_what_the_document_names(host: Any, bodies: bool) -> None:
+    named = [{"name": "ribbon", "material": {"preset": "jelly"}}, {"name": "arms"}, {"name": "moustache"}]
+    region = {"type": "layer", "name": "body"}
+    document = {**SIZE, "bodies": named, "still": ["cape"], "colliders": [{"region": region}], "contact": {}}
+    document["rig_points"] = [{**PIN, "body": 0}, {**PIN, "body": 2}]
+    results = host.run(layered(document, bodies=bodies))
+    (info,) = results["editor"]["physanimator_editor"]
+    moving = ["back hair", "arms", "skirt", "front hair", "ribbon", *([] if bodies else ["plant"])]
+    told = info["layers"]["layers"]
+    assert [each["name"] for each in told if each["moving"]] == moving[::-1]
+    assert {each["name"] for each in told if each["moves"]} == {*moving, "cape"} - {"arms"}
+    written = json.loads(results["json"]["text"][0])
+    assert [body["name"] for body in written["bodies"]] == moving
+    assert written["bodies"][4]["material"]["name"] == "jelly"
+    assert [point.get("body") for point in written["rig_points"]] == [4]
+    assert (written["still"], written["colliders"]) == (["cape"], [{"region": region}])
+    assert any("moustache" in sentence for sentence in results["editor"]["advice"])
+    drawn = info["layers"]["drawn"]
+    assert [each["body"] for each in drawn if each["body"] is not None] == list(range(len(moving)))
+    with urllib.request.urlopen(f"{host.url}/physanimator/layer/{info['key']}/{len(drawn) - 1}", timeout=60) as answer:
+        picture = Image.open(io.BytesIO(answer.read()))
+    assert picture.mode == "RGBA"
+    assert list(picture.size) == drawn[-1]["box"][2:]
+    status, body = ask(host, {"editor": "layers", "key": info["key"], "scene": document, "frames": 3})
+    assert status == 200, body
+
+
+def test_layers_that_cannot_be_leant_on(host: Any) -> None:
+    region = {"type": "layer", "name": "ribbon"}
+    document = {**SIZE, "colliders": [{"region": region}], "contact": {}}
+    error = host.error_of(layered(document, bodies=False))
+    assert (
+        "must be one that stands still; there are background, arms, body, collar, face. Got: ribbon, which moves"
+        in error
+    )

@@ -159,7 +159,8 @@ def test_links_of_the_ui_format_fit_its_nodes(name: str) -> None:
     for number, source, output, target, slot, kind in ui["links"]:
         assert number in nodes[source]["outputs"][output]["links"]
         assert nodes[target]["inputs"][slot]["link"] == number
-        assert nodes[source]["outputs"][output]["type"] == kind == nodes[target]["inputs"][slot]["type"]
+        assert nodes[source]["outputs"][output]["type"] == kind
+        assert nodes[target]["inputs"][slot]["type"] in (kind, "*")
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -192,3 +193,30 @@ def test_the_workflow_for_newer_hosts_is_the_quickstart_with_frames_between() ->
     assert video["inputs"]["fps"] == api[drawn]["inputs"]["multiplier"] * scene["inputs"]["frame_rate"]
     note = next(node for node in ui_of("frame_interpolation")["nodes"] if node["type"] == "MarkdownNote")
     assert "0.8.0 has not" in note["widgets_values"][0]
+
+
+def test_the_workflow_for_see_through_lacks_nothing_but_that_pack() -> None:
+    api = api_of("see_through")
+    theirs = {key: node for key, node in api.items() if node["class_type"].startswith("SeeThrough_")}
+    cores = {"CreateVideo", "SaveVideo", "PreviewAny"}
+    assert {node["class_type"] for node in api.values()} - {node["class_type"] for node in theirs.values()} <= (
+        set(SCHEMAS) | cores
+    )
+    (taken,) = [node for node in api.values() if node["class_type"] == "PhysAnimator_SeeThroughLayers"]
+    source, output = taken["inputs"]["parts"]
+    assert theirs[source]["class_type"] == "SeeThrough_PostProcess"
+    assert output == 0
+    ui = ui_of("see_through")
+    carried = {link[5] for link in ui["links"] if str(link[3]) in api and str(link[1]) in theirs}
+    assert "SEETHROUGH_PARTS" in carried
+    (note,) = [node["widgets_values"][0] for node in ui["nodes"] if node["type"] == "MarkdownNote"]
+    for told in ("ComfyUI-See-through", "MIT", "layerdiff3d", "marigold", "licences", "12 to 16 GB", "1280"):
+        assert told in note
+
+
+def test_the_workflow_for_layers_runs_at_once() -> None:
+    api = api_of("layers")
+    (load,) = [node for node in api.values() if node["class_type"] == "PhysAnimator_LoadLayers"]
+    file = SCHEMAS["PhysAnimator_LoadLayers"]["input"]["required"]["file"][1]
+    assert load["inputs"]["file"] == file["default"]
+    assert (ROOT / "workflows" / "example" / "illustration.psd").stat().st_size < 2**20

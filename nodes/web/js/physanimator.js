@@ -5,6 +5,7 @@ import { api } from "../../../scripts/api.js";
 import { showAdvice } from "./host/advice.js";
 import { attachEditor } from "./host/attach.js";
 import { POINTS, SCENE } from "./host/formats.js";
+import { attachUpload } from "./host/upload.js";
 import { POINT_GROUPS, SCENE_GROUPS } from "./panels/toolbar.js";
 
 /** @type {Record<string, import("./host/attach.js").Kind>} */
@@ -24,12 +25,14 @@ app.registerExtension({
    */
   beforeRegisterNodeDef(nodeType, nodeData) {
     const kind = KINDS[nodeData.name];
-    if (!kind) return;
+    const uploads = nodeData.name === "PhysAnimator_LoadLayers";
+    if (!kind && !uploads) return;
     const before = nodeType.prototype.onNodeCreated;
     // Earlier than the hook for created nodes, which comes when the Vue canvas has taken the node's size already.
     nodeType.prototype.onNodeCreated = function () {
       before?.apply(this, arguments);
-      this.physanimatorEditor = attachEditor(app, api, this, kind);
+      if (uploads) attachUpload(app, api, this, "file");
+      else this.physanimatorEditor = attachEditor(app, api, this, kind);
     };
   },
 });

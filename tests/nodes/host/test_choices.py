@@ -51,7 +51,8 @@ def inputs(described: dict[str, Any], chosen: Path_ = ()) -> Iterator[tuple[Path
 
 
 EVERY = [(node, *found) for node, schema in SCHEMAS.items() for found in inputs(schema["input"])]
-CHOICES = [each[:3] for each in EVERY if each[3] in ("COMBO", "COMFY_DYNAMICCOMBO_V3")]
+CLOSED = [each for each in EVERY if not each[4].get(choices.OPEN)]
+CHOICES = [each[:3] for each in CLOSED if each[3] in ("COMBO", "COMFY_DYNAMICCOMBO_V3")]
 NUMBERS = [(*each[:3], each[4]) for each in EVERY if each[3] in ("INT", "FLOAT")]
 
 

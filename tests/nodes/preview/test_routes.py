@@ -10,6 +10,7 @@ import struct
 import threading
 import time
 from collections.abc import AsyncIterator, Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,9 @@ from hypothesis import strategies as st
 from physanimator.nodes.preview import FRAME, HEADER, guard, routes, split_records
 from physanimator.nodes.preview.limits import MAX_EDITORS, MAX_REQUEST_BYTES
 from physanimator.nodes.preview.records import END, ERROR
+from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.interruption import checkpoint
+from physanimator.rendering.layer_pictures import LayerPicture
 from PIL import Image
 from served_previews import PATIENCE, SCENE, Served, bodies, in_a_server
 
@@ -45,6 +48,43 @@ def test_unknown_keys(path: str, key: str) -> None:
         assert "run the graph once" in (await answer.json())["error"]
 
     in_a_server(test)
+
+
+def test_layers_come_as_pictures_by_their_place() -> None:
+    shown = np.random.default_rng(3).integers(0, 256, (2, 6, 5, 4), np.uint8)
+    layers = tuple(LayerPicture(number, pixels, (0, 0, 5, 6), "normal") for number, pixels in enumerate(shown))
+    stored = replace(bodies(), layers=layers)
+    assert stored.key != bodies().key != replace(stored, layers=layers[:1]).key
+    assert stored.size == bodies().size + shown.nbytes
+
+    async def test(server: Served) -> None:
+        for number, pixels in enumerate(shown):
+            answer = await server.client.get(f"/physanimator/layer/{server.key}/{number}")
+            assert answer.content_type == "image/png"
+            np.testing.assert_array_equal(np.asarray(Image.open(io.BytesIO(await answer.read()))), pixels)
+        for place in ("2", "-1", "x", "00000", "1e3", "%31%00", "9999999999999999999"):
+            answer = await server.client.get(f"/physanimator/layer/{server.key}/{place}")
+            assert answer.status == 404
+        assert (await server.client.get(f"/physanimator/layer/{'0' * 64}/0")).status == 404
+
+    in_a_server(test, stored)
+
+
+def test_a_preview_leans_on_layers_by_name() -> None:
+    def masks(name: str) -> np.ndarray:
+        if name != "shoulder":
+            raise InvalidInputError(f"layer must be one that stands still; there are shoulder. Got: {name}")
+        return np.pad(np.ones((10, 30), bool), ((60, 10), (20, 50)))
+
+    async def test(server: Served) -> None:
+        scene = {**SCENE, "contact": {}, "colliders": [{"region": {"type": "layer", "name": "shoulder"}}]}
+        assert (await server.ask(scene=scene)).status == 200
+        scene["colliders"] = [{"region": {"type": "layer", "name": "knee"}}]
+        answer = await server.ask(scene=scene)
+        assert answer.status == 422
+        assert "there are shoulder. Got: knee" in (await answer.json())["error"]
+
+    in_a_server(test, replace(bodies(), layer_masks=masks))
 
 
 def test_the_plate_is_made_once_and_has_lost_the_body() -> None:

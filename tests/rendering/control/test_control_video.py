@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
@@ -9,7 +11,8 @@ from physanimator.physics.material import preset
 from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
-from physanimator.rendering.composite import Layer
+from physanimator.rendering.artwork import ArtLayer, Artwork
+from physanimator.rendering.composite import Layer, LayeredRenderer
 from physanimator.rendering.control import ModelFormat, first_and_last, line_frames, warped_frames
 
 WIDTH, HEIGHT = 160, 96
@@ -99,3 +102,49 @@ def test_every_layer_is_drawn_once_a_frame_and_once_at_rest(monkeypatch: pytest.
     monkeypatch.setattr(Layer, "drawn", lambda *given: (drawn.append(1), whole(*given))[1])
     assert len(list(warped_frames(image(), [MASK], motion(), FORM))) == 5
     assert len(drawn) == 5 + 1
+
+
+def test_holes_spare_what_stands_still_in_front() -> None:
+    bar = (np.abs(Y - 48) < 6) & (X > 20) & (X < 140)
+    picture = np.where(bar[..., None], np.float32((0.1, 0.2, 0.8)), image())
+
+    def drawing(moved: Motion) -> LayeredRenderer:
+        return LayeredRenderer(picture, [MASK], moved, in_front=bar)
+
+    clip = list(warped_frames(picture, [MASK], motion(), FORM, grow=8, renderer=drawing))
+    inside = (np.abs(Y - 48) < 4) & (X > 24) & (X < 136)
+    for frame, hole in clip:
+        assert not hole[inside].any()
+        assert np.abs(frame - picture)[inside].max() < 0.02
+    assert clip[-1][1].any(), "beside it there are holes"
+
+
+def test_layers_leave_no_holes_and_are_shown_over_white() -> None:
+    red = np.zeros((HEIGHT, WIDTH, 4), np.uint8)
+    red[MASK] = (230, 25, 25, 255)
+    artwork = Artwork(WIDTH, HEIGHT, (ArtLayer("red", red),))
+
+    def drawing(moved: Motion) -> LayeredRenderer:
+        return LayeredRenderer.of_artwork(artwork, [0], moved)
+
+    clip = list(warped_frames(image(), [MASK], motion(), FORM, renderer=drawing))
+    assert not any(hole.any() for _, hole in clip)
+    first, last = first_and_last(image(), [MASK], motion(), FORM, renderer=drawing)
+    assert np.abs(first - clip[0][0]).max() < 1e-6
+    assert np.abs(last - clip[-1][0]).max() < 1e-6
+    assert last[48, 60 + int(SHIFT)] == pytest.approx((230 / 255, 25 / 255, 25 / 255), abs=0.01)
+    assert (last[48, 42] == 1).all(), "what it left is white"
+
+
+def test_lines_of_layers_come_to_light() -> None:
+    sketch, hidden = np.ones((2, HEIGHT, WIDTH), np.float32)
+    cover = np.zeros((HEIGHT, WIDTH), bool)
+    cover[:, 50:70] = True
+    hidden[40:56, 58:62] = 0
+    body = replace(motion().bodies[0], cover=cover)
+    moved = Motion((body,), motion().positions, 24.0)
+    plain = list(line_frames(sketch, moved, FORM, bright_lines=False))
+    drawn = list(line_frames(sketch, moved, FORM, bright_lines=False, own=[hidden]))
+    assert drawn[0].min() > 0.9, "hidden at rest"
+    assert drawn[-1][48, 60 + int(SHIFT)] < 0.2, "and seen where it has come out"
+    assert plain[-1].min() > 0.9

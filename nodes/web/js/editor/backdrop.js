@@ -33,12 +33,15 @@ export class Backdrop {
   /** @param {Run} run */
   async setRun(run) {
     const { editor } = this;
+    if (run.layers && !run.image) this.picture = null;
     const picture = run.image ? await loaded(run.image) : this.picture;
     if (run.image) this.wanted = null;
+    editor.setLayers(run.layers?.layers ?? []);
     if (picture) this.#take(picture);
     else this.fitTo(run.width, run.height);
     await editor.live.setRun(run, picture);
     editor.simulate();
+    if (run.layers) return;
     // Made when first asked for, which takes a moment; until then the picture itself is behind the bodies.
     const plate = await loaded(run.plate).catch(() => null);
     if (plate) editor.live.setPlate(run, plate);

@@ -6,6 +6,7 @@
 
 import { itemAt, withAdded, withItem, withoutItems } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
+import { withMoves, withPreset } from "../scene/layers.js";
 import { moved } from "../scene/shapes.js";
 import { BRUSHES } from "./toolbox.js";
 
@@ -95,6 +96,34 @@ export class Commands {
     editor.show();
   }
 
+  /** @param {import("../scene/layers.js").Layer} layer to be seen or not, which changes nothing in the scene */
+  look(layer) {
+    const { editor } = this;
+    const { unseen } = editor.live.player;
+    if (!unseen.delete(layer.index)) unseen.add(layer.index);
+    editor.show();
+  }
+
+  /**
+   * @param {import("../scene/layers.js").Layer} layer
+   * @param {boolean} moves
+   */
+  move(layer, moves) {
+    const { editor } = this;
+    editor.commit(withMoves(editor.document, layer, moves, editor.layerList.layers));
+    editor.choose(layer.name);
+  }
+
+  /**
+   * @param {import("../scene/layers.js").Layer} layer
+   * @param {string} preset
+   */
+  make(layer, preset) {
+    const { editor } = this;
+    editor.commit(withPreset(editor.document, layer, preset, editor.layerList.layers));
+    editor.choose(layer.name);
+  }
+
   /** @param {number} frame */
   seek(frame) {
     this.editor.live.playback.seek(frame);
@@ -163,6 +192,7 @@ export class Commands {
     editor.tool.cancel();
     if (drawing) editor.replacing = null;
     else if (editor.selection) editor.select(null);
+    else if (editor.chosen) editor.choose("");
     else if (editor.dialog.open) editor.dialog.close();
     editor.show();
   }

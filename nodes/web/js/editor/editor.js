@@ -19,6 +19,7 @@
 import { ACTIONS } from "../panels/toolbar.js";
 import { emptyDocument, itemAt, withItem, withValue } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
+import { isAsRun, withNames } from "../scene/layers.js";
 import { handlesOf } from "../scene/shapes.js";
 import { Layers } from "../stage/layers.js";
 import { Scheduler } from "../stage/scheduler.js";
@@ -54,6 +55,8 @@ export class Editor {
     this.replacing = null;
     /** @type {Point | null} */
     this.pointer = null;
+    /** Name of the layer that is selected in the list, empty for none. */
+    this.chosen = "";
     this.shown = { mesh: false, items: true, panel: options.moves };
     this.store = new Store(emptyDocument(1280, 720), {
       show: () => this.show(),
@@ -73,6 +76,7 @@ export class Editor {
     this.stage = parts.stage;
     this.toolbar = parts.toolbar;
     this.inspector = parts.inspector;
+    this.layerList = parts.layerList;
     this.timeline = parts.timeline;
     this.status = parts.status;
     this.layers = new Layers(this.stage);
@@ -113,7 +117,8 @@ export class Editor {
    */
   commit(document, selection, key) {
     this.replacing = null;
-    this.store.commit(document, selection, key);
+    // With the names of the bodies in it the document finds them again where layers come and go.
+    this.store.commit(withNames(document, this.layerList.layers), selection, key);
   }
 
   /** @param {SceneDocument} document */
@@ -125,6 +130,32 @@ export class Editor {
   select(reference) {
     this.replacing = null;
     this.store.select(reference);
+  }
+
+  /** @param {import("../scene/layers.js").Layer[]} layers  from front to back; none where the picture is flat */
+  setLayers(layers) {
+    const before = this.layerList.layers.map((layer) => layer.name);
+    // Who is not looked at is known by number, which holds as long as the layers are the same.
+    if (layers.some((layer, i) => layer.name !== before[i])) this.live.player.unseen.clear();
+    this.layerList.setLayers(layers);
+    this.show();
+  }
+
+  /** @param {string} name of the layer to select; empty for none */
+  choose(name) {
+    this.chosen = name;
+    if (this.chosenLayer) this.layerList.reveal(this.chosenLayer);
+    this.show();
+  }
+
+  /** @param {Point} point at which somebody clicked beside all that is drawn */
+  chooseAt(point) {
+    const index = this.live.layerAt(point);
+    this.choose(this.layerList.layers.find((layer) => layer.index === index)?.name ?? "");
+  }
+
+  get chosenLayer() {
+    return this.layerList.layers.find((layer) => layer.name === this.chosen) ?? null;
   }
 
   /** @param {string} sentence */
@@ -163,7 +194,10 @@ export class Editor {
 
   simulate() {
     if (!this.options.moves) return;
-    if (this.live.run) this.live.request(this.document, this.frameCount);
+    if (this.live.run && !isAsRun(this.document, this.layerList.layers)) {
+      this.live.hold();
+      this.backdrop.offerRun("Other layers are to move: run this node to see them move.");
+    } else if (this.live.run) this.live.request(this.document, this.frameCount);
     else this.backdrop.offerRun();
   }
 
@@ -243,6 +277,7 @@ export class Editor {
     this.frame.dataset.panel = String(this.shown.panel);
     const paints = BRUSHES.includes(this.tool.id) && this.tool.id !== "erase";
     this.inspector.show(document, selection, paints ? { radius: this.brushRadius } : null);
+    this.layerList.show(document, this.chosenLayer, this.live.player.unseen);
     const { playback } = this.live;
     if (!playback.header) playback.duration = this.frameCount;
     playback.frameRate = document.frame_rate ?? 24;
@@ -305,6 +340,7 @@ export class Editor {
       draft: this.tool.draft,
       brush: brushing ? { at: brushing, radius: this.brushRadius } : null,
       itemsShown: this.shown.items,
+      outline: this.chosenLayer && live.outlineOf(this.chosenLayer.index),
     });
     live.draw(stage.view, stage.across, stage.down, this.shown.mesh);
     this.#showStatus();

@@ -6,6 +6,7 @@
 
 import { element } from "../panels/elements.js";
 import { Inspector } from "../panels/inspector.js";
+import { LayerList } from "../panels/layer_list.js";
 import { STYLE } from "../panels/style.js";
 import { Timeline } from "../panels/timeline.js";
 import { Toolbar } from "../panels/toolbar.js";
@@ -25,6 +26,13 @@ export function layout(editor) {
     redrawRegion: (kind) => editor.commands.redrawRegion(kind),
     brushSize: (radius) => editor.commands.setBrush(radius),
   });
+  const layerList = new LayerList({
+    choose: (layer) => editor.choose(layer?.name ?? ""),
+    look: (layer) => editor.commands.look(layer),
+    move: (layer, moves) => editor.commands.move(layer, moves),
+    make: (layer, preset) => editor.commands.make(layer, preset),
+  });
+  const side = element("div", { className: "physanimator-side" }, [layerList.root, inspector.root]);
   const timeline = new Timeline({
     toggle: () => editor.commands.run("play"),
     loop: () => editor.commands.run("loop"),
@@ -33,7 +41,7 @@ export function layout(editor) {
     select: (reference) => editor.select(reference),
     retime: (reference, item, done) => editor.commands.retime(reference, item, done),
   });
-  const rows = [toolbar.root, place, inspector.root, ...(moves ? [timeline.root] : [])];
+  const rows = [toolbar.root, place, side, ...(moves ? [timeline.root] : [])];
   /** @type {HTMLElement} */
   const frame = element("div", { className: "physanimator-frame" }, rows);
   const onclose = () => editor.commands.shrink();
@@ -42,7 +50,7 @@ export function layout(editor) {
   const style = element("style", { textContent: STYLE });
   /** @type {HTMLElement} */
   const root = element("div", { className: "physanimator-editor", "data-capture-wheel": "true" }, [style, frame, dialog]);
-  return { toolbar, stage, inspector, timeline, status, frame, dialog, root };
+  return { toolbar, stage, inspector, layerList, timeline, status, frame, dialog, root };
 }
 
 /**

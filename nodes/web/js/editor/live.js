@@ -11,6 +11,11 @@
  * @property {number} height
  * @property {string | null} image  URL of the picture; null where none is connected
  * @property {string} plate  URL of what is behind the bodies
+ * @property {LayersOfRun | null} layers  null where masks cut the bodies out of a flat picture
+ *
+ * @typedef {object} LayersOfRun
+ * @property {import("../scene/layers.js").Layer[]} layers  from front to back
+ * @property {{layer: number, body: number | null, box: [number, number, number, number], blend: string, url: string}[]} drawn  from back to front
  *
  * @typedef {object} LiveListener
  * @property {() => void} redraw
@@ -20,9 +25,11 @@
  */
 
 import { PreviewClient } from "../preview/client.js";
+import { layerAt } from "../preview/layered_picture.js";
 import { MOVES, mark } from "../preview/marks.js";
 import { Playback } from "../preview/playback.js";
 import { Player } from "../preview/player.js";
+import { loaded } from "./pictures.js";
 
 export class Live {
   /**
@@ -40,6 +47,10 @@ export class Live {
     this.run = null;
     /** @type {Mesh | null} */
     this.mesh = null;
+    /** @type {{drawn: any, box: [number, number, number, number], mesh: Mesh | null} | null} of one layer, made last */
+    this.outlined = null;
+    /** Displacements of a mesh at rest. */
+    this.still = new Int16Array(0);
     /** What was measured of the last request, for the tests [ms, px]. */
     this.measured = { asked: 0, firstFrame: 0, drawn: 0, frames: 0, largest: 0 };
   }
@@ -59,11 +70,57 @@ export class Live {
       const mesh = await this.client.mesh(run.key);
       if (this.run !== run) return;
       this.mesh = mesh;
-      if (picture) this.player.load(mesh, picture, picture);
+      if (run.layers) await this.#loadLayers(run, mesh, run.layers.drawn);
+      else if (picture) this.player.load(mesh, picture, picture);
       this.listener.redraw();
     } catch (error) {
       if (this.run === run) this.#fail(/** @type {Error} */ (error));
     }
+  }
+
+  /**
+   * @param {Run} run
+   * @param {Mesh} mesh
+   * @param {LayersOfRun["drawn"]} drawn
+   */
+  async #loadLayers(run, mesh, drawn) {
+    const layers = await Promise.all(drawn.map(async ({ url, ...rest }) => ({ ...rest, picture: await loaded(url) })));
+    if (this.run === run) this.player.loadLayers(mesh, layers);
+  }
+
+  /** Show the picture at rest: what moves is not known at this moment. */
+  hold() {
+    this.client.cancel();
+    this.playback.clear();
+    this.listener.redraw();
+  }
+
+  /**
+   * The layer that moves at a point, in front of all others.
+   *
+   * @param {import("../scene/document.js").Point} point
+   * @returns {number | null} its index in the artwork
+   */
+  layerAt(point) {
+    const { mesh, player, playback } = this;
+    if (!mesh || !player.layers.length) return null;
+    return layerAt(mesh, player.layers, player.unseen, point, playback.shown?.displacements ?? null, this.unit);
+  }
+
+  /**
+   * The mesh of one layer alone, and where its picture is; the same object as long as nothing changes.
+   *
+   * @param {number} layer  its index in the artwork
+   */
+  outlineOf(layer) {
+    const { mesh } = this;
+    const drawn = this.player.layers.find((one) => one.layer === layer);
+    if (!mesh || !drawn) return null;
+    if (this.outlined?.drawn === drawn) return this.outlined;
+    const { body, box } = drawn;
+    const triangles = body === null ? null : mesh.triangles.subarray(3 * mesh.bodies[2 * body], 3 * mesh.bodies[2 * body + 1]);
+    this.outlined = { drawn, box, mesh: triangles && { ...mesh, triangles } };
+    return this.outlined;
   }
 
   /**
@@ -112,7 +169,8 @@ export class Live {
 
   /** Whether the moving mesh can be shown in place of the picture. */
   get shows() {
-    return Boolean(this.player.ready && this.player.mesh && this.playback.shown);
+    const { player } = this;
+    return Boolean(player.ready && player.mesh && (this.playback.shown || player.layered));
   }
 
   get unit() {
@@ -127,17 +185,24 @@ export class Live {
    */
   draw(view, across, down, meshShown) {
     const frame = this.playback.shown;
-    if (!this.shows || !frame) {
+    if (!this.shows || !this.mesh) {
       this.player.clear();
       return;
     }
-    this.player.draw(view, across, down, frame.displacements, this.unit, meshShown);
+    this.player.draw(view, across, down, frame?.displacements ?? this.#rest(this.mesh), this.unit, meshShown);
+    if (!frame) return;
     // The motion before this request goes on until the new one comes, and does not count.
     if (frame.number && this.measured.frames > 1 && !this.measured.drawn) {
       this.measured.drawn = performance.now() - this.measured.asked;
       mark(MOVES);
       this.listener.moved();
     }
+  }
+
+  /** @param {Mesh} mesh */
+  #rest({ positions }) {
+    if (this.still.length !== positions.length) this.still = new Int16Array(positions.length);
+    return this.still;
   }
 
   release() {

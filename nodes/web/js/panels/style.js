@@ -18,7 +18,7 @@ export const STYLE = `
   grid-template: "toolbar toolbar" auto "stage inspector" minmax(0, 1fr) "timeline timeline" auto / minmax(0, 1fr) 216px;
 }
 .physanimator-frame[data-panel="false"] { grid-template-columns: minmax(0, 1fr) 0; }
-.physanimator-frame[data-panel="false"] .physanimator-inspector { display: none; }
+.physanimator-frame[data-panel="false"] .physanimator-side { display: none; }
 .physanimator-toolbar { grid-area: toolbar; display: flex; flex-wrap: wrap; gap: 2px 0; padding: 3px; border-bottom: 1px solid var(--physanimator-rim); }
 .physanimator-group { display: flex; gap: 1px; padding: 0 4px; border-right: 1px solid var(--physanimator-rim); }
 .physanimator-group:last-child { border-right: 0; }
@@ -40,7 +40,21 @@ export const STYLE = `
 .physanimator-note[data-kind="error"] { background: rgba(150, 28, 36, 0.94); }
 .physanimator-note button { color: #fff; background: var(--physanimator-accent); margin-left: 8px; padding: 0 8px; }
 .physanimator-note button:hover:not(:disabled) { background: var(--physanimator-accent); filter: brightness(1.15); }
-.physanimator-inspector { grid-area: inspector; overflow: auto; padding: 6px 8px; border-left: 1px solid var(--physanimator-rim); scrollbar-width: thin; }
+.physanimator-side { grid-area: inspector; display: flex; flex-direction: column; min-height: 0; border-left: 1px solid var(--physanimator-rim); }
+.physanimator-inspector { flex: 1 1 0; min-height: 0; overflow: auto; padding: 6px 8px; scrollbar-width: thin; }
+.physanimator-layers { flex: 0 1 auto; max-height: 55%; min-height: 84px; display: flex; flex-direction: column; padding: 6px 4px 4px 8px; border-bottom: 1px solid var(--physanimator-rim); }
+.physanimator-layers[hidden] { display: none; }
+.physanimator-layer-list { flex: 1; min-height: 0; margin: 0; padding: 0; overflow: auto; list-style: none; scrollbar-width: thin; }
+.physanimator-layer { display: flex; align-items: center; gap: 3px; height: 24px; padding-right: 4px; border-radius: 4px; }
+.physanimator-layer[data-chosen="true"] { background: var(--physanimator-field); box-shadow: inset 2px 0 var(--physanimator-accent); }
+.physanimator-layer[data-shown="false"] { opacity: 0.5; }
+.physanimator-editor .physanimator-layer button { height: 22px; padding: 0 2px; }
+.physanimator-editor .physanimator-layer button.physanimator-eye[aria-pressed] { min-width: 22px; color: var(--physanimator-text); background: transparent; }
+.physanimator-editor .physanimator-layer button.physanimator-eye[aria-pressed="false"] { opacity: 0.3; }
+.physanimator-editor .physanimator-layer button.physanimator-layer-name[aria-pressed] { flex: 1; min-width: 0; display: block; text-align: left; color: var(--physanimator-text); background: transparent; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+.physanimator-editor .physanimator-layer select { width: 76px; height: 20px; padding: 0; appearance: auto; }
+.physanimator-editor .physanimator-layer select[hidden] { display: none; }
+.physanimator-layer input[type="checkbox"] { flex: none; margin: 0; }
 .physanimator-heading { margin: 2px 0 6px; font-weight: 600; }
 .physanimator-field { display: flex; align-items: center; justify-content: space-between; gap: 6px; min-height: 26px; }
 .physanimator-section { justify-content: flex-start; margin-top: 8px; font-weight: 600; }
@@ -97,7 +111,9 @@ export const STYLE = `
     grid-template: "toolbar" auto "stage" minmax(120px, 1fr) "inspector" auto "timeline" auto / minmax(0, 1fr);
   }
   .physanimator-inspector { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); column-gap: 14px; align-content: start;
-    max-height: 124px; border-left: 0; border-top: 1px solid var(--physanimator-rim); }
+    flex: none; max-height: 124px; }
+  .physanimator-side { border-left: 0; border-top: 1px solid var(--physanimator-rim); }
+  .physanimator-layers { max-height: 110px; }
   .physanimator-heading, .physanimator-section, .physanimator-table, .physanimator-field[data-field="region"] { grid-column: 1 / -1; }
   .physanimator-inspector .physanimator-unit { width: 40px; }
 }

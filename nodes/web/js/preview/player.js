@@ -1,20 +1,23 @@
 /**
- * Draws the illustration as a textured mesh over the clean plate, in WebGL.
+ * Draws the illustration as a textured mesh over the clean plate, or in layers, in WebGL.
  *
  * @typedef {import("./records.js").Mesh} Mesh
  * @typedef {import("../scene/geometry.js").View} View
  */
 
+import { LayeredPicture } from "./layered_picture.js";
+
 const VERTEX = `
 attribute vec2 rest;
 attribute vec2 displacement;
+uniform vec2 origin;
 uniform vec2 size;
 uniform vec2 stage;
 uniform vec3 view;
 uniform float unit;
 varying vec2 place;
 void main() {
-  place = rest / size;
+  place = (rest - origin) / size;
   vec2 at = ((rest + displacement * unit) * view.x + view.yz) / stage;
   gl_Position = vec4(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, 0.0, 1.0);
 }`;
@@ -41,6 +44,12 @@ export class Player {
     this.picture = null;
     /** @type {TexImageSource | null} */
     this.plate = null;
+    /** @type {import("./layered_picture.js").DrawnLayer[]} from back to front; none where the picture is flat */
+    this.layers = [];
+    /** @type {LayeredPicture | null} */
+    this.layered = null;
+    /** @type {Set<number>} indices of layers that are not drawn */
+    this.unseen = new Set();
     this.ready = false;
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
@@ -67,6 +76,7 @@ export class Player {
     this.places = {
       rest: gl.getAttribLocation(program, "rest"),
       displacement: gl.getAttribLocation(program, "displacement"),
+      origin: gl.getUniformLocation(program, "origin"),
       size: gl.getUniformLocation(program, "size"),
       stage: gl.getUniformLocation(program, "stage"),
       view: gl.getUniformLocation(program, "view"),
@@ -85,8 +95,10 @@ export class Player {
 
   #restore() {
     if (!this.gl) return;
+    this.layered = null;
     this.#prepare(this.gl);
-    if (this.mesh && this.picture && this.plate) this.load(this.mesh, this.picture, this.plate);
+    if (this.mesh && this.layers.length) this.loadLayers(this.mesh, this.layers);
+    else if (this.mesh && this.picture && this.plate) this.load(this.mesh, this.picture, this.plate);
   }
 
   /**
@@ -99,20 +111,52 @@ export class Player {
     this.mesh = mesh;
     this.picture = picture;
     this.plate = plate;
-    const { gl, buffers, textures } = this;
-    if (!gl || !buffers || !textures) return;
+    const { gl, textures } = this;
+    if (!gl || !textures) return;
+    this.#fill(gl, mesh);
+    upload(gl, textures.picture, picture);
+    upload(gl, textures.plate, plate);
+  }
+
+  /**
+   * @param {Mesh} mesh
+   * @param {import("./layered_picture.js").DrawnLayer[]} layers  from back to front
+   */
+  loadLayers(mesh, layers) {
+    this.#open();
+    this.mesh = mesh;
+    this.layers = layers;
+    const { gl } = this;
+    if (!gl) return;
+    this.#fill(gl, mesh);
+    this.layered?.release(gl);
+    this.layered = new LayeredPicture(gl, mesh, layers, (one, picture) => {
+      const made = texture(one);
+      upload(one, made, picture);
+      return made;
+    });
+  }
+
+  /**
+   * @param {WebGLRenderingContext} gl
+   * @param {Mesh} mesh
+   */
+  #fill(gl, mesh) {
+    const { buffers } = this;
+    if (!buffers) return;
     fill(gl, gl.ARRAY_BUFFER, buffers.rest, mesh.positions);
     fill(gl, gl.ELEMENT_ARRAY_BUFFER, buffers.triangles, mesh.triangles);
     fill(gl, gl.ELEMENT_ARRAY_BUFFER, buffers.edges, edgesOf(mesh.triangles));
     const { width, height } = mesh;
     fill(gl, gl.ARRAY_BUFFER, buffers.plate.rest, new Float32Array([0, 0, width, 0, 0, height, width, height]));
     fill(gl, gl.ARRAY_BUFFER, buffers.plate.displacement, new Int16Array(8));
-    upload(gl, textures.picture, picture);
-    upload(gl, textures.plate, plate);
   }
 
   unload() {
     this.mesh = null;
+    this.layers = [];
+    if (this.gl) this.layered?.release(this.gl);
+    this.layered = null;
     this.clear();
   }
 
@@ -134,19 +178,49 @@ export class Player {
     if (!gl || !mesh || !places || !buffers || !textures || !this.ready) return;
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     this.clear();
+    gl.uniform2f(places.origin, 0, 0);
     gl.uniform2f(places.size, mesh.width, mesh.height);
     gl.uniform2f(places.stage, across, down);
     gl.uniform3f(places.view, view.scale, view.x, view.y);
     gl.uniform1f(places.unit, unit);
+    fill(gl, gl.ARRAY_BUFFER, buffers.displacement, displacements, gl.STREAM_DRAW);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers.triangles);
+    if (this.layered) this.#drawLayers(gl, this.layered);
+    else this.#drawPicture(gl, mesh);
+    if (meshShown) this.#drawEdges(gl, mesh);
+  }
+
+  /**
+   * @param {WebGLRenderingContext} gl
+   * @param {Mesh} mesh
+   */
+  #drawPicture(gl, mesh) {
+    const { buffers, textures } = this;
+    if (!buffers || !textures) return;
     this.#point(gl, buffers.plate.rest, buffers.plate.displacement);
     gl.bindTexture(gl.TEXTURE_2D, textures.plate);
     gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
-    fill(gl, gl.ARRAY_BUFFER, buffers.displacement, displacements, gl.STREAM_DRAW);
     this.#point(gl, buffers.rest, buffers.displacement);
     gl.bindTexture(gl.TEXTURE_2D, textures.picture);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers.triangles);
     gl.drawElements(gl.TRIANGLES, mesh.triangles.length, gl.UNSIGNED_INT, 0);
-    if (meshShown) this.#drawEdges(gl, mesh);
+  }
+
+  /**
+   * @param {WebGLRenderingContext} gl
+   * @param {LayeredPicture} layered
+   */
+  #drawLayers(gl, layered) {
+    const { places, buffers } = this;
+    if (!places || !buffers) return;
+    layered.draw(gl, this.unseen, {
+      cover: ([left, top, width, height]) => {
+        gl.uniform2f(places.origin, left, top);
+        gl.uniform2f(places.size, width, height);
+      },
+      still: (rest, offset) => this.#point(gl, rest, buffers.plate.displacement, offset),
+      moving: () => this.#point(gl, buffers.rest, buffers.displacement),
+    });
+    this.#point(gl, buffers.rest, buffers.displacement);
   }
 
   /**
@@ -168,11 +242,12 @@ export class Player {
    * @param {WebGLRenderingContext} gl
    * @param {WebGLBuffer | null} rest
    * @param {WebGLBuffer | null} displacement
+   * @param {number} [offset]  of the first vertex at rest [bytes]
    */
-  #point(gl, rest, displacement) {
+  #point(gl, rest, displacement, offset = 0) {
     const places = /** @type {{rest: number, displacement: number}} */ (this.places);
     gl.bindBuffer(gl.ARRAY_BUFFER, rest);
-    gl.vertexAttribPointer(places.rest, 2, gl.FLOAT, false, 0, 0);
+    gl.vertexAttribPointer(places.rest, 2, gl.FLOAT, false, 0, offset);
     gl.bindBuffer(gl.ARRAY_BUFFER, displacement);
     gl.vertexAttribPointer(places.displacement, 2, gl.SHORT, false, 0, 0);
   }

@@ -21,6 +21,7 @@
  * @property {import("./tool.js").Draft | null} draft
  * @property {{at: Point, radius: number} | null} brush
  * @property {boolean} itemsShown
+ * @property {{box: [number, number, number, number], mesh: Mesh | null} | null} outline  of the selected layer
  */
 
 import { toStage } from "../scene/geometry.js";
@@ -60,6 +61,8 @@ export function drawOverlay(context, shown, changing) {
   const { document, view, selection, movingMesh } = shown;
   const items = new ItemPainter(context, view, document);
   if (movingMesh) wireframe(context, view, movingMesh, shown.frame, shown.unit);
+  if (shown.outline?.mesh) wireframe(context, view, shown.outline.mesh, shown.frame, shown.unit);
+  else if (shown.outline) box(items, shown.outline.box);
   if (shown.itemsShown) {
     for (const one of changing) items.draw(one.reference, one.item, isChosen(one, selection));
     anchors(items, shown);
@@ -69,6 +72,18 @@ export function drawOverlay(context, shown, changing) {
   if (shown.brush) {
     items.painter.circle(items.at(shown.brush.at), shown.brush.radius * view.scale, "#fff", { width: 1 });
   }
+}
+
+/**
+ * Where a layer is that stands still.
+ *
+ * @param {ItemPainter} items
+ * @param {[number, number, number, number]} box
+ */
+function box({ context, view }, [left, top, width, height]) {
+  context.lineWidth = 1;
+  context.strokeStyle = "rgba(0, 200, 255, 0.9)";
+  context.strokeRect(view.x + left * view.scale, view.y + top * view.scale, width * view.scale, height * view.scale);
 }
 
 /**

@@ -36,6 +36,7 @@ export class SelectTool extends Tool {
     const reach = event.pointerType === "touch" ? REACH.touch : REACH.mouse;
     this.hit = hitTest(this.desk.document, point, reach * this.desk.pixel, this.desk.selection);
     this.desk.select(this.hit?.reference ?? null);
+    if (!this.hit) this.desk.chooseAt(point);
     this.origin = this.hit ? this.desk.document : undefined;
     this.start = point;
     this.dragging = false;

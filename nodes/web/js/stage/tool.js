@@ -22,6 +22,7 @@
  * @property {(document: SceneDocument, selection?: Reference | null, key?: string) => void} commit
  * @property {(document: SceneDocument) => void} propose  show without making it a step to undo
  * @property {(reference: Reference | null) => void} select
+ * @property {(point: Point) => void} chooseAt  select the layer that moves there
  * @property {(sentence: string) => void} say
  * @property {() => void} redraw
  */

@@ -1,0 +1,141 @@
+"""Layers in the scene editor: the list of them, what moves, and the picture in layers under the pen."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from editor_page import CANVASES, EditorPage
+from PIL import Image
+
+_EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example" / "illustration.png"
+_BUILD = """
+async () => {
+  app.graph.clear();
+  app.nodeOutputs = {};
+  const add = (type, x, y) => {
+    const node = LiteGraph.createNode(type);
+    node.pos = [x, y];
+    app.graph.add(node);
+    return node;
+  };
+  const load = add('PhysAnimator_LoadLayers', -1300, 0);
+  const editor = add('PhysAnimator_SceneEditor', 0, 0);
+  const slot = (slots, name) => slots.findIndex((one) => one.name === name);
+  load.connect(slot(load.outputs, 'layers'), editor, slot(editor.inputs, 'layers'));
+  return editor.id;
+}
+"""
+NAMES = [
+    "plant", "ribbon", "front hair", "face", "collar", "body", "skirt", "arms", "cape", "back hair", "background",
+]  # fmt: skip
+FACE = (400, 150, 500, 270)
+ARMS = (320, 500, 372, 590)
+MOVING = ["back hair", "cape", "skirt", "front hair", "ribbon", "plant"]
+
+
+@pytest.fixture(scope="module", params=sorted(CANVASES))
+def canvas(request: pytest.FixtureRequest) -> str:
+    return request.param
+
+
+@pytest.fixture
+def editor(page: Any, canvas: str) -> EditorPage:
+    page.problems.clear()
+    page.page.set_default_timeout(10_000)
+    EditorPage.choose_canvas(page, canvas)
+    opened = EditorPage(page, page.run(_BUILD))
+    opened.look()
+    opened.run_node()
+    opened.wait("editor.live.player.layered !== null")
+    return opened
+
+
+def film(editor: EditorPage) -> np.ndarray:
+    """What WebGL shows, RGB."""
+    editor.page.page.wait_for_timeout(400)
+    box = editor.selector(".physanimator-stage").bounding_box()
+    shot = editor.page.page.screenshot(clip=box)
+    return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)
+
+
+def names(editor: EditorPage) -> list[str]:
+    return editor.selector("[data-layer]").all_text_contents()
+
+
+def test_the_list_shows_the_layers_from_front_to_back(editor: EditorPage) -> None:
+    assert names(editor) == NAMES
+    for name in NAMES:
+        assert editor.selector(f'[data-moves="{name}"]').is_checked() == (name in MOVING)
+    assert editor.selector('[aria-label="Layers"]').is_visible()
+    assert editor.selector('input[aria-label="ribbon moves"]').count() == 1
+    editor.wait("editor.live.measured.drawn > 0")
+    assert editor.page.problems == []
+
+
+def test_what_moves_is_switched_by_name_and_undone(editor: EditorPage) -> None:
+    editor.selector('[data-moves="ribbon"]').click()
+    assert editor.value()["still"] == ["ribbon"]
+    assert [body["name"] for body in editor.value()["bodies"]] == [name for name in MOVING if name != "ribbon"]
+    editor.selector('[data-moves="arms"]').click()
+    assert editor.value()["bodies"][-1] == {"name": "arms", "material": {"preset": "hair"}}
+    editor.selector('[data-preset="arms"]').select_option("jelly")
+    assert editor.queued()["bodies"][-1] == {"name": "arms", "material": {"preset": "jelly"}}
+    editor.run_node()
+    editor.wait("editor.live.mesh?.names.includes('arms')")
+    assert editor.ask("editor.live.mesh.names") == ["back hair", "cape", "arms", "skirt", "front hair", "plant"]
+    editor.focus()
+    editor.keys("Control+z", "Control+z", "Control+z")
+    assert not editor.value().get("still")
+    assert editor.selector('[data-moves="ribbon"]').is_checked()
+    assert editor.page.problems == []
+
+
+def test_a_layer_is_selected_in_the_list_and_in_the_picture(editor: EditorPage) -> None:
+    editor.press("select")
+    editor.click(1090, 500)
+    assert editor.ask("editor.chosen") == "plant"
+    assert editor.selector('[data-layer="plant"]').get_attribute("aria-pressed") == "true"
+    editor.selector('[data-layer="cape"]').click()
+    assert editor.ask("editor.live.outlineOf(editor.chosenLayer.index).mesh.triangles.length") > 0
+    editor.keys("ArrowDown")
+    assert editor.ask("editor.chosen") == "back hair"
+    assert editor.selector('[data-layer="back hair"]').evaluate("(one) => one === document.activeElement")
+    assert editor.ask("Boolean(node.graph)")
+
+
+def test_still_layers_are_drawn_over_moving_ones_and_can_be_hidden(editor: EditorPage) -> None:
+    editor.wait("editor.live.playback.frames.length > 0")
+    editor.ask("editor.commands.seek(0)")
+    rest = film(editor)
+    away = difference(editor, rest, FACE)
+    assert away < 12
+    editor.selector('[data-eye="face"]').click()
+    assert editor.selector('[data-eye="face"]').get_attribute("aria-pressed") == "false"
+    assert difference(editor, film(editor), FACE) > away + 20
+    assert editor.value() == editor.shown()  # it is only a look
+    editor.selector('[data-eye="face"]').click()
+    np.testing.assert_allclose(film(editor), rest, atol=3)
+    # The skirt moves behind the arms, which stand still and are seen through nothing.
+    assert difference(editor, rest, ARMS) < 12
+    editor.selector('[data-eye="arms"]').click()
+    assert difference(editor, film(editor), ARMS) > 20
+
+
+def difference(editor: EditorPage, seen: np.ndarray, box: tuple[int, int, int, int]) -> float:
+    """How far a part of what is seen is from the example's picture, of 255."""
+    left, top, right, bottom = box
+    x0, y0 = map(round, _corner(editor, left, top))
+    x1, y1 = map(round, _corner(editor, right, bottom))
+    expected = Image.open(_EXAMPLE).convert("RGB").crop(box).resize((x1 - x0, y1 - y0), Image.Resampling.BOX)
+    return float(np.abs(seen[y0:y1, x0:x1] - np.asarray(expected).astype(int)).mean())
+
+
+def _corner(editor: EditorPage, x: float, y: float) -> tuple[float, float]:
+    """Where a pixel of the picture is, from the corner of the stage."""
+    box = editor.selector(".physanimator-stage").bounding_box()
+    across, down = editor.place(x, y)
+    return across - box["x"], down - box["y"]
