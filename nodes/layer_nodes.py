@@ -180,7 +180,7 @@ class SaveLayers(io.ComfyNode):
                     "file_type",
                     options=list(_FILE_TYPES),
                     default=_FILE_TYPES[0],
-                    tooltip="psd: every painting program, sides of at most 30,000 px. psb: larger ones.",
+                    tooltip="psd: for every painting program, files of up to 2 GB. psb: for larger ones.",
                 ),
             ],
             outputs=[io.String.Output(display_name="path", tooltip="The file.")],
