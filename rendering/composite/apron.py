@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.mesh import PixelBox, TriangleMesh, bounding_box, interpolate
+from .beyond import NOWHERE
 from .boundary import SHARPEST_MITRE, Boundary
 
 __all__ = ["ApronedMesh", "canvas_of", "usual_reach"]
@@ -22,8 +23,6 @@ IndexArray = NDArray[np.int64]
 # Widest apron, in edges of the mesh's boundary and at least in pixels: a polygon cuts off little more than that.
 _REACH = 1.5
 _LEAST_REACH = 12
-# Far off every canvas, so that nothing is there to resample.
-_NOWHERE = -1e4
 
 
 def usual_reach(mesh: TriangleMesh) -> int:
@@ -99,7 +98,7 @@ class ApronedMesh:
         Returns:
             Columns and rows, shape [box height, box width] each.
         """
-        x, y = interpolate(positions, self.triangles, self.rest - positions, box, fill=_NOWHERE)
+        x, y = interpolate(positions, self.triangles, self.rest - positions, box, fill=NOWHERE)
         x += np.arange(box.left - canvas.left, box.right - canvas.left, dtype=np.float32)
         y += np.arange(box.top - canvas.top, box.bottom - canvas.top, dtype=np.float32)[:, None]
         return x, y

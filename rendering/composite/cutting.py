@@ -7,7 +7,7 @@ picture B beneath it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -21,13 +21,14 @@ from ...physics.mesh import PixelBox, TriangleMesh, bounding_box, triangle_ids
 from ..matting import fitting_plate, in_levels, mixed_rim, regular_mask, soft_alpha, with_outline
 from ..plate import fill_hole, spread_colours
 from .apron import ApronedMesh, canvas_of, usual_reach
+from .beyond import NOWHERE, Beyond
 from .beyond_border import on_canvas
 from .still_layers import StillLayer, still_layer
 
 if TYPE_CHECKING:
     from ..artwork import Blend
 
-__all__ = ["Layer", "aproned", "covered_by", "picture_beneath", "take_apart"]
+__all__ = ["Layer", "aproned", "picture_beneath", "take_apart"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -46,12 +47,21 @@ class Layer:
         texture: premultiplied RGB and alpha at rest, float32, shape [canvas height, canvas width, 4]; of a picture with
             transparency premultiplied RGBA and coverage, 5 channels.
         blend: how it is laid over what is behind it.
+        beyond: what leads the pixels that the mesh does not reach; None where there are none.
     """
 
     mesh: ApronedMesh
     canvas: PixelBox
     texture: FloatImage
     blend: Blend = "normal"
+    beyond: Beyond | None = None
+
+    def points(self, vertices: NDArray[np.float32]) -> list[NDArray[np.float64]]:
+        """Positions of the mesh's vertices and outer corners [px], shape [v + c, 2], and of what is led beyond it."""
+        points = [self.mesh.positions(vertices)]
+        if self.beyond is not None:
+            points.append(self.beyond.positions(vertices - self.mesh.rest[: len(vertices)].astype(np.float32)))
+        return points
 
     def drawn(self, vertices: NDArray[np.float32], width: int, height: int) -> tuple[PixelBox, FloatImage]:
         """The layer with its mesh moved.
@@ -64,11 +74,15 @@ class Layer:
         Returns:
             The box of the picture that the layer may touch, and the texture's channels there, shape [h, w, 4 or 5].
         """
-        points = self.mesh.positions(vertices)
-        box = bounding_box(points).clipped(width, height)
+        points, *led = self.points(vertices)
+        box = bounding_box(np.concatenate([points, *led])).clipped(width, height)
         if not (box.width and box.height):
             return box, np.zeros((box.height, box.width, self.texture.shape[2]), dtype=np.float32)
         x, y = self.mesh.places_at_rest(points, box, self.canvas)
+        if self.beyond is not None:
+            free = x <= NOWHERE / 2
+            for place, other in zip((x, y), self.beyond.places_at_rest(*led, box, self.canvas), strict=True):
+                np.copyto(place, other, where=free)
         drawn = [
             cv2.remap(part, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
             for part in self._parts
@@ -148,19 +162,9 @@ def picture_beneath(
 
 def aproned(mesh: TriangleMesh, alpha: FloatImage) -> tuple[ApronedMesh, PixelBox, Mask]:
     """The mesh with an apron for an alpha, its canvas, and the picture's pixels that it covers at rest."""
-    return covered_by(mesh, lambda canvas: on_canvas(alpha, canvas))
-
-
-def covered_by(mesh: TriangleMesh, alpha_over: Callable[[PixelBox], FloatImage]) -> tuple[ApronedMesh, PixelBox, Mask]:
-    """The mesh with an apron for an alpha, its canvas, and the picture's pixels that it covers at rest.
-
-    Args:
-        mesh: of the body.
-        alpha_over: gives the body's alpha over a canvas, shape [canvas height, canvas width].
-    """
     reach = usual_reach(mesh)
     canvas = canvas_of(mesh, reach=reach)
-    wider = ApronedMesh.around(mesh, alpha_over(canvas), canvas, reach=reach)
+    wider = ApronedMesh.around(mesh, on_canvas(alpha, canvas), canvas, reach=reach)
     whole = PixelBox(0, 0, mesh.width, mesh.height)
     return wider, canvas, triangle_ids(wider.rest, wider.triangles, whole) >= 0
 
