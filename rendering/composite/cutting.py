@@ -74,20 +74,25 @@ class Layer:
         Returns:
             The box of the picture that the layer may touch, and the texture's channels there, shape [h, w, 4 or 5].
         """
-        points, *led = self.points(vertices)
-        box = bounding_box(np.concatenate([points, *led])).clipped(width, height)
+        points = self.points(vertices)
+        box = bounding_box(np.concatenate(points)).clipped(width, height)
         if not (box.width and box.height):
             return box, np.zeros((box.height, box.width, self.texture.shape[2]), dtype=np.float32)
-        x, y = self.mesh.places_at_rest(points, box, self.canvas)
-        if self.beyond is not None:
-            free = x <= NOWHERE / 2
-            for place, other in zip((x, y), self.beyond.places_at_rest(*led, box, self.canvas), strict=True):
-                np.copyto(place, other, where=free)
+        x, y = self._places_at_rest(points, box)
         drawn = [
             cv2.remap(part, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
             for part in self._parts
         ]
         return box, drawn[0] if len(drawn) == 1 else np.dstack(drawn)
+
+    def _places_at_rest(self, points: Sequence[NDArray[np.float64]], box: PixelBox) -> tuple[FloatImage, FloatImage]:
+        """Column and row of the texture that each pixel of a box shows, shape [h, w] each."""
+        x, y = self.mesh.places_at_rest(points[0], box, self.canvas)
+        if self.beyond is not None:
+            free = x <= NOWHERE / 2
+            for place, other in zip((x, y), self.beyond.places_at_rest(points[1], box, self.canvas), strict=True):
+                np.copyto(place, other, where=free)
+        return x, y
 
     @cached_property
     def _parts(self) -> list[FloatImage]:
