@@ -30,6 +30,12 @@ __all__ = ["ArtworkPieces", "Mover", "bent", "pieces_of", "texture_over"]
 FloatImage = NDArray[np.float32]
 
 _OPAQUE = 1 - 0.5 / 255
+_BYTES = 16
+"""Of a pixel as four floating-point numbers."""
+
+MAX_FINE_PIXELS = 2**24
+"""Up to so many pixels of moving layers, these are held at twice their resolution, which is 1 GiB."""
+
 MAX_HELD_GIB = 6
 """Moving layers and what is between them are refused beyond this, as floating-point numbers in memory [GiB]."""
 
@@ -86,8 +92,8 @@ def pieces_of(artwork: Artwork, movers: Mapping[int, Mover]) -> ArtworkPieces:
         layer if index not in movers and layer.visible and layer.opacity > 0 else None
         for index, layer in enumerate(artwork.layers)
     ]
-    _check_memory(artwork, movers)
-    moving = {index: _moving(artwork, index, mover) for index, mover in movers.items()}
+    held = _held(artwork, movers)
+    moving = {index: _moving(artwork, index, mover, fine=held <= MAX_FINE_PIXELS) for index, mover in movers.items()}
     region = _region(moving, movers, artwork)
     first = min(movers, default=len(still))
     background = _laid(still[:first], region)
@@ -180,7 +186,7 @@ def texture_over(layer: ArtLayer, box: PixelBox) -> FloatImage:
     return texture
 
 
-def _moving(artwork: Artwork, index: int, mover: Mover) -> Layer:
+def _moving(artwork: Artwork, index: int, mover: Mover, *, fine: bool) -> Layer:
     """A layer on its mesh, and what of it the mesh does not reach led by the mesh."""
     layer, mesh = artwork.layers[index], mover.mesh
     reach = usual_reach(mesh)
@@ -190,7 +196,7 @@ def _moving(artwork: Artwork, index: int, mover: Mover) -> Layer:
     texture = texture_over(layer, box)
     covered = triangle_ids(wider.rest, wider.triangles, box) >= 0
     beyond = Beyond.of(mesh, (texture[..., 3] > 0) & ~covered, covered, box)
-    return Layer(wider, box, texture, layer.blend, beyond)
+    return Layer(wider, box, texture, layer.blend, beyond, fine)
 
 
 def _kept(artwork: Artwork, layer: ArtLayer, mover: Mover) -> PixelBox:
@@ -210,12 +216,15 @@ def _region(moving: Mapping[int, Layer], movers: Mapping[int, Mover], artwork: A
     return around(boxes).clipped(artwork.width, artwork.height)
 
 
-def _check_memory(artwork: Artwork, movers: Mapping[int, Mover]) -> None:
-    pixels = 0
-    for index, mover in movers.items():
-        box = _kept(artwork, artwork.layers[index], mover)
-        pixels += box.width * box.height
-    needed = 16 * (pixels + artwork.width * artwork.height) / 2**30
+def _held(artwork: Artwork, movers: Mapping[int, Mover]) -> int:
+    """Pixels of the layers that move.
+
+    Raises:
+        InvalidInputError: they need too much memory.
+    """
+    boxes = [_kept(artwork, artwork.layers[index], mover) for index, mover in movers.items()]
+    pixels = sum(box.width * box.height for box in boxes)
+    needed = _BYTES * (pixels + artwork.width * artwork.height) / 2**30
     require(
         "artwork",
         f"{needed:.1f} GiB",
@@ -223,3 +232,4 @@ def _check_memory(artwork: Artwork, movers: Mapping[int, Mover]) -> None:
         f"small enough that its {len(movers)} moving layers need at most {MAX_HELD_GIB} GiB; scale it down, or let"
         " fewer layers move",
     )
+    return pixels
