@@ -16,6 +16,7 @@ from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
 from ..physics.scene import Body, Scene
 from .composite import LayeredRenderer, PixelArtRenderer, behind_still, hidden_by, mask_of_layer, renderer_of
+from .layer_pictures import LayerPictures
 from .matting import part_mesh
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ class Parts:
     presets: tuple[str | None, ...]
     covers: tuple[NDArray[np.bool_] | None, ...]
     renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
-    own: tuple[Image, ...] = ()
+    own: Sequence[Image] = ()
 
     def covered(self, scene: Scene) -> Scene:
         """The scene with what is in front of its bodies, in the order of the parts."""
@@ -116,7 +117,7 @@ def parts_of_artwork(
     Raises:
         InvalidInputError: there is no such layer, none moves, or one gives no mesh.
     """
-    from .artwork import flattened, moving_layers
+    from .artwork import moving_layers
 
     plans = [plan for plan in moving_layers(artwork, move, still) if plan.moves]
     artwork = arranged(artwork, move, still)
@@ -140,7 +141,7 @@ def parts_of_artwork(
         tuple(plan.preset for plan in plans),
         tuple(covers),
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
-        tuple(flattened(artwork, [replace(artwork.layers[index], blend="normal")]) for index in indices),
+        LayerPictures(artwork, indices),
     )
 
 
