@@ -17,7 +17,7 @@ Image = NDArray[Any]
 
 
 class LayerPictures(Sequence[Image]):
-    """Layers alone on the canvas, straight RGBA, shape [h, w, 4] each; none is kept."""
+    """Layers alone on the canvas, straight RGBA, uint8 or float32, shape [h, w, 4] each; none is kept."""
 
     def __init__(self, artwork: Artwork, indices: Sequence[int]) -> None:
         """
@@ -39,8 +39,9 @@ class LayerPictures(Sequence[Image]):
 
     def __getitem__(self, number: int | slice) -> Image | list[Image]:
         from .artwork import flattened
+        from .pictures import as_picture
 
         if isinstance(number, slice):
             return [self[each] for each in range(*number.indices(len(self)))]
         layer = self._artwork.layers[self._indices[number]]
-        return flattened(self._artwork, [replace(layer, blend="normal", visible=True)])
+        return as_picture(flattened(self._artwork, [replace(layer, blend="normal", visible=True)]), alpha=True)

@@ -102,8 +102,10 @@ class Watch:
         progress: called as the stages "simulate" and those of the frames advance.
         on_cut: called with the masks that were cut from points, before anything is made of them.
         on_scene: called with the scene before it is simulated.
+        on_note: called with a sentence about what is not as somebody may expect it, such as a layer that cannot move.
     """
 
     progress: StageProgress | None = None
     on_cut: Callable[[Sequence[NDArray[Any]]], None] | None = None
     on_scene: Callable[[Scene], None] | None = None
+    on_note: Callable[[str], None] | None = None

@@ -20,7 +20,7 @@ from .layer_pictures import LayerPictures
 from .matting import part_mesh
 
 if TYPE_CHECKING:
-    from .artwork import Artwork
+    from .artwork import Artwork, LayerPlan
 
 __all__ = ["Parts", "about", "arranged", "coverage", "coverages", "parts_of_artwork", "parts_of_picture", "picture_of"]
 
@@ -41,6 +41,7 @@ class Parts:
         covers: where something that stands still is in front of each, bool, shape [h, w]; None for nowhere.
         renderer: makes what draws a motion of the parts.
         own: each part alone, straight RGBA, shape [h, w, 4] each; empty where only masks are known.
+        notes: a sentence for each layer that stands still against its name.
     """
 
     image: Image
@@ -51,6 +52,7 @@ class Parts:
     covers: tuple[NDArray[np.bool_] | None, ...]
     renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
     own: Sequence[Image] = ()
+    notes: tuple[str, ...] = ()
 
     def covered(self, scene: Scene) -> Scene:
         """The scene with what is in front of its bodies, in the order of the parts."""
@@ -119,12 +121,15 @@ def parts_of_artwork(
     """
     from .artwork import moving_layers
 
-    plans = [plan for plan in moving_layers(artwork, move, still) if plan.moves]
+    plans, meshed, notes = _meshed_layers(artwork, moving_layers(artwork, move, still), spacing)
     artwork = arranged(artwork, move, still)
+    if not plans and notes:
+        raise InvalidInputError(f"no layer can move: {'; '.join(notes)[:600]}")
     if not plans:
+        seen = [name for name, layer in zip(artwork.names, artwork.layers, strict=True) if layer.visible]
         raise InvalidInputError(
-            "no layer has a name that says it moves; name those that do with --move, or the node's input move."
-            f" Got: {', '.join(artwork.names)[:300]}"
+            "no layer that is seen has a name that says it moves; name those that do with --move, or the node's input"
+            f" move. Got: {', '.join(seen)[:300] or 'none that is seen'}"
         )
     image = picture_of(artwork)
     indices = [plan.index for plan in plans]
@@ -132,17 +137,35 @@ def parts_of_artwork(
     for index in indices:
         masks.append(mask_of_layer(artwork, index))
         covers.append(hidden_by(artwork, index, moving=indices))
-    meshes = tuple(_meshed(mask, spacing, f"layer {plan.name}", None) for mask, plan in zip(masks, plans, strict=True))
     return Parts(
         image,
         tuple(masks),
-        meshes,
+        tuple(meshed),
         tuple(plan.name for plan in plans),
         tuple(plan.preset for plan in plans),
         tuple(covers),
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
         LayerPictures(artwork, indices),
+        tuple(notes),
     )
+
+
+def _meshed_layers(
+    artwork: Artwork, plans: Sequence[LayerPlan], spacing: float | None
+) -> tuple[list[LayerPlan], list[TriangleMesh], list[str]]:
+    """The layers that move, their meshes, and a sentence for each that would by its name, but gives no mesh."""
+    moving, meshes, notes = [], [], []
+    for plan in plans:
+        if not plan.moves:
+            continue
+        try:
+            meshes.append(_meshed(mask_of_layer(artwork, plan.index), spacing, f"layer {plan.name}", None))
+            moving.append(plan)
+        except InvalidInputError as error:
+            if plan.asked:
+                raise
+            notes.append(f"{error}: it stands still")
+    return moving, meshes, notes
 
 
 def arranged(artwork: Artwork, move: Sequence[str] = (), still: Sequence[str] = ()) -> Artwork:

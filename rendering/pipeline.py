@@ -131,6 +131,9 @@ def animate(
         with timed(seconds, "mesh"):
             parts = parts_of_artwork(image, move=layers.move, still=layers.still, spacing=spacing)
         colliders = coverages("colliders", touching.colliders, parts.image)
+    if watch.on_note is not None:
+        for note in parts.notes:
+            watch.on_note(note)
     with timed(seconds, "scene"):
         if scene is None:
             suiting = [each or "hair" for each in parts.presets]

@@ -80,8 +80,7 @@ MAY_IMPORT = {
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
         "physics/scene rendering rendering/artwork rendering/composite rendering/figures rendering/files "
-        "rendering/metrics "
-        "rendering/metrics/learned rendering/pictures rendering/segmentation"
+        "rendering/metrics rendering/metrics/learned rendering/pictures rendering/segmentation"
     ),
     # nodes: the host
     "nodes/host": (

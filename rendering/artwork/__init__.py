@@ -9,6 +9,7 @@ from .layers_dictionary import from_layers_dictionary, to_layers_dictionary
 from .limits import MAX_LAYER_BYTES, MAX_LAYERS
 from .loading import is_artwork_file, load_artwork
 from .naming import LayerPlan, Rule, moving_layers, rule_of
+from .png_layers import trimmed
 from .png_writing import check_layer_folder, layer_on_canvas, png_names, save_layer_pngs
 from .psd import read_psd
 from .psd_writing import check_psd_output, save_psd
@@ -40,4 +41,5 @@ __all__ = [
     "save_layer_pngs",
     "save_psd",
     "to_layers_dictionary",
+    "trimmed",
 ]

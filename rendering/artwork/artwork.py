@@ -109,16 +109,20 @@ class Artwork:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """One name for each layer, no two alike: the second and later layers of one name get `` (2)`` and so on."""
-        taken = Counter(layer.name for layer in self.layers)
+        """One name for each layer, no two alike: the second and later layers of one name get `` (2)`` and so on.
+
+        A layer without a name is called by its number, from the back.
+        """
+        given = [layer.name.strip() or f"layer {number}" for number, layer in enumerate(self.layers, 1)]
+        taken = set(given)
         seen: Counter[str] = Counter()
         names = []
-        for layer in self.layers:
-            name = layer.name
-            while seen[layer.name] and (name == layer.name or taken[name]):
-                seen[layer.name] += 1
-                name = f"{layer.name} ({seen[layer.name]})"
-            seen[layer.name] += not seen[layer.name]
-            taken[name] += name != layer.name
+        for own in given:
+            seen[own] += 1
+            name = own
+            while seen[own] > 1 and name in taken:
+                name = f"{own} ({seen[own]})"
+                seen[own] += name in taken
+            taken.add(name)
             names.append(name)
         return tuple(names)

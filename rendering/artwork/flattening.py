@@ -14,7 +14,7 @@ from .blending import lay_over, planes_of
 
 __all__ = ["flattened", "laid_together"]
 
-_BAND = 2**21
+_BAND = 2**16
 """Pixels that are mixed at a time, so that a large canvas is never there as floating-point numbers."""
 
 

@@ -9,13 +9,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.errors import InvalidInputError
+from ...physics.limits import MAX_PICTURE_PIXELS
 from .artwork import ArtLayer, Blend
 from .blending import lay_over, planes_of
 from .flattening import as_whole_numbers, laid_together
 
-__all__ = ["carried_down", "clipped", "extent_of", "masked"]
+__all__ = ["carried_down", "clipped", "extent_of", "masked", "merged", "shut_in"]
 
 Box = tuple[int, int, int, int]
+
+_MOST_PIXELS = 4 * MAX_PICTURE_PIXELS
 
 
 def carried_down(
@@ -60,6 +64,31 @@ def merged(layers: Sequence[ArtLayer], *, name: str, opacity: float = 1.0, blend
     return ArtLayer(name, pixels, left=box[0], top=box[1], opacity=opacity, blend=blend)
 
 
+def shut_in(layers: Sequence[ArtLayer], name: str) -> list[str]:
+    """A sentence for each layer that in its group mixes with what is in the group alone, and here with all below.
+
+    Args:
+        layers: that are drawn, of a group that is laid over as one picture, from back to front.
+        name: of the group.
+    """
+    if all(layer.blend == "normal" for layer in layers):
+        return []
+    left, top, right, bottom = extent_of(layers)
+    through = np.ones((bottom - top, right - left), np.float32)
+    remarks = []
+    for layer in layers:
+        x0, y0, x1, y1 = layer.box
+        place = through[y0 - top : y1 - top, x0 - left : x1 - left]
+        alpha = layer.pixels[..., 3] * np.float32(layer.opacity / np.iinfo(layer.pixels.dtype).max)
+        if layer.blend != "normal" and (alpha * place > 0.01).any():
+            remarks.append(
+                f"layer {layer.name} is laid over as {layer.blend} and reaches beyond what is drawn in group {name}:"
+                " there it changes what is behind the group, too"
+            )
+        place *= 1 - alpha
+    return remarks
+
+
 def clipped(base: ArtLayer, above: Sequence[ArtLayer]) -> ArtLayer:
     """A layer with others clipped to it: they change its colours, and its alpha is left as it is."""
     pixels = base.pixels.copy()
@@ -80,7 +109,9 @@ def clipped(base: ArtLayer, above: Sequence[ArtLayer]) -> ArtLayer:
     return replace(base, pixels=pixels)
 
 
-def masked(layer: ArtLayer, mask: NDArray[Any], left: int, top: int, outside: float) -> ArtLayer:
+def masked(
+    layer: ArtLayer, mask: NDArray[Any], left: int, top: int, outside: float, *, at_most: bool = False
+) -> ArtLayer:
     """A layer with its alpha times a mask.
 
     Args:
@@ -89,6 +120,7 @@ def masked(layer: ArtLayer, mask: NDArray[Any], left: int, top: int, outside: fl
         left: column of the canvas where the mask begins [px].
         top: row of the canvas where the mask begins [px].
         outside: what the mask is where it has no pixels, 0 to 1.
+        at_most: cut the alpha down to the mask instead.
     """
     own_left, own_top, own_right, own_bottom = layer.box
     factor = np.full(layer.pixels.shape[:2], outside, np.float32)
@@ -97,20 +129,29 @@ def masked(layer: ArtLayer, mask: NDArray[Any], left: int, top: int, outside: fl
     if x0 < x1 and y0 < y1:
         inside = mask[y0 - top : y1 - top, x0 - left : x1 - left]
         factor[y0 - own_top : y1 - own_top, x0 - own_left : x1 - own_left] = inside
+    if at_most:
+        alpha = layer.pixels[..., 3] / np.float32(np.iinfo(layer.pixels.dtype).max)
+        factor = np.minimum(alpha, factor) / np.maximum(alpha, np.float32(1e-6))
     return _times(layer, factor)
 
 
 def extent_of(layers: Sequence[ArtLayer]) -> Box:
-    """The box around layers; an empty one where there is nothing."""
+    """The box around layers; an empty one where there is nothing.
+
+    Raises:
+        InvalidInputError: it is far larger than any canvas.
+    """
     boxes = [layer.box for layer in layers if layer.pixels.size]
     if not boxes:
         return 0, 0, 0, 0
-    return (
-        min(box[0] for box in boxes),
-        min(box[1] for box in boxes),
-        max(box[2] for box in boxes),
-        max(box[3] for box in boxes),
-    )
+    left, top = min(box[0] for box in boxes), min(box[1] for box in boxes)
+    right, bottom = max(box[2] for box in boxes), max(box[3] for box in boxes)
+    if (right - left) * (bottom - top) > _MOST_PIXELS:
+        raise InvalidInputError(
+            f"layers of a group must lie within {_MOST_PIXELS / 1e6:.0f} million pixels; move what is far outside"
+            f" the canvas. Got: {right - left} x {bottom - top} px"
+        )
+    return left, top, right, bottom
 
 
 def _overlap(layers: Sequence[ArtLayer]) -> bool:

@@ -57,6 +57,11 @@ def _natural(path: Path) -> tuple[Any, ...]:
     return tuple((int(part[:18]), "") if part.isdigit() and part.isascii() else (-1, part) for part in parts)
 
 
+def _unnumbered(name: str) -> str:
+    """The name of a layer without the number that puts its file in order: ``03 hair`` is hair."""
+    return re.sub(r"^\d+[\s_.\-]+", "", name) or name
+
+
 def _in_order(files: list[Path], name: str) -> Artwork:
     count = MemoryCount(name)
     layers: list[ArtLayer] = []
@@ -70,7 +75,7 @@ def _in_order(files: list[Path], name: str) -> Artwork:
                 f"layer {path} must be as large as {files[0].name}, {size[0]} x {size[1]} px."
                 f" Got: {pixels.shape[1]} x {pixels.shape[0]} px"
             )
-        layer = trimmed(ArtLayer(path.stem, pixels))
+        layer = trimmed(ArtLayer(_unnumbered(path.stem), pixels))
         count.add(layer.pixels.nbytes)
         layers.append(layer)
     assert size is not None

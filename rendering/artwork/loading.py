@@ -31,12 +31,13 @@ def is_artwork_file(path: StrPath) -> bool:
     return Path(path).suffix.lower() in _READERS or is_layer_list(path) or os.path.isdir(path)
 
 
-def load_artwork(path: StrPath) -> Artwork:
+def load_artwork(path: StrPath, *, groups: bool = False) -> Artwork:
     """Read a layered file.
 
     Args:
         path: a .psd, .psb or .ora file; a folder of PNG files of one size, from back to front by their names; or a
             folder with a ``layers.json`` of See-through's, or that list itself.
+        groups: make one layer of each outermost group; otherwise every layer is one, whatever group it is in.
 
     Returns:
         Its layers from back to front, hidden ones included; ``warnings`` tells what is shown otherwise than in the
@@ -56,7 +57,7 @@ def load_artwork(path: StrPath) -> Artwork:
         ...         save_image(Path(folder, name + ".png"), np.full((4, 6, 3), 200, np.uint8))
         ...     artwork = load_artwork(folder)
         >>> artwork.names
-        ('1 sky', '2 hair')
+        ('sky', 'hair')
     """
     if Path(path).is_dir():
         return read_layer_folder(path)
@@ -67,4 +68,4 @@ def load_artwork(path: StrPath) -> Artwork:
         raise InvalidInputError(
             f"artwork must be a {', '.join(_READERS)} file, a folder of PNG files or a list of layers. Got: {path}"
         )
-    return reader(path)
+    return reader(path, groups=groups)

@@ -48,6 +48,7 @@ class LayerPlan:
         held: a hint where it is held; None where it stands still or nothing is known.
         shown: whether it is drawn: neither hidden nor an alternate.
         why: the reason, to be read by a person.
+        asked: whether the user named it.
     """
 
     index: int
@@ -57,6 +58,7 @@ class LayerPlan:
     held: Held | None
     shown: bool
     why: str
+    asked: bool = False
 
 
 def rule_of(name: str) -> Rule:
@@ -126,7 +128,9 @@ def _plan(
 
     def plan(moves: bool, why: str, *, shown: bool = True, preset: str | None = None) -> LayerPlan:
         held = rule.held if moves else None
-        return LayerPlan(index, name, moves, (preset or rule.preset or "hair") if moves else None, held, shown, why)
+        asked = index in wanted or index in held_still
+        suits = (preset or rule.preset or "hair") if moves else None
+        return LayerPlan(index, name, moves, suits, held, shown, why, asked)
 
     if not layer.pixels.size or not layer.pixels[..., 3].any():
         return plan(False, "nothing is drawn on it", shown=False)

@@ -10,6 +10,7 @@ import os
 import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import PurePosixPath
 from typing import IO, cast
 from xml.etree.ElementTree import Element, TreeBuilder
@@ -17,7 +18,7 @@ from xml.parsers import expat
 
 from ...physics.errors import InvalidInputError
 from .artwork import ArtLayer, Artwork, Blend
-from .groups import carried_down
+from .groups import carried_down, merged
 from .limits import MAX_LAYERS, MAX_OFFSET, MemoryCount, check_canvas
 from .png_layers import as_one_dtype, picture_of, trimmed
 from .reading import reading
@@ -41,25 +42,35 @@ _BLENDS: dict[str, Blend] = {
 }
 
 
-def read_openraster(path: StrPath) -> Artwork:
+def read_openraster(path: StrPath, *, groups: bool = False) -> Artwork:
     """Read the layers of an OpenRaster file.
 
     Stacks of layers become their layers, with the stack's place, opacity and visibility.
 
     Args:
         path: of the file.
+        groups: make one layer of each outermost stack.
 
     Raises:
         InvalidInputError: there is no such file, it is no OpenRaster file, it is damaged, or too large.
     """
     name = f"artwork {os.fspath(path)}"
-    with reading(path, name), zipfile.ZipFile(path) as archive:
+    with reading(path, name), _archive(path) as archive:
         image = _stack_xml(archive, name)
         width, height = (_whole(image, key, name) for key in ("w", "h"))
         check_canvas(width, height, name)
-        reader = _Reader(archive, name)
+        reader = _Reader(archive, name, groups=groups)
         layers = [layer for child in image if child.tag == "stack" for layer in reader.stack(child, 0, 0, 0)]
         return Artwork(width, height, as_one_dtype(layers), tuple(reader.remarks))
+
+
+def _archive(path: StrPath) -> zipfile.ZipFile:
+    with open(path, "rb") as file:
+        if file.read(2) != b"PK":
+            raise InvalidInputError(
+                f"artwork must be an OpenRaster file, which is a zip archive. Got: {path}, which is none"
+            )
+    return zipfile.ZipFile(path)
 
 
 class _Reader:
@@ -69,10 +80,11 @@ class _Reader:
         remarks: a sentence for each thing that is shown otherwise than in its own program.
     """
 
-    def __init__(self, archive: zipfile.ZipFile, name: str) -> None:
+    def __init__(self, archive: zipfile.ZipFile, name: str, *, groups: bool) -> None:
         self.remarks: list[str] = []
         self._archive = archive
         self._name = name
+        self._groups = groups
         self._memory = MemoryCount(name)
 
     def stack(self, stack: Element, left: int, top: int, depth: int) -> list[ArtLayer]:
@@ -89,13 +101,13 @@ class _Reader:
         return layers
 
     def _group(self, stack: Element, left: int, top: int, depth: int) -> list[ArtLayer]:
-        layers, lost = carried_down(
-            self.stack(stack, left, top, depth),
-            name=stack.get("name", "stack"),
-            opacity=self._opacity(stack),
-            blend=self._blend(stack),
-            visible=stack.get("visibility") != "hidden",
-        )
+        inner, name = self.stack(stack, left, top, depth), stack.get("name", "stack")
+        opacity, blend = self._opacity(stack), self._blend(stack)
+        visible = stack.get("visibility") != "hidden"
+        drawn = [layer for layer in as_one_dtype(inner) if layer.visible]
+        if self._groups and depth == 1 and drawn:
+            return [replace(merged(drawn, name=name, opacity=opacity, blend=blend), visible=visible)]
+        layers, lost = carried_down(inner, name=name, opacity=opacity, blend=blend, visible=visible)
         self.remarks += lost
         return layers
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from pathlib import Path
 from typing import Any
 
@@ -27,12 +26,11 @@ _LONGEST = 80
 def save_layer_pngs(artwork: Artwork, folder: StrPath) -> list[Path]:
     """Write each layer as a PNG file of the canvas' size, named from back to front: ``00 paper.png``, ``01 hair.png``.
 
-    What lies beyond the canvas is cut off. A layer's opacity is in its pixels. Earlier files of the same names are
-    replaced; other files are left alone.
+    What lies beyond the canvas is cut off. A layer's opacity is in its pixels; blend modes are lost.
 
     Args:
         artwork: 8 or 16 bits a channel.
-        folder: where to; it is made where it is missing.
+        folder: where to, without PNG files; it is made where it is missing.
 
     Returns:
         The files.
@@ -53,19 +51,15 @@ def save_layer_pngs(artwork: Artwork, folder: StrPath) -> list[Path]:
 
 
 def check_layer_folder(folder: StrPath) -> None:
-    """Refuse a folder that :func:`save_layer_pngs` could not fill: one with other PNG files would mix them up.
+    """Refuse a folder that :func:`save_layer_pngs` could not fill: other PNG files in it would be mixed up with them.
 
     Raises:
-        InvalidInputError: nothing can be written there, or PNG files of another kind are there.
+        InvalidInputError: nothing can be written there, or PNG files are there.
     """
     place = check_folder_place(folder)
-    if not place.is_dir():
-        return
-    others = sorted(
-        path.name for path in place.iterdir() if path.suffix.lower() == ".png" and not re.match(r"\d{2,} ", path.name)
-    )
-    if others:
-        raise InvalidInputError(f"folder {folder} must hold no other PNG files. Got: {others[0]}")
+    there = sorted(path.name for path in place.iterdir() if path.suffix.lower() == ".png") if place.is_dir() else []
+    if there:
+        raise InvalidInputError(f"folder {folder} must hold no PNG files yet. Got: {there[0]}")
 
 
 def png_names(artwork: Artwork) -> list[str]:

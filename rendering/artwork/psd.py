@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from ...physics.errors import InvalidInputError
 from .artwork import ArtLayer, Artwork
-from .limits import check_canvas, check_layer_sizes
+from .limits import MAX_OFFSET, check_canvas, check_layer_sizes
+from .psd_colours import in_srgb_colours
 from .reading import reading
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ _MOST_OBJECTS = 2_000_000
 """Things in a file's descriptions that are read, such as points of paths and glyphs of text."""
 
 
-def read_psd(path: StrPath) -> Artwork:
+def read_psd(path: StrPath, *, groups: bool = False) -> Artwork:
     """Read the layers of a PSD or PSB file.
 
     Groups become their layers, with the group's opacity, mask and visibility; masks are applied; clipping layers
@@ -31,6 +32,7 @@ def read_psd(path: StrPath) -> Artwork:
 
     Args:
         path: of the file: RGB or greyscale, 8 or 16 bits a channel.
+        groups: make one layer of each outermost group.
 
     Raises:
         InvalidInputError: there is no such file, it is no PSD, it is damaged, too large, or of another kind.
@@ -43,9 +45,10 @@ def read_psd(path: StrPath) -> Artwork:
         _check_kind(document, name)
         check_canvas(document.width, document.height, name)
         check_layer_sizes(_sizes(document), document.depth // 8, name)
-        layers, remarks = layers_of(document)
+        layers, remarks = layers_of(document, groups=groups)
         if not layers:
             return _flat(document, remarks)
+        layers = in_srgb_colours(layers, document, remarks)
         return Artwork(document.width, document.height, tuple(layers), tuple(remarks))
 
 
@@ -53,6 +56,9 @@ def _opened(path: StrPath) -> PSDImage:
     from psd_tools import PSDImage
     from psd_tools.psd.parse_limits import ParseLimits
 
+    with open(path, "rb") as file:
+        if file.read(4) != b"8BPS":
+            raise InvalidInputError(f"artwork must be a PSD file, which begins with 8BPS. Got: {path}, which does not")
     logging.getLogger("psd_tools").addHandler(logging.NullHandler())  # nobody but a host's log hears its remarks
     size = os.stat(path).st_size
     # What is read is in the file, so that it is at most a few times its size: nested structures are copied.
@@ -87,7 +93,13 @@ def _sizes(document: PSDImage) -> Iterator[tuple[str, int, int]]:
         if layer.kind in COLOURED and not layer.has_pixels():
             yield name_of(layer), document.width, document.height
         elif not layer.is_group():
+            _check_offset(layer.left, layer.top, name_of(layer))
             yield name_of(layer), layer.width, layer.height
+
+
+def _check_offset(left: int, top: int, name: str) -> None:
+    if max(abs(left), abs(top)) > MAX_OFFSET:
+        raise InvalidInputError(f"layer {name} must lie within {MAX_OFFSET} px of the canvas. Got: {left}, {top}")
 
 
 def _flat(document: PSDImage, remarks: list[str]) -> Artwork:

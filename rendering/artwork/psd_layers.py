@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ...physics.errors import InvalidInputError
 from .artwork import ArtLayer, Blend
-from .groups import carried_down, clipped, merged
+from .groups import carried_down, clipped, merged, shut_in
 from .psd_masks import with_masks
 from .psd_pixels import pixels_of
 
@@ -31,14 +32,18 @@ _BLENDS: dict[str, Blend] = {
 }
 
 
-def layers_of(document: PSDImage) -> tuple[list[ArtLayer], list[str]]:
+def layers_of(document: PSDImage, *, groups: bool = False) -> tuple[list[ArtLayer], list[str]]:
     """The layers of a document from back to front, and a sentence for each thing that is shown otherwise than there.
+
+    Args:
+        document: the document.
+        groups: make one layer of each outermost group.
 
     Raises:
         InvalidInputError: a layer cannot be read.
     """
     remarks: list[str] = []
-    return _flattened_tree(document, remarks), remarks
+    return _flattened_tree(document, remarks, whole=groups), remarks
 
 
 def all_layers(group: Iterable[Any], depth: int = 0) -> Iterator[Layer]:
@@ -55,24 +60,26 @@ def all_layers(group: Iterable[Any], depth: int = 0) -> Iterator[Layer]:
             yield from all_layers(layer, depth + 1)
 
 
-def _flattened_tree(group: Iterable[Any], remarks: list[str]) -> list[ArtLayer]:
+def _flattened_tree(group: Iterable[Any], remarks: list[str], *, whole: bool = False) -> list[ArtLayer]:
     result: list[ArtLayer] = []
     run: list[Any] = []  # a layer, and what is clipped to it
     for layer in group:
         if run and layer.clipping:
             run.append(layer)
             continue
-        result += _read_run(run, remarks)
+        result += _read_run(run, remarks, whole=whole)
         run = [layer]
-    return result + _read_run(run, remarks)
+    return result + _read_run(run, remarks, whole=whole)
 
 
-def _read_run(run: list[Any], remarks: list[str]) -> list[ArtLayer]:
+def _read_run(run: list[Any], remarks: list[str], *, whole: bool) -> list[ArtLayer]:
     """A layer or group with what is clipped to it."""
     if not run:
         return []
-    base = _read(run[0], remarks)
+    base = _read(run[0], remarks, whole=whole)
     above = [each for layer in run[1:] for each in _read(layer, remarks)]
+    if not base:
+        remarks += [f"layer {each.name} is left out with {name_of(run[0])}, which it is clipped to" for each in above]
     if not any(layer.visible for layer in above) or not base:
         return base
     if len(base) == 1:
@@ -85,11 +92,11 @@ def _read_run(run: list[Any], remarks: list[str]) -> list[ArtLayer]:
     return [*[layer for layer in base if not layer.visible], one]
 
 
-def _read(layer: Layer, remarks: list[str]) -> list[ArtLayer]:
+def _read(layer: Layer, remarks: list[str], *, whole: bool = False) -> list[ArtLayer]:
     if layer.has_effects():
         remarks.append(f"layer {name_of(layer)}: its layer styles, such as shadows and strokes, are not drawn")
     if layer.is_group():
-        return _read_group(layer, remarks)
+        return _read_group(layer, remarks, whole=whole)
     pixels = pixels_of(layer)
     if pixels is None:
         if layer.visible:
@@ -107,15 +114,17 @@ def _read(layer: Layer, remarks: list[str]) -> list[ArtLayer]:
     return [with_masks(read, layer, remarks)]
 
 
-def _read_group(group: Any, remarks: list[str]) -> list[ArtLayer]:
+def _read_group(group: Any, remarks: list[str], *, whole: bool) -> list[ArtLayer]:
+    if group.kind == "artboard":
+        remarks.append(f"artboard {name_of(group)}: its own background and border are not drawn")
     inner = [with_masks(layer, group, remarks) for layer in _flattened_tree(group, remarks)]
-    layers, lost = carried_down(
-        inner,
-        name=name_of(group),
-        opacity=group.opacity / 255 * _fill(group),
-        blend=_blend(group, remarks),
-        visible=group.visible,
-    )
+    blend, opacity = _blend(group, remarks), group.opacity / 255 * _fill(group)
+    drawn = [layer for layer in inner if layer.visible]
+    if whole and drawn:
+        return [replace(merged(drawn, name=name_of(group), opacity=opacity, blend=blend), visible=group.visible)]
+    if group.blend_mode.name != "PASS_THROUGH":
+        remarks += shut_in(drawn, name_of(group))
+    layers, lost = carried_down(inner, name=name_of(group), opacity=opacity, blend=blend, visible=group.visible)
     remarks += lost
     return layers
 

@@ -73,7 +73,9 @@ def _with_painted(layer: ArtLayer, source: Any, channel: int) -> ArtLayer:
     else:
         values = np.zeros((0, 0), np.float32)
     density = _density(mask, drawn=_is_drawn(mask))
-    return masked(layer, 1 - density * (1 - values), left, top, 1 - density * (1 - outside))
+    # The pixels of a shape have its soft edge already; a mask that repeats it must not count twice.
+    repeats = _is_drawn(mask) and source.kind == "shape"
+    return masked(layer, 1 - density * (1 - values), left, top, 1 - density * (1 - outside), at_most=repeats)
 
 
 def _painted_box(mask: Any) -> tuple[int, int, int, int]:

@@ -55,6 +55,8 @@ def plane_of(layer: Layer, channel: int, width: int, height: int) -> NDArray[Any
     Raises:
         InvalidInputError: the channel is damaged.
     """
+    from psd_tools.compression import PSDDecompressionWarning
+
     depth = layer._psd.depth
     dtype = np.dtype(">u1" if depth == 8 else ">u2")
     data = next(
@@ -62,7 +64,7 @@ def plane_of(layer: Layer, channel: int, width: int, height: int) -> NDArray[Any
     )
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("error")  # psd-tools would go on with black
+            warnings.filterwarnings("error", category=PSDDecompressionWarning)  # psd-tools would go on with black
             decoded = data.get_data(width, height, depth, layer._psd.version)
     except (ValueError, OSError, IndexError, Warning) as error:
         raise InvalidInputError(f"layer {layer.name} cannot be read: it is damaged") from error

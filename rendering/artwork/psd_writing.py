@@ -32,12 +32,13 @@ _MODES: dict[Blend, str] = {
 _ALPHA = -1
 
 
-def save_psd(artwork: Artwork, path: StrPath) -> None:
+def save_psd(artwork: Artwork, path: StrPath, *, small: bool = False) -> None:
     """Write artwork as a PSD file, or as a PSB file, which holds more. An earlier file is replaced by a complete one.
 
     Args:
         artwork: 8 or 16 bits a channel; all layers are written, hidden and empty ones as well.
         path: where to; the folder must exist.
+        small: pack tighter than all programs read, and leave out the picture for programs that read no layers.
 
     Raises:
         InvalidInputError: see :func:`check_psd_output`.
@@ -54,7 +55,7 @@ def save_psd(artwork: Artwork, path: StrPath) -> None:
         (1, 0, 4, 2)
     """
     check_psd_output(path)
-    document = _document(artwork, version=2 if suffix_of(path) == ".psb" else 1)
+    document = _document(artwork, version=2 if suffix_of(path) == ".psb" else 1, small=small)
     with replacing(path) as temporary, temporary.open("wb") as file:
         document.write(file)
 
@@ -70,14 +71,16 @@ def check_psd_output(path: StrPath) -> None:
     check_file_place(path)
 
 
-def _document(artwork: Artwork, *, version: int) -> PSD:
-    from psd_tools.constants import ColorMode
+def _document(artwork: Artwork, *, version: int, small: bool) -> PSD:
+    from psd_tools.constants import ColorMode, Resource
     from psd_tools.psd import PSD
     from psd_tools.psd.header import FileHeader
     from psd_tools.psd.image_resources import ImageResources
     from psd_tools.psd.layer_and_mask import ChannelImageData, LayerAndMaskInformation, LayerInfo, LayerRecords
 
     picture = flattened(artwork)
+    if small:
+        picture[...] = np.iinfo(picture.dtype).max
     opaque = bool((picture[..., 3] == np.iinfo(picture.dtype).max).all())
     header = FileHeader(
         version=version,
@@ -87,21 +90,24 @@ def _document(artwork: Artwork, *, version: int) -> PSD:
         depth=8 * artwork.dtype.itemsize,
         color_mode=ColorMode.RGB,
     )
-    layers = [_layer(layer, header) for layer in artwork.layers]
+    layers = [_layer(layer, header, small=small) for layer in artwork.layers]
     information = LayerInfo(
         layer_count=len(layers) if opaque else -len(layers),  # negative: the picture's fourth plane is its alpha
         layer_records=LayerRecords([record for record, _ in layers]),
         channel_image_data=ChannelImageData([channels for _, channels in layers]),
     )
+    resources = ImageResources.new()
+    about = resources.get_data(Resource.VERSION_INFO)
+    about.has_composite, about.writer = not small, "PhysAnimator"
     return PSD(
         header=header,
-        image_resources=ImageResources.new(),
+        image_resources=resources,
         layer_and_mask_information=LayerAndMaskInformation(layer_info=information),
         image_data=_merged(picture, header),
     )
 
 
-def _layer(layer: ArtLayer, header: FileHeader) -> tuple[LayerRecord, ChannelDataList]:
+def _layer(layer: ArtLayer, header: FileHeader, *, small: bool) -> tuple[LayerRecord, ChannelDataList]:
     from psd_tools.constants import BlendMode, Compression, Tag
     from psd_tools.psd.layer_and_mask import ChannelData, ChannelDataList, ChannelInfo, LayerFlags, LayerRecord
     from psd_tools.psd.tagged_blocks import TaggedBlocks
@@ -109,7 +115,8 @@ def _layer(layer: ArtLayer, header: FileHeader) -> tuple[LayerRecord, ChannelDat
     left, top, right, bottom = layer.box if layer.pixels.size else (0, 0, 0, 0)
     channels = []
     for plane in (3, 0, 1, 2):
-        channel = ChannelData(compression=Compression.RLE if layer.pixels.size else Compression.RAW, data=b"")
+        packed = Compression.ZIP_WITH_PREDICTION if small else Compression.RLE
+        channel = ChannelData(compression=packed if layer.pixels.size else Compression.RAW, data=b"")
         if layer.pixels.size:
             channel.set_data(_bytes(layer.pixels[..., plane]), right - left, bottom - top, header.depth, header.version)
         channels.append(channel)

@@ -42,7 +42,7 @@ def reading(path: StrPath, name: str) -> Iterator[None]:
         raise InvalidInputError(f"{name} cannot be read: it is nested too deeply") from error
     except OSError as error:
         if error.strerror is None:  # a reader's own, about what is in the file
-            raise InvalidInputError(f"{name} cannot be read: it is damaged ({error})") from error
+            raise InvalidInputError(f"{name} cannot be read: it is damaged or cut off") from error
         raise InvalidInputError(f"artwork must be a readable file. Got: {path}: {error.strerror}") from None
     except Exception as error:  # a damaged file makes the readers raise nearly anything
-        raise InvalidInputError(f"{name} cannot be read: it is damaged ({error or 'cut off'})") from error
+        raise InvalidInputError(f"{name} cannot be read: it is damaged or cut off") from error

@@ -62,10 +62,8 @@ def _layer(tag: str, part: Any) -> ArtLayer:
     pixels = as_array(part.get("img"), f"part {tag}")
     if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] != 4:
         raise InvalidInputError(f"part {tag} must be uint8 of shape [h, w, 4]. Got: {pixels.dtype} {pixels.shape}")
-    box = part.get("xyxy")
-    if box is None:
-        box = (0, 0)
-    corner = [int(each) for each in list(box)[:2] if _is_number(each)]
+    box = part.get("xyxy", (0, 0))
+    corner = [int(each) for each in list(box)[:2] if _is_number(each)] if hasattr(box, "__len__") else []
     require(f"part {tag}: xyxy", shown(box), len(corner) == 2, f"numbers of at most {MAX_OFFSET}")
     depth = part.get("depth_median")
     require(f"part {tag}: depth_median", depth, depth is None or _is_number(depth), "a number")

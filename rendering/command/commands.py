@@ -16,7 +16,7 @@ __all__ = ["command_parser"]
 
 def command_parser() -> argparse.ArgumentParser:
     """What reads the command line; ``run`` of what it gives does the work."""
-    from .options import add_animate, add_demo, add_figure, add_measure
+    from .options import add_animate, add_demo, add_figure, add_layers, add_measure
     from .parsing import CommandParser, PictureParser
 
     parser = CommandParser(
@@ -28,6 +28,7 @@ def command_parser() -> argparse.ArgumentParser:
         ("animate", _animate, add_animate, "animate an illustration"),
         ("demo", _demo, add_demo, "animate the bundled example"),
         ("figure", _figure, add_figure, "draw a figure that explains the controls"),
+        ("layers", _layers, add_layers, "list the layers of a PSD or OpenRaster file, and what would move"),
         ("measure", _measure, add_measure, "measure a clip against the motion that it should show"),
         ("schema", _schema, None, "print the JSON Schema of scene files"),
     ):
@@ -113,6 +114,12 @@ def _picture(image: Any) -> Any:
     from ..parts import picture_of
 
     return image if isinstance(image, np.ndarray) else picture_of(image)
+
+
+def _layers(options: argparse.Namespace) -> None:
+    from .layers import list_layers
+
+    list_layers(options)
 
 
 def _measure(options: argparse.Namespace) -> None:

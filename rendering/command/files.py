@@ -17,6 +17,7 @@ __all__ = ["CLIPS", "INPUTS", "OUTPUTS", "check_apart", "coming_folders", "named
 
 INPUTS = (
     "image",
+    "file",
     "mask",
     "in_front",
     "points",
@@ -33,7 +34,7 @@ INPUTS = (
 CLIPS = ("output", "save_sketch", "save_flow", "preview")
 """Every option that names a clip to write: a file, or a folder of frames."""
 
-OUTPUTS = (*CLIPS, "save_tracks", "save_motion", "save_svg")
+OUTPUTS = (*CLIPS, "save_tracks", "save_motion", "save_svg", "save_psd", "save_png")
 """Every option that names something to write."""
 
 _Identity = tuple[int, int]

@@ -35,7 +35,7 @@ _REMEDIES = (
 
 def option_of(name: str) -> str:
     """An option as a person writes it, from what the parser calls it."""
-    return "IMAGE" if name == "image" else "--" + name.replace("_", "-")
+    return name.upper() if name in ("image", "file") else "--" + name.replace("_", "-")
 
 
 @contextmanager

@@ -6,7 +6,7 @@ import argparse
 
 from ...physics.limits import DEFAULT_MINUTES
 
-__all__ = ["add_animate", "add_demo", "add_figure", "add_measure"]
+__all__ = ["add_animate", "add_demo", "add_figure", "add_layers", "add_measure"]
 
 _MASK = (
     "white where a part is; without white, one colour on black, white or nothing is the part, or the opacity of a"
@@ -49,6 +49,40 @@ def add_figure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--output", "-o", metavar="OUT", required=True, help="picture to write (PNG, JPEG, WebP)")
     parser.add_argument("--quiet", "-q", action="store_true", help="no progress bar")
+
+
+def add_layers(parser: argparse.ArgumentParser) -> None:
+    """All that ``physanimator layers`` takes."""
+    parser.description = (
+        "List the layers of a file from front to back: name, size, place, how each is drawn, whether it would move,"
+        " with which preset, and why. Names decide (hair, ribbon, skirt, cape, tail and the like, in English, Japanese"
+        " and Chinese) unless --move and --still do."
+    )
+    parser.add_argument(
+        "file",
+        metavar="FILE",
+        help="PSD, PSB or OpenRaster file (RGB or grey, 8 or 16 bits), folder with one PNG a layer, named from back to"
+        " front, or layers.json of See-through; to be written before --move and --still",
+    )
+    parser.add_argument(
+        "--move",
+        metavar="NAME",
+        action="extend",
+        nargs="+",
+        default=[],
+        help="layers that move whatever their names say; NAME=PRESET also says how",
+    )
+    parser.add_argument(
+        "--still", metavar="NAME", action="extend", nargs="+", default=[], help="layers that stand still"
+    )
+    parser.add_argument("--groups", action="store_true", help="make one layer of each outermost group")
+    parser.add_argument("--save-psd", metavar="OUT", help="write the layers as a .psd or .psb file")
+    parser.add_argument(
+        "--save-png",
+        metavar="OUT_FOLDER",
+        help="write each layer as a PNG of the canvas' size; the folder has none yet",
+    )
+    parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
 
 
 def add_measure(parser: argparse.ArgumentParser) -> None:

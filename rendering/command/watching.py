@@ -30,6 +30,7 @@ def watch_of(options: argparse.Namespace, progress: StageProgress, points: Seque
         progress=progress,
         on_cut=lambda cut: tell(judge_points(cut, points)),
         on_scene=lambda scene: tell(advice(scene, masks=not named)),
+        on_note=lambda sentence: tell([sentence]),
     )
 
 

@@ -32,6 +32,8 @@ _ALIKE = 0.08
 _OUTLINE, _STRANGE = 0.07, 0.02
 # From this on, colours deny that a pixel is the other side's.
 _DENIED = 2 / 3
+# So far beyond the band seeds are asked by those farther off [px].
+_BEHIND = 20
 # Distance from the mask's edge, as a share of the reach, at which the mask itself is e : 1 sure; and its weight.
 _UNSURE, _WEIGHT = 0.35, 0.5
 # Colours of neighbours that differ by this much are divided by an edge; what a wall of them still lets through; and
@@ -62,7 +64,7 @@ def found_shape(image: FloatImage, mask: FloatImage, reach: FloatImage) -> tuple
     likely = np.full(mask.shape, _HALF, dtype=np.float32)
     if not (core.any() and outside.any() and band.any()):
         return inside, likely
-    likely[band] = _likely(image, band, core, outside)
+    likely[band] = _likely(image, band, *_telling(image, core, outside, (depth - reach, away - reach)))
     way = np.clip((depth - away)[band] / (_UNSURE * reach[band]), -20, 20)
     odds = likely[band] / (1 - likely[band]) * np.exp(_WEIGHT * way)
     shape = inside.copy()
@@ -84,6 +86,28 @@ def _seeds(image: FloatImage, far: tuple[Mask, Mask], middles: tuple[Mask, Mask]
         asked = middles[1] & ~far[1]
         outside[asked] = _likely(image, asked, core, far[1]) < _DENIED
     return core, outside
+
+
+def _telling(image: FloatImage, core: Mask, outside: Mask, beyond: tuple[FloatImage, FloatImage]) -> tuple[Mask, Mask]:
+    """What of either side its colours may be taken from.
+
+    A mask that misses by more than the reach has some of the part outside, and something of what is around inside. Its
+    colours would speak for the wrong side; so what lies next to the band is asked by what lies farther off.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3].
+        core: what is the part's for sure, shape [h, w].
+        outside: what is not, shape [h, w].
+        beyond: how far inside and outside of the band pixels lie [px], shape [h, w] each.
+    """
+    near = core & (beyond[0] <= _BEHIND), outside & (beyond[1] <= _BEHIND)
+    far = core & ~near[0], outside & ~near[1]
+    if not (far[0].any() and far[1].any()):
+        return core, outside
+    telling = core.copy(), outside.copy()
+    telling[0][near[0]] = _likely(image, near[0], *far) > 1 - _DENIED
+    telling[1][near[1]] = _likely(image, near[1], *far) < _DENIED
+    return telling if telling[0].any() and telling[1].any() else (core, outside)
 
 
 def _likely(image: FloatImage, asked: Mask, core: Mask, outside: Mask) -> FloatImage:

@@ -147,3 +147,17 @@ def test_a_damaged_file_gets_one_sentence(tmp_path: Path, kind: str) -> None:
         except InvalidInputError:
             refused += 1
     assert refused > 100
+
+
+def test_stacks_as_layers_on_request(tmp_path: Path) -> None:
+    inner = (
+        '<stack opacity="0.5" name="hair"><stack><layer src="data/a.png" x="1"/></stack>'
+        '<layer src="data/b.png"/></stack>'
+        '<layer src="data/a.png" name="face" y="3"/>'
+    )
+    path = write(tmp_path / "art.ora", image(inner), a=png(RED), b=png(BLUE))
+    whole, apart = load_artwork(path, groups=True), load_artwork(path)
+    assert whole.names == ("face", "hair")
+    assert whole.layers[1].opacity == 0.5
+    assert len(apart.layers) == 3
+    assert np.abs(flattened(whole).astype(int) - flattened(apart)).max() <= 1

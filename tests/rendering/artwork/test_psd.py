@@ -9,11 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.artwork import Artwork, flattened, read_psd
+from physanimator.rendering.artwork import ArtLayer, Artwork, flattened, read_psd
 from PIL import Image, ImageDraw
 from psd_tools import PSDImage
-from psd_tools.constants import BlendMode
+from psd_tools.constants import BlendMode, Tag
 from psd_tools.psd.layer_and_mask import MaskFlags
+from psd_tools.psd.tagged_blocks import TaggedBlock
+from psd_tools.psd.vector import ClosedKnotLinked, ClosedPath, PathFillRule, VectorMaskSetting
+from psd_tools.psd.vector import Path as Outline
 
 WIDTH, HEIGHT = 48, 32
 
@@ -110,6 +113,23 @@ def test_a_psb_file(tmp_path: Path) -> None:
     assert len(assert_same_picture(saved(psd, tmp_path, "art.psb")).layers) == 2
 
 
+def test_a_colour_profile_is_applied(tmp_path: Path) -> None:
+    """Grey colours stay, others become those of sRGB: here from a profile with the primaries in another order."""
+    from PIL import ImageCms
+    from psd_tools.constants import Resource
+    from psd_tools.psd.image_resources import ImageResource
+
+    psd = document()
+    profile = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
+    swapped = profile.replace(b"rXYZ", b"tmp0").replace(b"bXYZ", b"rXYZ").replace(b"tmp0", b"bXYZ")
+    other = swapped.replace("sRGB".encode("utf-16-be"), "mine".encode("utf-16-be"))
+    for each, changed in ((profile, False), (other, True), (b"none", False)):
+        psd.image_resources[Resource.ICC_PROFILE] = ImageResource(key=Resource.ICC_PROFILE, data=each)
+        read = read_psd(saved(psd, tmp_path)).layers[0].pixels[..., :3].astype(int)
+        wanted = np.asarray(opaque(1)).astype(int)
+        assert np.abs(read - (wanted[..., ::-1] if changed else wanted)).max() <= (3 if changed else 0)
+
+
 @pytest.mark.parametrize(("mode", "word"), [("CMYK", "CMYK"), ("LAB", "Lab")])
 def test_other_colours_are_refused_with_the_remedy(tmp_path: Path, mode: str, word: str) -> None:
     psd = PSDImage.new(mode, (WIDTH, HEIGHT))
@@ -170,6 +190,26 @@ def test_groups_in_groups(tmp_path: Path) -> None:
     inner.opacity = 128
     psd.create_group([inner, *layers[2:]], name="outer").opacity = 170
     assert len(assert_same_picture(saved(psd, tmp_path)).layers) == 5
+
+
+@pytest.mark.parametrize("seed", range(16))
+def test_random_trees_of_groups(tmp_path: Path, seed: int) -> None:
+    random = np.random.default_rng(seed)
+    psd = PSDImage.new("RGBA", (WIDTH, HEIGHT), depth=16 if seed % 2 else 8)
+    pool: list[Any] = []
+    for number in range(int(random.integers(3, 9))):
+        height, width = (int(each) for each in random.integers(3, 30, 2))
+        top, left = int(random.integers(-12, 30)), int(random.integers(-12, 40))
+        layer = psd.create_pixel_layer(noise(100 * seed + number, height, width), name=str(number), top=top, left=left)
+        layer.opacity, layer.visible = int(random.integers(0, 256)), bool(random.random() > 0.15)
+        pool.append(layer)
+        if len(pool) > 1 and random.random() < 0.5:
+            count = int(random.integers(1, len(pool) + 1))
+            group = psd.create_group(pool[-count:], name=f"group {number}")
+            group.opacity, group.visible = int(random.integers(0, 256)), bool(random.random() > 0.1)
+            group.blend_mode = BlendMode.NORMAL if random.random() < 0.5 else BlendMode.PASS_THROUGH
+            pool[-count:] = [group]
+    assert_same_picture(saved(psd, tmp_path))
 
 
 @pytest.mark.parametrize("outside", [0, 255])
@@ -275,6 +315,27 @@ def test_layers_that_need_too_much_memory_together_are_refused(tmp_path: Path) -
         read_psd(path)
 
 
+def test_layers_far_away_are_refused_before_anything_is_as_large(tmp_path: Path) -> None:
+    psd = document()
+    layers = [psd.create_pixel_layer(noise(n), name=f"layer {n}") for n in range(2)]
+    group = psd.create_group(layers, name="group")
+    group.opacity = 90
+    for place, said in (
+        (200_000, "layers of a group must lie within"),
+        (2_000_000_000, "layer 1 must lie within 300000 px"),
+    ):
+        psd = PSDImage.open(saved(psd, tmp_path))
+        record = psd[1][1]._record
+        height, width = record.bottom - record.top, record.right - record.left
+        record.left = record.top = place
+        record.bottom, record.right = place + height, place + width
+        as_it_is(psd, tmp_path / "art.psd")
+        with pytest.raises(InvalidInputError, match=said):
+            read_psd(tmp_path / "art.psd")
+        record.left = record.top = 0
+        record.bottom, record.right = height, width
+
+
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     psd = document()
@@ -306,7 +367,7 @@ def test_a_damaged_file_gets_one_sentence(whole: bytes, tmp_path: Path, kind: st
 
 def test_what_is_no_psd(tmp_path: Path) -> None:
     (tmp_path / "art.psd").write_bytes(b"not one")
-    with pytest.raises(InvalidInputError, match="damaged"):
+    with pytest.raises(InvalidInputError, match="begins with 8BPS"):
         read_psd(tmp_path / "art.psd")
     with pytest.raises(InvalidInputError, match="existing file"):
         read_psd(tmp_path / "none.psd")
@@ -314,21 +375,74 @@ def test_what_is_no_psd(tmp_path: Path) -> None:
         read_psd(tmp_path)
 
 
-def test_a_drawn_mask(tmp_path: Path) -> None:
-    """A path of Photoshop: a rectangle in shares of the canvas."""
-    from psd_tools.constants import Tag
-    from psd_tools.psd.tagged_blocks import TaggedBlock
-    from psd_tools.psd.vector import ClosedKnotLinked, ClosedPath, PathFillRule, VectorMaskSetting
-
+def with_path(layer: Any) -> None:
+    """Give a layer a path of Photoshop's: a rectangle in shares of the canvas."""
     corners = [(0.25, 0.25), (0.25, 0.75), (0.75, 0.75), (0.75, 0.25)]
-    knots = [ClosedKnotLinked(corner, corner, corner) for corner in corners]
-    psd = document()
-    layer = psd.create_pixel_layer(opaque(4), name="hair")
-    from psd_tools.psd.vector import Path as Outline
-
-    setting = VectorMaskSetting(path=Outline([PathFillRule(), ClosedPath(knots, operation=1)]))
+    outline = ClosedPath([ClosedKnotLinked(corner, corner, corner) for corner in corners], operation=1)
+    setting = VectorMaskSetting(path=Outline([PathFillRule(), outline]))
     layer._record.tagged_blocks[Tag.VECTOR_MASK_SETTING1] = TaggedBlock(key=Tag.VECTOR_MASK_SETTING1, data=setting)
+
+
+def test_a_drawn_mask(tmp_path: Path) -> None:
+    psd = document()
+    with_path(psd.create_pixel_layer(opaque(4), name="hair"))
     artwork = read_psd(saved(psd, tmp_path))
     wanted = Image.new("L", (WIDTH, HEIGHT))
     ImageDraw.Draw(wanted).rectangle((WIDTH // 4, HEIGHT // 4, WIDTH * 3 // 4 - 1, HEIGHT * 3 // 4 - 1), 255)
     assert np.array_equal(artwork.layers[1].pixels[..., 3], np.asarray(wanted))
+
+
+def test_the_soft_edge_of_a_shape_counts_once(tmp_path: Path) -> None:
+    """Photoshop writes a shape's coverage as its alpha, as its path, and sometimes as a mask as well."""
+    psd = document()
+    drawn = noise(4, HEIGHT, WIDTH)
+    layer = psd.create_pixel_layer(drawn, name="ribbon")
+    layer.create_mask(drawn.getchannel("A"))
+    layer.mask.data.flags = MaskFlags(user_mask_from_render=True)
+    layer._record.flags.pixel_data_irrelevant = True
+    with_path(layer)
+    read = read_psd(saved(psd, tmp_path)).layers[1].pixels
+    assert np.array_equal(read[..., 3], np.asarray(drawn)[..., 3])
+
+
+def test_groups_as_layers_on_request(tmp_path: Path) -> None:
+    psd = document()
+    first, second, third = (psd.create_pixel_layer(noise(n), name=str(n), top=3 * n, left=4 * n) for n in range(3))
+    inner = psd.create_group([first], name="inner")
+    group = psd.create_group([inner, second], name="hair")
+    group.opacity = 120
+    third.move_to(psd)
+    path = saved(psd, tmp_path)
+    artwork = read_psd(path, groups=True)
+    assert sorted(artwork.names) == ["2", "hair", "paper"]
+    assert artwork.layers[artwork.names.index("hair")].opacity == 120 / 255
+    assert artwork.warnings == ()
+    assert np.abs(times_alpha(flattened(artwork)) - own_composite(path)).max() <= 2
+
+
+def test_layers_clipped_to_a_group(tmp_path: Path) -> None:
+    psd = document()
+    layers = [psd.create_pixel_layer(hard_edged(n), name=str(n), top=3 * n, left=9 * n) for n in range(2)]
+    psd.create_group(layers, name="head")
+    psd.create_pixel_layer(noise(8, 25, 25), name="shade", top=2, left=2).clipping = True
+    artwork = assert_same_picture(saved(psd, tmp_path))
+    assert artwork.names == ("paper", "head")
+    assert artwork.warnings == ("layers are clipped to group head: it is read as one layer",)
+
+
+@pytest.mark.parametrize(("mode", "count"), [("NORMAL", 1), ("PASS_THROUGH", 0)])
+def test_a_mode_that_its_group_shuts_in_is_told(tmp_path: Path, mode: str, count: int) -> None:
+    psd = document()
+    layers = [psd.create_pixel_layer(hard_edged(n), name=str(n), top=3 * n, left=9 * n) for n in range(2)]
+    layers[1].blend_mode = BlendMode.MULTIPLY
+    psd.create_group(layers, name="head").blend_mode = BlendMode[mode]
+    warnings = read_psd(saved(psd, tmp_path)).warnings
+    assert len(warnings) == count
+    assert all("reaches beyond what is drawn in group head" in each for each in warnings)
+
+
+def test_names_are_never_alike() -> None:
+    pixels = np.zeros((0, 0, 4), np.uint8)
+    given = ("a", "a (2)", "a", "a", " ", "layer 5", "a (3)", "a")
+    names = Artwork(1, 1, tuple(ArtLayer(name, pixels) for name in given)).names
+    assert names == ("a", "a (2)", "a (4)", "a (5)", "layer 5", "layer 5 (2)", "a (3)", "a (6)")

@@ -149,6 +149,6 @@ def test_places_are_checked_and_files_of_others_left_alone(tmp_path: Path) -> No
     with pytest.raises(InvalidInputError, match="must exist"):
         save_psd(artwork, tmp_path / "none" / "art.psd")
     (tmp_path / "photo.png").write_bytes(b"mine")
-    with pytest.raises(InvalidInputError, match="must hold no other PNG files"):
+    with pytest.raises(InvalidInputError, match="must hold no PNG files yet"):
         save_layer_pngs(artwork, tmp_path)
     assert [path.name for path in save_layer_pngs(artwork, tmp_path / "new")] == ["00 hair_front.png"]

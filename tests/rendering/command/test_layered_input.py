@@ -147,6 +147,27 @@ def test_an_arm_stays_in_front_of_hair_in_a_flat_picture() -> None:
     assert len(json.loads(Path("tracks.json").read_text())) > 8
 
 
+def test_a_layer_that_cannot_move_stands_still_and_is_told_of_unless_it_was_asked_for(capsys: Output) -> None:
+    """Of one pixel, or beyond the canvas."""
+    dot, off = layer("hair dot", HAIR, slice(5, 6), slice(5, 6)), layer("tail", HAIR, slice(5, 60), slice(5, 30))
+    odd = (dot, ArtLayer("tail", off.pixels, left=130))
+    save_psd(Artwork(128, 96, (*artwork().layers, *odd)), "odd.psd")
+    assert status("animate", "odd.psd", "-o", "out.gif", "--frames", "3", "-q") == 0
+    said = capsys.readouterr().err
+    assert said.count("it stands still") == 2
+    for name in ("hair dot", "tail"):
+        assert f"layer {name}: " in said
+        assert status("animate", "odd.psd", "-o", "out.gif", "--frames", "3", "-q", "--move", name) == 2
+    assert capsys.readouterr().err.count("\n") == 2
+
+
+def test_16_bits_keep_their_frames_sketches_and_layers() -> None:
+    deep = [ArtLayer(each.name, each.pixels.astype(np.uint16) * 257) for each in artwork().layers]
+    save_psd(Artwork(128, 96, tuple(deep)), "deep.psd")
+    assert status("animate", "deep.psd", "-o", "out.mp4", "--save-sketch", "sketch.mp4", "--frames", "3", "-q") == 0
+    assert len(list(read_clip("sketch.mp4"))) == 3
+
+
 def test_a_video_of_layers_is_as_long_and_large_as_asked() -> None:
     assert status("animate", "girl.psd", "-o", "out.webm", "--frames", "5", "--width", "64", "-q") == 0
     frames = list(read_clip("out.webm"))

@@ -276,6 +276,22 @@ def test_a_gap_is_found_where_the_hole_of_a_mask_lies_beside_it(
     assert (regular > 0.5)[hole & (gap < 0.01)].mean() > 0.9
 
 
+@pytest.mark.parametrize("shade", [0.17, 0.3])
+@pytest.mark.parametrize("missed", [0, 12])
+def test_a_tip_that_a_lasso_cuts_off_says_nothing_about_what_is_around(shade: float, missed: int) -> None:
+    """Two curls of black hair, shaded on a side: of one the mask leaves out the tip, of the other some of that side."""
+    hair, tip = np.hypot(X - 60, Y - 90) < 45, (np.abs(Y - 70) < 9) & (X > 90) & (X < 128)
+    curl = (np.abs(Y - 108) < 11) & (X > 90) & (X < 160)
+    shaded = (tip & (X > 100)) | (curl & (Y < 108)) | (hair & (np.abs(X - 66) < 12))
+    colour = np.where(shaded[..., None], np.float32(shade), np.float32(0.02))
+    part = hair | tip | curl
+    picture = np.rint(over(SKY, colour.astype(np.float32), hard(part)) * 255).astype(np.float32) / 255
+    mask = hard(hair | (tip & (X < 112)) | (curl & (97 + missed / 2 < Y)))
+    regular = regular_mask(picture, np.roll(mask, (3, -4), (0, 1))) > 0.5
+    assert regular[curl & (X < 150)].mean() > 0.97
+    assert regular[~part].mean() < 0.002
+
+
 def test_where_a_sprite_shows_nothing_a_grown_mask_has_nothing() -> None:
     inside = shape()
     sprite = np.dstack([np.full((HEIGHT, WIDTH, 3), 0.5, np.float32), inside])
