@@ -40,6 +40,8 @@ FINE = 4
 _BACK_PROJECTIONS = 8
 # Beyond so many pixels from its mesh a layer is moved along, and no longer bent along.
 _BENT = 12
+# What lies beyond a mesh belongs to where it is nearest to in the drawing, and so far beside that [px].
+_SAME = 4
 _FEWEST = 50
 EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example" / "illustration.psd"
 
@@ -81,6 +83,7 @@ class TrueArtwork:
             )[0]
             for k, b in self.bodies.items()
         }
+        self.places = {k: _nearest(ids >= 0)[1] for k, ids in self.ids.items()}
         seen = np.ones(next(iter(self.fine.values())).shape[:2], np.float32)
         self.hidden: dict[int, Image] = {}
         for k in reversed(self.drawn):
@@ -148,14 +151,8 @@ class TrueArtwork:
         moved = self.motion.of_body(body)[t].astype(np.float64) * FINE
         triangles, count = _triangles_of(moved, mesh.triangles, texture.shape)
         inside = triangles >= 0
-        far, nearest = cv2.distanceTransformWithLabels(
-            (~inside).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
-        )
-        row, column = np.nonzero(inside)
-        place = np.zeros((int(nearest.max()) + 1, 2), np.float64)
-        place[nearest[inside]] = np.stack([column + 0.5, row + 0.5], axis=1)
+        far, base = _nearest(inside)
         here = np.stack(np.meshgrid(np.arange(texture.shape[1]) + 0.5, np.arange(texture.shape[0]) + 0.5), axis=-1)
-        base = place[nearest]
         # As far as it is bent along, it follows the nearest triangle's map; beyond that, its shift there.
         out = (here - base) * np.minimum(1, _BENT * FINE / np.maximum(far, 1e-6))[..., None]
         at = np.where(inside[..., None], here, base + out)
@@ -165,9 +162,12 @@ class TrueArtwork:
         x, y = (source[..., c].astype(np.float32) - 0.5 for c in (0, 1))
         drawn = cv2.remap(texture, x, y, cv2.INTER_LINEAR, borderValue=0)
         hidden = cv2.remap(self.hidden[k], x, y, cv2.INTER_LINEAR, borderValue=0)
-        # What lies in the mesh in the drawing is drawn by the mesh alone.
+        # What lies in the mesh in the drawing, or nearest to another strand of it there, is not this one's.
         own = cv2.remap((self.ids[k] >= 0).astype(np.float32), x, y, cv2.INTER_NEAREST, borderValue=0)
-        drawn[~inside & (own > 0) & (far > 2)] = 0
+        expected = np.einsum("hwij,hwj->hwi", matrix[ids][..., :2], base) + matrix[ids][..., 2]
+        found = cv2.remap(self.places[k].astype(np.float32), x, y, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE)
+        other = np.linalg.norm(found - expected, axis=2) > _SAME * FINE + 0.5 * far
+        drawn[~inside & (far > 2) & ((own > 0) | other)] = 0
         return drawn, hidden, (count > 1).astype(np.float32)
 
 
@@ -218,6 +218,17 @@ def _triangles_of(points: Image, triangles: Image, shape: tuple[int, ...]) -> tu
         # An edge that two triangles share is no fold.
         count[part] += (v > 1e-6) & (w > 1e-6) & (v + w < 1 - 1e-6)
     return ids, count
+
+
+def _nearest(inside: Image) -> tuple[Image, Image]:
+    """Distance to a mesh and the place of its nearest pixel, at high resolution, shape [h, w] and [h, w, 2]."""
+    far, nearest = cv2.distanceTransformWithLabels(
+        (~inside).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    row, column = np.nonzero(inside)
+    place = np.zeros((int(nearest.max()) + 1, 2), np.float64)
+    place[nearest[inside]] = np.stack([column + 0.5, row + 0.5], axis=1)
+    return far, place[nearest]
 
 
 def _affine(moved: Image, rest: Image) -> Image:
