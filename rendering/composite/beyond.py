@@ -12,9 +12,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics.mesh import PixelBox, TriangleMesh, interpolate
+from ...physics.mesh import PixelBox, TriangleMesh
+from .places import NOWHERE, places
 
-__all__ = ["NOWHERE", "Beyond"]
+__all__ = ["Beyond"]
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
@@ -31,8 +32,6 @@ _SMALLEST = 8.0
 
 # Bicubic resampling reads so far around a pixel.
 _BESIDE = 2
-NOWHERE = -1e5
-"""Far off every canvas, so that nothing is there to resample."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,12 +89,10 @@ class Beyond:
         return self.rest + np.einsum("pk,pkx->px", self.weights, shifts[self.sources])
 
     def places_at_rest(
-        self, positions: FloatArray, box: PixelBox, canvas: PixelBox
+        self, positions: FloatArray, box: PixelBox, canvas: PixelBox, *, scale: int = 1
     ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Column and row of the canvas that each pixel of a box shows; see ``ApronedMesh.places_at_rest``."""
-        x, y = interpolate(positions, self.triangles, self.rest - positions, box, fill=NOWHERE)
-        x += np.arange(box.left - canvas.left, box.right - canvas.left, dtype=np.float32)
-        y += np.arange(box.top - canvas.top, box.bottom - canvas.top, dtype=np.float32)[:, None]
+        x, y = places(positions, self.triangles, self.rest, box, canvas, scale=scale)
         row, column = np.rint(y).astype(np.int32), np.rint(x).astype(np.int32)
         height, width = self.own.shape
         there = (row >= 0) & (row < height) & (column >= 0) & (column < width)

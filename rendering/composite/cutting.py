@@ -21,9 +21,11 @@ from ...physics.mesh import PixelBox, TriangleMesh, bounding_box, triangle_ids
 from ..matting import fitting_plate, in_levels, mixed_rim, regular_mask, soft_alpha, with_outline
 from ..plate import fill_hole, spread_colours
 from .apron import ApronedMesh, canvas_of, usual_reach
-from .beyond import NOWHERE, Beyond
+from .beyond import Beyond
 from .beyond_border import on_canvas
+from .folds import torn_tiles
 from .half_pixels import with_half_pixels
+from .places import NOWHERE
 from .still_layers import StillLayer, still_layer
 
 if TYPE_CHECKING:
@@ -34,6 +36,8 @@ __all__ = ["Layer", "aproned", "picture_beneath", "take_apart"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
+# Along folds a pixel is the mean of so many places across and down.
+_FINE = 3
 # Pixels around a body that its faint edge may reach.
 _BESIDE = 2
 
@@ -83,23 +87,41 @@ class Layer:
             return box, np.zeros((box.height, box.width, self.texture.shape[2]), dtype=np.float32)
         x, y = self._places_at_rest(points, box)
         if self.fine:
-            texture, border = self._finer
-            for place in (x, y):
-                place += border
-                place *= 2
-            return box, cv2.remap(texture, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
-        drawn = [
+            drawn = self._read(x, y)
+            for tile, torn in torn_tiles(x, y):
+                self._smooth(drawn, points, box, tile, torn)
+            return box, drawn
+        parts = [
             cv2.remap(part, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
             for part in self._parts
         ]
-        return box, drawn[0] if len(drawn) == 1 else np.dstack(drawn)
+        return box, parts[0] if len(parts) == 1 else np.dstack(parts)
 
-    def _places_at_rest(self, points: Sequence[NDArray[np.float64]], box: PixelBox) -> tuple[FloatImage, FloatImage]:
+    def _read(self, x: FloatImage, y: FloatImage) -> FloatImage:
+        """The finer texture at places of the texture."""
+        texture, border = self._finer
+        x, y = 2 * (x + border), 2 * (y + border)
+        return cv2.remap(texture, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT, borderValue=0)  # type: ignore[return-value]
+
+    def _smooth(
+        self, drawn: FloatImage, points: Sequence[NDArray[np.float64]], box: PixelBox, tile: PixelBox, torn: Mask
+    ) -> None:
+        """Draw pixels of a tile of a box as the mean of several places, where the mesh lies over itself."""
+        left, top = box.left + tile.left, box.top + tile.top
+        sides = (left, top, left + tile.width, top + tile.height)
+        x, y = self._places_at_rest(points, PixelBox(*(_FINE * side for side in sides)), scale=_FINE)
+        mean = cv2.resize(self._read(x, y), (tile.width, tile.height), interpolation=cv2.INTER_AREA)
+        drawn[tile.slices][torn] = mean[torn]
+
+    def _places_at_rest(
+        self, points: Sequence[NDArray[np.float64]], box: PixelBox, *, scale: int = 1
+    ) -> tuple[FloatImage, FloatImage]:
         """Column and row of the texture that each pixel of a box shows, shape [h, w] each."""
-        x, y = self.mesh.places_at_rest(points[0], box, self.canvas)
+        x, y = self.mesh.places_at_rest(points[0], box, self.canvas, scale=scale)
         if self.beyond is not None:
             free = x <= NOWHERE / 2
-            for place, other in zip((x, y), self.beyond.places_at_rest(points[1], box, self.canvas), strict=True):
+            others = self.beyond.places_at_rest(points[1], box, self.canvas, scale=scale)
+            for place, other in zip((x, y), others, strict=True):
                 np.copyto(place, other, where=free)
         return x, y
 

@@ -290,3 +290,19 @@ def test_layers_shifted_by_whole_pixels_are_the_artwork_with_these_offsets(
     for k in moving:
         layers[k] = replace(layers[k], visible=True, left=layers[k].left + across, top=layers[k].top + down)
     assert_alike(frame, replace(artwork, layers=tuple(layers)))
+
+
+def test_the_edge_of_one_sheet_over_another_of_the_same_layer_has_no_steps() -> None:
+    """Two tilted squares of one layer, black and white, of which one comes to lie half over the other."""
+    squares = np.zeros((*SIZE[::-1], 4), np.uint8)
+    for x, grey in ((35, 255), (85, 0)):
+        turned = np.int32([(x - 22, 36), (x + 10, 22), (x + 22, 54), (x - 10, 68)])
+        cv2.fillPoly(squares, [turned], (grey, grey, grey, 255))
+    artwork = Artwork(*SIZE, (paper((255, 0, 0)), ArtLayer("squares", squares)))
+    mesh = mesh_from_mask(mask_of_layer(artwork, 1), spacing=8)
+    over = mesh.vertices + np.where(mesh.vertices[:, :1] > 60, (-25.3, 0.0), (0.0, 0.0))
+    motion = Motion((Body(mesh),), np.float32([mesh.vertices, over]), 24.0)
+    frame = LayeredRenderer.of_artwork(artwork, [1], motion).frame(1).astype(int)
+    inner = frame[32:56, 40:56, 1]  # both squares are here
+    assert {0, 255} <= set(inner.ravel().tolist())
+    assert (((inner > 15) & (inner < 240)).sum(axis=1) >= 1).mean() > 0.6
