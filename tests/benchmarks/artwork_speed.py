@@ -27,10 +27,12 @@ WIDTH, HEIGHT = 1280, 720
 
 
 def artwork() -> Artwork:
-    """The drawn bust in the middle of 1280x720."""
+    """The drawn bust without its mouth in the middle of 1280x720."""
     drawn, scale = bust(), HEIGHT / 480
     layers = []
     for layer in drawn.layers:
+        if layer.name == "mouth":
+            continue
         planes = layer.pixels.astype(np.float32)
         planes[..., :3] *= planes[..., 3:] / 255
         wide = WIDTH if layer.name == "background" else round(planes.shape[1] * scale)
@@ -106,7 +108,9 @@ def _written(whole: Artwork, folder: Path) -> tuple[Path, Path, list[Path]]:
         seen = mask_of_layer(whole, index)
         cover = hidden_by(whole, index, moving=[index])
         masks.append(folder / f"{number} {name}.png")
-        cv2.imwrite(str(masks[-1]), np.rint(255 * np.where(False if cover is None else cover, 0, seen)))
+        cv2.imwrite(
+            str(masks[-1]), np.rint(255 * np.where(False if cover is None else cover, 0, seen)).astype(np.uint8)
+        )
     return psd, flat, masks
 
 
