@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -58,7 +58,7 @@ class Animation:
     renderer: LayeredRenderer | PixelArtRenderer
     first: int = 0
     seconds: dict[str, float] = field(default_factory=dict)
-    own: tuple[Image, ...] = ()
+    own: Sequence[Image] = ()
 
     def __len__(self) -> int:
         """Number of frames that are shown."""

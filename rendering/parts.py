@@ -28,6 +28,7 @@ from .composite import (
 )
 from .layer_roots import attachment_of_layer, resting_on_held
 from .matting import part_mesh
+from .single_layers import LayerPictures
 
 if TYPE_CHECKING:
     from .artwork import Artwork, LayerPlan
@@ -80,7 +81,7 @@ class Parts:
     rests: tuple[NDArray[np.bool_] | None, ...]
     attachments: tuple[Attachment, ...]
     renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
-    own: tuple[Image, ...] = ()
+    own: Sequence[Image] = ()
     still: tuple[str, ...] = ()
     layer_mask: LayerMasks | None = None
     notes: tuple[str, ...] = ()
@@ -214,19 +215,11 @@ def parts_of_artwork(
         resting_on_held(rests, masks, meshed, covers, attachments),
         attachments,
         lambda motion: LayeredRenderer.of_artwork(artwork, indices, motion),
-        tuple(_alone(artwork, index) for index in indices),
+        LayerPictures(artwork, indices),
         tuple(plan.name for plan in planned if not plan.moves and (plan.asked or plan.why == SCENE_SAYS)),
         masks_of_still_layers(artwork, indices),
         tuple(notes),
     )
-
-
-def _alone(artwork: Artwork, index: int) -> Image:
-    """A layer as a picture of its own, straight RGBA, uint8 or float32."""
-    from .artwork import flattened
-    from .pictures import as_picture
-
-    return as_picture(flattened(artwork, [replace(artwork.layers[index], blend="normal")]), alpha=True)
 
 
 def _meshed_layers(

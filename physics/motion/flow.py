@@ -31,10 +31,12 @@ class FlowField:
         displacement: of each pixel of the drawing, x right and y down [px], float32, shape [h, w, 2]; zero outside
             the bodies.
         inside: true where a body lies in the drawing, bool, shape [h, w].
+        covered: true where something still is in front of all bodies, bool, shape [h, w]; None for nowhere.
     """
 
     displacement: NDArray[np.float32]
     inside: NDArray[np.bool_]
+    covered: NDArray[np.bool_] | None = None
 
 
 def layer_order(bodies: Sequence[Body]) -> list[int]:
@@ -113,7 +115,7 @@ class FlowSequence:
         moved = self._weights @ (self.motion.positions[t] - self._rest.astype(np.float32))
         # As one complex number a pixel, the pairs are written several times faster than as rows of two.
         displacement.view(np.complex64).reshape(-1)[self._pixels] = moved.view(np.complex64).reshape(-1)
-        return FlowField(displacement, self.inside)
+        return FlowField(displacement, self.inside, self._covered)
 
     @cached_property
     def body(self) -> NDArray[np.int32]:
@@ -126,6 +128,13 @@ class FlowSequence:
     def inside(self) -> NDArray[np.bool_]:
         """True where a body lies in the drawing, bool, shape [h, w]."""
         return _frozen(self._ids >= 0)
+
+    @cached_property
+    def _covered(self) -> NDArray[np.bool_] | None:
+        covers = [body.cover for body in self.motion.bodies]
+        if not covers or any(cover is None for cover in covers):
+            return None
+        return _frozen(np.logical_and.reduce([cover for cover in covers if cover is not None]))
 
     @cached_property
     def _rest(self) -> NDArray[np.float64]:

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics.mesh import PixelBox, TriangleMesh, bounding_box, interpolate
+from ...physics.mesh import PixelBox, TriangleMesh, bounding_box
 from .boundary import SHARPEST_MITRE, Boundary
+from .places import places
 
 __all__ = ["ApronedMesh", "canvas_of", "usual_reach"]
 
@@ -22,8 +23,6 @@ IndexArray = NDArray[np.int64]
 # Widest apron, in edges of the mesh's boundary and at least in pixels: a polygon cuts off little more than that.
 _REACH = 1.5
 _LEAST_REACH = 12
-# Far off every canvas, so that nothing is there to resample.
-_NOWHERE = -1e4
 
 
 def usual_reach(mesh: TriangleMesh) -> int:
@@ -87,7 +86,7 @@ class ApronedMesh:
         return self.rest + np.concatenate([moved, led])
 
     def places_at_rest(
-        self, positions: FloatArray, box: PixelBox, canvas: PixelBox
+        self, positions: FloatArray, box: PixelBox, canvas: PixelBox, *, scale: int = 1
     ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Column and row of a canvas at rest that each pixel of a box shows, far off it where the mesh is not.
 
@@ -95,11 +94,9 @@ class ApronedMesh:
             positions: from ``positions`` [px], shape [v + c, 2].
             box: the pixels that are wanted.
             canvas: in whose pixels the places are told; pixel [0, 0] has its centre at (0, 0).
+            scale: how many pixels of the box a pixel of the picture is wide.
 
         Returns:
             Columns and rows, shape [box height, box width] each.
         """
-        x, y = interpolate(positions, self.triangles, self.rest - positions, box, fill=_NOWHERE)
-        x += np.arange(box.left - canvas.left, box.right - canvas.left, dtype=np.float32)
-        y += np.arange(box.top - canvas.top, box.bottom - canvas.top, dtype=np.float32)[:, None]
-        return x, y
+        return places(positions, self.triangles, self.rest, box, canvas, scale=scale)

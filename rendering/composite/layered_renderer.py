@@ -19,6 +19,7 @@ from ..pictures import as_dtype, as_float, as_picture, is_transparent, straight
 from .cutting import Layer, take_apart
 from .kept_layers import apart
 from .laying import lay_over
+from .pixel_boxes import around, shared, within
 from .sprite_layers import take_sprite_apart
 from .still_layers import StillLayer
 
@@ -114,7 +115,8 @@ class LayeredRenderer:
             [*(motion.bodies[k].mesh for k in order), *(None for _ in still)],
             plate=None if plate is None else as_float(plate),
         )
-        self._take(motion, background, layers, image.dtype)
+        self._take(motion, background, layers, layer_order(motion.bodies))
+        self._stand(background, image.dtype)
         self.drawn_plate = plate is not None
         self._artwork: Artwork | None = None
         self._sources: list[int | None] = []
@@ -133,17 +135,16 @@ class LayeredRenderer:
         """
         size, expected = (artwork.width, artwork.height), (motion.width, motion.height)
         require("artwork", f"{size[0]} x {size[1]} px", size == expected, f"as large as the motion's, {expected} px")
-        meshes = {layer: body.mesh for layer, body in zip(layers, motion.bodies, strict=True)}
-        require("layers", list(layers), len(meshes) == len(motion.bodies), "another layer for each body")
-        from .artwork_layers import layers_of
+        from .artwork_pieces import Mover, pieces_of
 
-        renderer = cls.__new__(cls)
-        background, pieces, sources = layers_of(artwork, meshes)
-        dtype = np.dtype(np.uint8 if artwork.dtype == np.uint8 else np.float32)
-        order = sorted(range(len(layers)), key=lambda number: layers[number])
-        renderer._take(motion, background, pieces, dtype, order=order)
+        bodies = enumerate(zip(layers, motion.bodies, strict=True))
+        movers = {layer: Mover(body.mesh, motion.of_body(number)) for number, (layer, body) in bodies}
+        require("layers", list(layers), len(movers) == len(motion.bodies), "another layer for each body")
+        renderer, pieces = cls.__new__(cls), pieces_of(artwork, movers)
+        renderer._take(motion, pieces.background, pieces.layers, np.argsort(layers).tolist())
+        renderer.plate, renderer._region = pieces.plate, pieces.region
         renderer.drawn_plate = True
-        renderer._artwork, renderer._sources = artwork, sources
+        renderer._artwork, renderer._sources = artwork, pieces.sources
         return renderer
 
     @property
@@ -164,7 +165,7 @@ class LayeredRenderer:
         require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
         if self._artwork is None:
             raise InvalidInputError("frames in layers need layered artwork. Got: a flat picture")
-        from .artwork_layers import bent
+        from .artwork_pieces import bent
 
         layers = list(self._artwork.layers)
         pieces: dict[int, list[tuple[PixelBox, FloatImage]]] = {}
@@ -172,32 +173,28 @@ class LayeredRenderer:
             if source is not None and only in (None, source):
                 pieces.setdefault(source, []).append(_placed(piece, body, self.motion, t))
         for index, drawn_pieces in pieces.items():
-            layers[index] = bent(layers[index], drawn_pieces, self.motion.width, self.motion.height)
+            layers[index] = bent(layers[index], drawn_pieces)
         return replace(self._artwork, layers=tuple(layers))
 
     def _take(
-        self,
-        motion: Motion,
-        background: FloatImage,
-        layers: Sequence[Layer | StillLayer],
-        dtype: np.dtype[Any],
-        *,
-        order: Sequence[int] | None = None,
+        self, motion: Motion, background: FloatImage, layers: Sequence[Layer | StillLayer], order: Sequence[int]
     ) -> None:
-        """Draw these layers, those that move in the order of the bodies, over a background."""
+        """Draw these layers, those that move in this order of the bodies, over a background of a region."""
         self.motion = motion
-        bodies = iter(layer_order(motion.bodies) if order is None else order)
+        bodies = iter(order)
         self._layers = list(layers)
         self._bodies = [next(bodies) if isinstance(layer, Layer) else None for layer in layers]
-        still = [layer for layer in layers if isinstance(layer, StillLayer)]
-        transparent = is_transparent(background)
-        planes = np.ascontiguousarray(np.moveaxis(background, 2, 0))
-        shown = planes.copy() if still else planes
+        self._planes = np.ascontiguousarray(np.moveaxis(background, 2, 0))
+
+    def _stand(self, background: FloatImage, dtype: np.dtype[Any]) -> None:
+        """Make the plate of a flat picture: its background and what stands still in front."""
+        still = [layer for layer in self._layers if isinstance(layer, StillLayer)]
+        self._region = PixelBox(0, 0, background.shape[1], background.shape[0])
+        shown = self._planes.copy() if still else self._planes
         for layer in still:
             lay_over(_part(shown, layer.box), layer.texture, layer.blend)
         self.plate = _interleaved(shown, dtype)
-        self._planes = planes
-        if not (still or transparent):
+        if not (still or is_transparent(background)):
             self._planes = np.ascontiguousarray(np.moveaxis(as_float(self.plate), 2, 0))
 
     def __len__(self) -> int:
@@ -265,29 +262,28 @@ class LayeredRenderer:
         Raises:
             InvalidInputError: there is no such frame.
         """
-        planes = np.zeros((4, *self.plate.shape[:2]), dtype=np.float32)
-        for each in self._drawn(t):
-            part = _part(planes, each.box)
+        drawn = self._drawn(t)
+        alone = np.zeros((*self.plate.shape[:2], 4), dtype=self.plate.dtype)
+        box = around([each.box for each in drawn if each.moving])
+        planes = np.zeros((4, box.height, box.width), dtype=np.float32)
+        for each, texture, part in _within_box(drawn, box, planes):
             if each.moving:
-                lay_over(part, each.texture, "normal")
+                lay_over(part, texture, "normal")
             elif each.blend == "normal":
-                part *= 1 - np.clip(each.texture[..., -1], 0, 1)
-        return _interleaved(planes, self.plate.dtype)
+                part *= 1 - np.clip(texture[..., -1], 0, 1)
+        if planes.size:
+            alone[box.slices] = _interleaved(planes, alone.dtype)
+        return alone
 
     def _over_plate(self, drawn: list[_Drawn]) -> NDArray[Any]:
         """Drawn layers over the plate."""
-        frame, moving = self.plate.copy(), [each.box for each in drawn if each.moving]
-        if not moving:
-            return frame
         # Elsewhere the plate shows what stands still as it is.
-        box = _union(moving)
-        planes = _part(self._planes, box).copy()
-        for each in drawn:
-            shared = _shared(each.box, box)
-            if shared.width and shared.height:
-                texture = each.texture[_within(shared, each.box).slices]
-                lay_over(_part(planes, _within(shared, box)), texture, each.blend)
-        frame[box.slices] = _interleaved(planes, frame.dtype)
+        frame, box = self.plate.copy(), around([each.box for each in drawn if each.moving])
+        if box.width and box.height:
+            planes = _part(self._planes, within(box, self._region)).copy()
+            for each, texture, part in _within_box(drawn, box, planes):
+                lay_over(part, texture, each.blend)
+            frame[box.slices] = _interleaved(planes, frame.dtype)
         return frame
 
     def _covered(self, drawn: list[_Drawn]) -> FloatImage:
@@ -348,22 +344,11 @@ def _interleaved(planes: FloatImage, dtype: np.dtype[Any]) -> NDArray[Any]:
     return as_dtype(straight(picture) if is_transparent(picture) else picture, dtype)
 
 
-def _union(boxes: Sequence[PixelBox]) -> PixelBox:
-    return PixelBox(
-        min(box.left for box in boxes),
-        min(box.top for box in boxes),
-        max(box.right for box in boxes),
-        max(box.bottom for box in boxes),
-    )
-
-
-def _shared(one: PixelBox, other: PixelBox) -> PixelBox:
-    """The pixels of both boxes; of no width or height where they have none in common."""
-    return PixelBox(
-        max(one.left, other.left), max(one.top, other.top), min(one.right, other.right), min(one.bottom, other.bottom)
-    )
-
-
-def _within(box: PixelBox, outer: PixelBox) -> PixelBox:
-    """A box in the pixels of another that holds it."""
-    return PixelBox(box.left - outer.left, box.top - outer.top, box.right - outer.left, box.bottom - outer.top)
+def _within_box(
+    drawn: Sequence[_Drawn], box: PixelBox, planes: FloatImage
+) -> Iterator[tuple[_Drawn, FloatImage, FloatImage]]:
+    """Each layer that shows in a box, its texture there, and the part of the box's planes where it is."""
+    for each in drawn:
+        there = shared(each.box, box)
+        if there.width and there.height:
+            yield each, each.texture[within(there, each.box).slices], _part(planes, within(there, box))

@@ -22,18 +22,29 @@ def lay_over(planes: FloatImage, layer: FloatImage, blend: Blend = "normal") -> 
     Args:
         planes: RGB, or premultiplied RGBA, in 0 to 1, shape [3 or 4, h, w].
         layer: premultiplied RGB and coverage, shape [h, w, 4]; or premultiplied RGBA and coverage, shape [h, w, 5].
+            A view of planes that were not resampled is taken as it is, which is faster.
         blend: how colours meet; one of five channels knows "normal" alone.
     """
     if blend != "normal":
         _blend(planes, np.clip(layer, 0, 1), blend)
         return
-    *colours, alpha = cv2.split(layer)
-    np.clip(alpha, 0, 1, out=alpha)
+    *colours, alpha = _planes(layer)
     beneath = 1 - alpha
     for plane, added in zip(planes, [*colours, alpha], strict=False):
         plane *= beneath
-        # Bicubic resampling overshoots at edges; light that is no colour times alpha would be seen as a fringe.
-        plane += np.clip(added, 0, alpha, out=added)
+        plane += added
+
+
+def _planes(layer: FloatImage) -> list[FloatImage]:
+    """The channels of a layer, none with more light than alpha."""
+    if layer.strides[2] > layer.strides[1]:
+        return list(np.moveaxis(layer, 2, 0))
+    *colours, alpha = cv2.split(layer)
+    np.clip(alpha, 0, 1, out=alpha)
+    # Bicubic resampling overshoots at edges; light that is no colour times alpha would be seen as a fringe.
+    for colour in colours:
+        cv2.min(cv2.max(colour, 0, dst=colour), alpha, dst=colour)
+    return [*colours, alpha]
 
 
 def _blend(planes: FloatImage, layer: FloatImage, blend: Blend) -> None:
@@ -41,5 +52,5 @@ def _blend(planes: FloatImage, layer: FloatImage, blend: Blend) -> None:
 
     opaque = np.ones((1, *planes.shape[1:]), dtype=np.float32)
     below = np.ascontiguousarray(np.moveaxis(np.concatenate([planes, opaque])[:4], 0, 2))
-    blended(below, layer, blend)
+    blended(below, np.minimum(layer, layer[..., 3:]), blend)
     planes[:] = np.moveaxis(below, 2, 0)[: len(planes)]

@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.errors import InvalidInputError
 from ...physics.mesh import PixelBox
 
 if TYPE_CHECKING:
@@ -56,8 +57,14 @@ def behind_still(mask: FloatImage, cover: Mask) -> FloatImage:
     Args:
         mask: of the part as it is seen, 0 to 1, shape [h, w].
         cover: where something still is in front, shape [h, w].
+
+    Raises:
+        InvalidInputError: nothing of the part is seen.
     """
-    seen = (mask > _HALF) & ~cover
+    part = mask > _HALF
+    seen = part & ~cover
+    if part.any() and not seen.any():
+        raise InvalidInputError("in_front must leave some of every moving part in sight. Got: it covers all of one")
     beside = ~cover & ~seen
     if not (seen.any() and cover.any()):
         return mask

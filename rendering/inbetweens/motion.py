@@ -64,8 +64,8 @@ class _Keyframe:
         self.motion = _motion_of(clip)
         self.picture = clip.keyframe(number)
         self.frame = clip.indices[number]
-        self.rank = _ranks(clip, self.frame)
-        self.free = _widened(self.rank >= 0) == 0
+        self.rank, touched = _ranks(clip, self.frame)
+        self.free = ~touched
 
 
 def _positions(clip: Clip, body: int, frame: int) -> NDArray[np.float64]:
@@ -75,15 +75,21 @@ def _positions(clip: Clip, body: int, frame: int) -> NDArray[np.float64]:
     return motion.of_body(body)[frame] * scale
 
 
-def _ranks(clip: Clip, frame: int) -> NDArray[np.int32]:
-    """Which body, counted from the back, covers each pixel in front; -1 for none, shape [h, w]."""
+def _ranks(clip: Clip, frame: int) -> tuple[NDArray[np.int32], Mask]:
+    """Which body, counted from the back, covers each pixel in front, -1 for none; and what bodies and their rims touch.
+
+    Shape [h, w] each.
+    """
     motion, (width, height) = _motion_of(clip), clip.size
     ranks, picture = np.full((height, width), -1, dtype=np.int32), PixelBox(0, 0, width, height)
+    touched = np.zeros((height, width), dtype=bool)
     for rank, body in enumerate(layer_order(motion.bodies)):
         here = triangle_ids(_positions(clip, body, frame), motion.bodies[body].mesh.triangles, picture) >= 0
+        cover = _cover(clip, body)
         ranks[here] = rank
-        ranks[here & _cover(clip, body)] = -1  # something still is in front, which each keyframe shows
-    return ranks
+        ranks[here & cover] = -1  # something still is in front, which each keyframe shows
+        touched |= (_widened(here & ~cover) > 0) & ~cover
+    return ranks, touched
 
 
 def _cover(clip: Clip, body: int) -> Mask:

@@ -145,6 +145,10 @@ def warp_sketch(
         # What is covered by less than a half has been left: the few lines that reach into it are torn edges.
         holes[box] = coverage < 0.5
         lines[box] = np.where(holes[box], 0, warped)
+        if field.covered is not None:
+            # What stands still in front of all that moves keeps its lines, and shows no others.
+            lines[field.covered] = 1 - sketch[field.covered]
+            holes &= ~field.covered
     result = 1 - lines
     if blur_sigma > 0:
         result = cv2.GaussianBlur(result, (0, 0), blur_sigma, borderType=cv2.BORDER_REPLICATE)

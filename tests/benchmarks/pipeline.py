@@ -23,6 +23,7 @@ from typing import Any
 import cv2
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
+from artwork_speed import layers_measured
 from meshes import SIDE2_OVER_AREA, mesh_of_about
 from physanimator.physics.assembly import plan
 from physanimator.physics.material import preset
@@ -103,6 +104,7 @@ def measure(rounds: int) -> dict[str, Any]:
         "ms": {**ms, "mesh_once": meshing_ms, "clean_plate_once": plate_ms, "extract_sketch_once": sketch_ms},
         "ratios": {name: ms[name] / ms["remap"] for name in ("flow", "composite", "sketch_warp")},
         "simulation_of_real_time": ms["simulate"] * scene.frame_rate / 1000,
+        "layers": layers_measured(),
         "demo_cold_s": demo_cold_seconds(),
         "triangles": len(mesh.triangles),
         "body_share_of_frame": float(mask.mean()),
@@ -127,6 +129,9 @@ def main() -> None:
         print(f"{name:>22} {value:9.2f} ms")
     for name, value in result["ratios"].items():
         print(f"{name:>22} {value:9.2f} x cv2.remap")
+    layers = result["layers"]
+    print(f"{'a frame of layers':>22} {layers['frame_of_remap']:9.2f} x cv2.remap")
+    print(f"{'first frame of layers':>22} {layers['first_frame_ratio']:9.2f} x with masks")
 
 
 if __name__ == "__main__":
