@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.assembly import work_of_minutes
@@ -108,13 +107,15 @@ def animate(
         >>> [frame.shape for frame in animation.frames()]
         [(60, 60, 3), (60, 60, 3), (60, 60, 3)]
     """
+    from .artwork import Artwork
+
     seconds: dict[str, float] = {}
     work_of_minutes(max_minutes)
     if scene is not None and not isinstance(scene, Scene):
         from ..physics.document import check_document
 
         check_document(scene)
-    if isinstance(image, np.ndarray):
+    if not isinstance(image, Artwork):
         image = as_picture(image, alpha=True)
         plate = _checked_plate(plate, image)
         masks = coverages("masks", () if masks is None else masks, image)

@@ -91,24 +91,22 @@ class Layer:
             drawn = self._read(x, y)
             for tile, torn in torn_tiles(x, y):
                 self._smooth(drawn, points, box, tile, torn)
-            return box, drawn
+            return box, self._softened(drawn, box, (x, y), points[0])
         parts = [
             cv2.remap(part, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
             for part in self._parts
         ]
         whole = parts[0] if len(parts) == 1 else np.dstack(parts)
+        return box, self._softened(whole, box, (x, y), points[0])
+
+    def _softened(
+        self, drawn: FloatImage, box: PixelBox, shown: tuple[FloatImage, FloatImage], points: NDArray[np.float64]
+    ) -> FloatImage:
+        """What is drawn in a box, with the edges of slits smoothed in place."""
         if len(self._slit):
-            soften_slits(
-                whole,
-                box,
-                (x, y),
-                mesh=self.mesh,
-                points=points[0],
-                slit=self._slit,
-                canvas=self.canvas,
-                parts=self._parts,
-            )
-        return box, whole
+            how = {"mesh": self.mesh, "points": points, "slit": self._slit, "canvas": self.canvas}
+            soften_slits(drawn, box, shown, parts=self._parts, **how)  # type: ignore[arg-type]
+        return drawn
 
     @cached_property
     def _slit(self) -> NDArray[np.int64]:

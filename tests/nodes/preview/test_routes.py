@@ -306,10 +306,10 @@ def test_a_request_that_was_overtaken_gives_way(monkeypatch: pytest.MonkeyPatch)
     """The one that came first is checked for so long that the next one begins before it."""
     check, held = routes.preview_scene, threading.Event()
 
-    def slow(request: Any, of: Any) -> Any:
+    def slow(request: Any, *of: Any) -> Any:
         if request.frames == 7:
             assert held.wait(PATIENCE)
-        return check(request, of)
+        return check(request, *of)
 
     monkeypatch.setattr(routes, "preview_scene", slow)
 
