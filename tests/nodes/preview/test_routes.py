@@ -424,7 +424,7 @@ def test_colliders_far_out_leave_the_preview_to_others() -> None:
 def test_what_is_prepared_for_nobody_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     begun, ended = threading.Event(), threading.Event()
 
-    def endless(request: Any, of: Any) -> Any:
+    def endless(request: Any, *of: Any) -> Any:
         begun.set()
         try:
             while True:
@@ -437,8 +437,7 @@ def test_what_is_prepared_for_nobody_is_given_up(monkeypatch: pytest.MonkeyPatch
 
     async def test(server: Served) -> None:
         asking = asyncio.ensure_future(server.ask())
-        while not begun.is_set():
-            await asyncio.sleep(0.01)
+        assert await asyncio.to_thread(begun.wait, PATIENCE)
         asking.cancel()
         await server.idle()
         assert ended.is_set()
