@@ -33,6 +33,7 @@ def test_a_host_gets_the_routes_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert paths == [
         ("GET", "/physanimator/mesh/{key}"),
         ("GET", "/physanimator/plate/{key}"),
+        ("GET", "/physanimator/layer/{key}/{number}"),
         ("POST", "/physanimator/preview"),
         ("GET", "/physanimator/example"),
         ("POST", "/physanimator/warm-up"),
