@@ -160,10 +160,18 @@ def test_the_install_script_leaves_a_cv2_that_works_alone(installed: str, tmp_pa
     assert ("pip install opencv-python-headless>=4.9" in done.stdout) == (installed != "contrib")
 
 
-def test_console_script(wheel: Path) -> None:
+def test_console_script(wheel: Path, tmp_path: Path) -> None:
+    """The function that pip's script calls is where the wheel says, and runs."""
     with zipfile.ZipFile(wheel) as archive:
-        (name,) = (name for name in archive.namelist() if name.endswith("entry_points.txt"))
-        assert "physanimator = physanimator.rendering.command.commands:main" in archive.read(name).decode()
+        archive.extractall(tmp_path)
+        name = next(each for each in archive.namelist() if each.endswith("entry_points.txt"))
+        said = archive.read(name).decode()
+    entry = next(line.split(" = ")[1] for line in said.splitlines() if line.startswith("physanimator = "))
+    module, function = entry.split(":")
+    code = f"import sys; from {module} import {function}; sys.exit({function}(['--version']))"
+    run = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
+    assert run.stdout == f"physanimator {physanimator.__version__}\n"
 
 
 def test_readme_commands_are_found_by_continuous_integration() -> None:
