@@ -10,6 +10,7 @@ import numpy as np
 from ..errors import SimulationError, require
 from ..forces import most_alive
 from ..limits import DEFAULT_MINUTES, MAX_OUTLINE_POINTS, MOST_MINUTES
+from ..material import Material
 from ..scene import MAX_OUTLINE_CROSSINGS, OutlineCounts, Scene, count_outlines
 from ..solver import TICK
 from .outlines import outline_spacing
@@ -219,13 +220,9 @@ def _remedies(scene: Scene, planned: SimulationPlan) -> str:
     spacing = np.median(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
     name = repr(body.name) if body.name else f"number {planned.costliest_body}"
     sways = any(part.body == planned.costliest_body for part in planned.sway)
-    softer = (
-        f"a lower sway_frequency (now {body.material.sway_frequency:g} Hz)"
-        if sways
-        else f"a lower youngs_modulus (now {body.material.youngs_modulus:g})"
-    )
-    remedies = [f"mesh body {name} with a larger spacing (now about {spacing:.3g} px)", f"give it {softer}"]
-    if body.material.poisson_ratio > 0.45:
+    remedies = [f"mesh body {name} with a larger spacing (now about {spacing:.3g} px)"]
+    remedies.append(f"give it {_softer(body.material, sways=sways)}")
+    if body.material.poisson_ratio > 0.45 and body.material.mu is None:
         remedies.append(f"a poisson_ratio further below 0.5 (now {body.material.poisson_ratio:g})")
     if planned.outline_points * OUTLINE_WORK > planned.substeps * planned.triangles:
         remedies.append("draw the colliders with fewer corners")
@@ -233,6 +230,15 @@ def _remedies(scene: Scene, planned: SimulationPlan) -> str:
         remedies.append("emit fewer flow particles (a larger interval or a higher speed)")
     remedies.append("make fewer frames")
     return f"To lower it: {', '.join(remedies[:-1])} or {remedies[-1]}."
+
+
+def _softer(material: Material, *, sways: bool) -> str:
+    """What would make a body softer, by the name under which its stiffness was given."""
+    if sways:
+        return f"a lower sway_frequency (now {material.sway_frequency:g} Hz)"
+    if material.mu is not None:
+        return f"a lower mu and lambda (now {material.mu:g} and {material.lambda_:g})"
+    return f"a lower youngs_modulus (now {material.youngs_modulus:g})"
 
 
 def _duration(seconds: float) -> str:

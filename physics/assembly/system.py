@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SimulationError
-from ..material import RestShape, highest_eigenvalue, lame_parameters, lumped_masses, stiffness_matrix
+from ..material import RestShape, highest_eigenvalue, lumped_masses, stiffness_matrix
 from ..mesh import TriangleMesh
 from ..scene import Body, Holds, Scene, holds_of
 from ..solver import frequency_limits, substeps, vertex_frequencies
@@ -40,7 +40,7 @@ class System:
         parts: number of the connected part of each vertex, counted through all bodies, ascending, shape [v].
         bodies: number of each vertex's body, shape [v].
         youngs_modulus: of each triangle [density side^2 / s^2], shape [t]; triangles are in the order of their parts.
-        poisson_ratio: of each triangle, shape [t].
+        lame: (mu, lambda) of each triangle [density side^2 / s^2], two of shape [t].
         density: of each triangle, shape [t].
         masses: of each vertex, shape [v]; 0 where it has no triangle. Where slivers would dictate the step, they are
             a little higher than what the density gives.
@@ -58,7 +58,7 @@ class System:
     parts: IndexArray
     bodies: IndexArray
     youngs_modulus: FloatArray
-    poisson_ratio: FloatArray
+    lame: tuple[FloatArray, FloatArray]
     density: FloatArray
     masses: FloatArray
     damping: FloatArray
@@ -68,11 +68,6 @@ class System:
     stretch_limits: FloatArray
     wind_response: FloatArray
     sway: tuple[SwayPart, ...]
-
-    @cached_property
-    def lame(self) -> tuple[FloatArray, FloatArray]:
-        """(mu, lambda) of each triangle, two of shape [t]."""
-        return lame_parameters(self.youngs_modulus, self.poisson_ratio)
 
     @cached_property
     def free(self) -> NDArray[np.bool_]:
@@ -154,6 +149,8 @@ def assemble(scene: Scene, holds: Holds | None = None) -> System:
         resolve_stiffness(body, held >= 0, number, roots=roots_of(body.mesh, held, scene.rig_points))
         for number, (body, held) in enumerate(zip(bodies, leaders, strict=True))
     ]
+    lame = [body.material.lame_at(values) for body, (values, _) in zip(bodies, stiffness, strict=True)]
+    mu, lam = (np.concatenate(values) for values in zip(*lame, strict=True))
     vertex_counts = [len(body.mesh.vertices) for body in bodies]
     triangle_counts = [len(body.mesh.triangles) for body in bodies]
     parts = _numbered_through(
@@ -171,7 +168,7 @@ def assemble(scene: Scene, holds: Holds | None = None) -> System:
         parts=parts[order],
         bodies=np.repeat(np.arange(len(bodies), dtype=np.int32), vertex_counts)[order],
         youngs_modulus=np.concatenate([values for values, _ in stiffness])[along],
-        poisson_ratio=np.repeat([body.material.poisson_ratio for body in bodies], triangle_counts)[along],
+        lame=(mu[along], lam[along]),
         density=density,
         masses=lumped_masses(rest, density),
         damping=np.repeat([body.material.damping for body in bodies], vertex_counts)[order]

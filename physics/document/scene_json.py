@@ -24,7 +24,15 @@ from ..points import Scale
 from ..rig import Combined, MaskRegion, RigPoint
 from ..scene import Body, Collider, Contact, Paint, QueryPoint, Scene
 from .checking import check_document, join_path
-from .encoding import COLLIDER_TYPES, MOTION_TYPES, REGION_TYPES, SCENE_VERSION, SHAPE_TYPES, scene_to_dict
+from .encoding import (
+    COLLIDER_TYPES,
+    ELASTIC_CONSTANTS,
+    MOTION_TYPES,
+    REGION_TYPES,
+    SCENE_VERSION,
+    SHAPE_TYPES,
+    scene_to_dict,
+)
 from .json_text import read_json, write_json
 from .migration import migrated
 from .schema import scene_schema
@@ -173,6 +181,14 @@ def _read_mesh(entry: dict[str, Any], path: str, size: tuple[int, int]) -> Trian
 def _read_material(entry: dict[str, Any], path: str) -> Material:
     values = _floats(entry)
     name = values.pop("preset", None)
+    if values.get("mu") is not None or values.get("lambda") is not None:
+        for other in ELASTIC_CONSTANTS:
+            if other in values:
+                raise SceneError(
+                    f"{path}.{other}", f"must be left out where mu and lambda are given. Got: {values[other]:g}"
+                )
+    if "lambda" in values:
+        values["lambda_"] = values.pop("lambda")  # no name that Python lets a field have
     with _located(path):
         return preset(name, **values) if name else Material(**values)
 
