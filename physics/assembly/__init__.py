@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .driving import drive
+from .driving import drive, tick_of
 from .outlines import outline_spacing
 from .painted_bodies import with_paint
 from .planning import MAX_WORK, SimulationPlan, check_work, plan, plan_system, work_of_minutes
@@ -29,6 +29,7 @@ __all__ = [
     "prestressed",
     "rest_shape_derivative",
     "tethers",
+    "tick_of",
     "with_paint",
     "work_of_minutes",
 ]

@@ -76,7 +76,13 @@ def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
         >>> document["width"], document["frame_rate"]
         (60, 24.0)
     """
-    options = {"loop": encode(scene.loop), "wind": encode(scene.wind), "sag": True if scene.sag else None}
+    options = {
+        "loop": encode(scene.loop),
+        "wind": encode(scene.wind),
+        "sag": True if scene.sag else None,
+        "time_step": encode(scene.time_step),
+        "strokes_as": None if scene.strokes_as == "acceleration" else scene.strokes_as,
+    }
     return {
         "version": SCENE_VERSION,
         "width": int(scene.width),

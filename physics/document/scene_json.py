@@ -148,9 +148,7 @@ def scene_from_checked(
             name: [_rescaled(each, scale, at) for each, at in _placed(name, found)] for name, found in lists.items()
         }
         fields = {name: each and _rescaled(each, scale, name) for name, each in fields.items()}
-    options: dict[str, Any] = {
-        name: document[name] for name in ("gravity", "frame_rate", "loop", "sag", "still") if name in document
-    }
+    options: dict[str, Any] = {name: document[name] for name in _OPTIONS if name in document}
     with _located(""):
         return Scene(tuple(bodies), **lists, **fields, **_floats(options))
 
@@ -259,6 +257,8 @@ def query_points_of(document: dict[str, Any]) -> list[QueryPoint]:
 def _read_query_point(entry: dict[str, Any], _path: str) -> QueryPoint:
     return QueryPoint(**_floats(entry))
 
+
+_OPTIONS = ("gravity", "frame_rate", "loop", "sag", "still", "time_step", "strokes_as")
 
 _READERS: dict[str, Callable[[dict[str, Any], str], Any]] = {
     "strokes": _read_stroke,

@@ -196,8 +196,8 @@ class Material:
             maximum=STIFFEST,
         ),
         Input(
-            "Resistance to stretching, bending and shear [density x side^2/s^2], a side being the picture's longest: the"
-            " paper's mu.",
+            "Resistance to stretching, bending and shear [density x side^2/s^2], a side being the picture's longest;"
+            " the paper's mu.",
             0.01,
             1_000_000.0,
             step=10.0,
