@@ -33,6 +33,7 @@ __all__ = [
     "SCENE_VERSION",
     "SHAPE_TYPES",
     "encode",
+    "encode_material",
     "scene_to_dict",
 ]
 
@@ -130,7 +131,7 @@ def encode(value: Any) -> Any:
     return {**tag, **{name: entry for name, entry in entries.items() if entry is not None}}
 
 
-def _encode_material(material: Material) -> dict[str, Any]:
+def encode_material(material: Material) -> dict[str, Any]:
     """A material with one of the two pairs that say how stiff it is, so that whoever edits it edits what counts."""
     encoded: dict[str, Any] = encode(material)
     left_out = ("mu", "lambda") if material.mu is None else ELASTIC_CONSTANTS
@@ -138,7 +139,7 @@ def _encode_material(material: Material) -> dict[str, Any]:
 
 
 def _encode_body(body: Body, *, mesh: bool) -> dict[str, Any]:
-    encoded: dict[str, Any] = {"name": body.name, "layer": int(body.layer), "material": _encode_material(body.material)}
+    encoded: dict[str, Any] = {"name": body.name, "layer": int(body.layer), "material": encode_material(body.material)}
     if body.strands:
         encoded["strands"] = True
     if mesh:
