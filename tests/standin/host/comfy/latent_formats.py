@@ -1,0 +1,4 @@
+"""Kinds of latents, by name alone."""
+
+
+class SD15: ...
