@@ -11,7 +11,7 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from torch import nn
 
@@ -36,8 +36,6 @@ __all__ = ["ModelSizes", "sizes_beside", "sizes_file"]
 _LARGEST_DOCUMENT = 1 << 16
 _MOST, _MOST_LAYERS, _MOST_LEVELS = 1 << 16, 100, 8
 _LAYERS = ("depth", "layers", "num_res_blocks")
-
-Sizes = TypeVar("Sizes")
 
 
 @dataclass(frozen=True)
@@ -101,7 +99,7 @@ def _build(network: str, sizes: Any) -> None:
     build_without_storage(lambda: kinds[network](sizes))
 
 
-def _changed(network: str, usual: Sizes, values: Any) -> Sizes:
+def _changed(network: str, usual: Any, values: Any) -> Any:
     """One network's sizes with the given ones among them."""
     known = _known(values, usual)
     return replace(usual, **{name: _checked(f"{network}.{name}", getattr(usual, name), known[name]) for name in known})
