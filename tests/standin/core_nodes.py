@@ -199,6 +199,54 @@ class InvertMask(io.ComfyNode):
         return io.NodeOutput(1 - mask)
 
 
+class FeatherMask(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        sides = [io.Int.Input(name, default=0, min=0, max=16384) for name in ("left", "top", "right", "bottom")]
+        return _schema("FeatherMask", [io.Mask.Input("mask"), *sides], io.Mask.Output())
+
+    @classmethod
+    def execute(cls, mask: torch.Tensor, left: int, top: int, right: int, bottom: int) -> io.NodeOutput:
+        if left or top or bottom:
+            raise NotImplementedError("the stand-in fades the right side alone")
+        made = mask.clone()
+        made[..., made.shape[-1] - right :] *= torch.linspace(1, 1 / right, right)
+        return io.NodeOutput(made)
+
+
+class ImageScale(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        sides = [io.Int.Input(name, default=512, min=0, max=16384) for name in ("width", "height")]
+        methods = ["nearest-exact", "bilinear", "area", "bicubic", "lanczos"]
+        method = io.Combo.Input("upscale_method", options=methods)
+        crop = io.Combo.Input("crop", options=["disabled", "center"])
+        return _schema("ImageScale", [io.Image.Input("image"), method, *sides, crop], io.Image.Output())
+
+    @classmethod
+    def execute(cls, image: torch.Tensor, upscale_method: str, width: int, height: int, crop: str) -> io.NodeOutput:
+        scaled = torch.nn.functional.interpolate(image.movedim(-1, 1), (height, width), mode=upscale_method)
+        return io.NodeOutput(scaled.movedim(1, -1))
+
+
+class ImageStitch(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        inputs = [
+            io.Image.Input("image1"),
+            io.Combo.Input("direction", options=["right", "down", "left", "up"], default="right"),
+            io.Boolean.Input("match_image_size", default=True),
+            io.Int.Input("spacing_width", default=0, min=0, max=1024, step=2),
+            io.Combo.Input("spacing_color", options=["white", "black", "red", "green", "blue"], default="white"),
+            io.Image.Input("image2", optional=True),
+        ]
+        return _schema("ImageStitch", inputs, io.Image.Output())
+
+    @classmethod
+    def execute(cls, image1: torch.Tensor, direction: str, image2: torch.Tensor, **others: Any) -> io.NodeOutput:
+        return io.NodeOutput(torch.cat((image1, image2), {"right": 2, "down": 1}[direction]))
+
+
 def _of_this_file() -> list[type[io.ComfyNode]]:
     return [each for each in list(globals().values()) if isinstance(each, type) and issubclass(each, io.ComfyNode)]
 
