@@ -7,8 +7,10 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 import folder_paths
+import numpy as np
 import torch
 from comfy_api.latest import io, ui
+from PIL import Image
 
 __all__ = ["NODES"]
 
@@ -20,6 +22,19 @@ class Clip(NamedTuple):
 
 def _schema(name: str, inputs: list[Any], *outputs: Any, saves: bool = False) -> io.Schema:
     return io.Schema(node_id=name, inputs=inputs, outputs=list(outputs), is_output_node=saves)
+
+
+class LoadImage(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        files = sorted(os.listdir(folder_paths.get_input_directory()))
+        return _schema("LoadImage", [io.Combo.Input("image", options=files)], io.Image.Output(), io.Mask.Output())
+
+    @classmethod
+    def execute(cls, image: str) -> io.NodeOutput:
+        with Image.open(os.path.join(folder_paths.get_input_directory(), image)) as opened:
+            pixels = torch.from_numpy(np.array(opened.convert("RGBA"))).float() / 255
+        return io.NodeOutput(pixels[None, ..., :3], 1 - pixels[None, ..., 3])
 
 
 class CreateVideo(io.ComfyNode):

@@ -19,6 +19,9 @@ _ours: dict[str, Any] = {}
 @contextmanager
 def installed() -> Iterator[None]:
     """Import them meanwhile; the same modules each time, because nodes that were imported keep hold of them."""
+    if str(_FOLDER) in sys.path:  # they are there already
+        yield
+        return
     before = _taken_out()
     nodes = ModuleType("nodes")
     nodes.NODE_CLASS_MAPPINGS, nodes.NODE_DISPLAY_NAME_MAPPINGS = {}, {}  # type: ignore[attr-defined]

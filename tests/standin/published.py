@@ -83,13 +83,24 @@ def _link(source: str, types: Mapping[str, str], known: Mapping[str, type]) -> l
     return [key, list(names).index(output)]
 
 
-def shortened(api: dict[str, Any], frames: int = 4) -> dict[str, Any]:
-    """The same graph without model files, and with a clip of a few frames."""
+def shortened(api: dict[str, Any], frames: int, *, plate: bool = False) -> dict[str, Any]:
+    """The same graph without model files, and with a clip of a few frames.
+
+    Args:
+        api: a published graph.
+        frames: of the clip, 4 k + 1.
+        plate: give the example's clean plate to Render, where masks cut bodies out.
+    """
     short = copy.deepcopy(video_model_graphs.without_video_model(graphs.without_models(api)))
     for node in short.values():
         inputs = node["inputs"]
-        limits = {"frames": frames, "length": 5, "last_frame": frames - 1, "every": 2, "loop": 0.25}
+        limits = {"frames": frames, "length": frames, "last_frame": frames - 1, "every": 2, "loop": 1.5}
         for name, most in limits.items():
             if isinstance(inputs.get(name), (int, float)) and inputs[name] > most:
                 inputs[name] = most
+    if plate and "PhysAnimator_ArtworkToBodies" not in {node["class_type"] for node in short.values()}:
+        short["plate"] = {"class_type": "LoadImage", "inputs": {"image": "clean_plate.png"}}
+        for node in short.values():
+            if node["class_type"] == "PhysAnimator_Render":
+                node["inputs"]["clean_plate"] = ["plate", 0]
     return short

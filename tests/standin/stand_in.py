@@ -7,6 +7,7 @@ import copy
 import importlib.util
 import itertools
 import json
+import shutil
 import sys
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ from .running import Kept, Run
 __all__ = ["StandIn"]
 
 _SEE_THROUGH = Path(__file__).resolve().parents[1] / "host" / "see_through_stand_in" / "__init__.py"
+_EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example"
 _PACK = "custom_nodes.PhysAnimator"
 _KEPT = 48
 """Results that are kept, as by the host with ``--cache-lru``."""
@@ -26,7 +28,7 @@ class StandIn:
     """A host without a server; use it while the modules are ``installed``.
 
     Attributes:
-        folder: with input, output, temp and models.
+        folder: with input, where the example's pictures are, output, temp and models.
         known: classes of nodes by name.
         progress: (node, done, total) of every step that a node has told, in this run.
         executed: the nodes that the last run has computed.
@@ -41,12 +43,14 @@ class StandIn:
 
         self.folder, self.known = folder, sys.modules["nodes"].NODE_CLASS_MAPPINGS
         folder_paths.use(folder)
+        for picture in _EXAMPLE.glob("*.png"):
+            shutil.copy(picture, folder / "input")
         self.server = server.PromptServer.instance
         self._numbers, self._kept = itertools.count(), dict[Any, Kept]()
         self._history: dict[str, Any] = {}
         self.progress: list[tuple[str, float, float]] = []
         self.executed: list[str] = []
-        comfy.utils.PROGRESS_BAR_HOOK = self._progressed
+        comfy.utils.PROGRESS_BAR_HOOK = self.progressed
         for kind in core_nodes.NODES:
             self.known[kind.GET_SCHEMA().node_id] = kind
         self._add_pack()
@@ -111,7 +115,7 @@ class StandIn:
             others = {key: kept for key, kept in self._kept.items() if key not in run.kept}
             self._kept, self.executed = dict(list((others | run.kept).items())[-_KEPT:]), run.executed
 
-    def _progressed(self, done: float, total: float, preview: Any, node_id: str | None = None) -> None:
+    def progressed(self, done: float, total: float, preview: Any, node_id: str | None = None) -> None:
         self.progress.append((str(node_id), done, total))
 
 
