@@ -16,7 +16,7 @@ API: dict[str, Any] = {
 }
 NAMES = sorted(set(API) - {"frame_interpolation"})  # it needs nodes that the oldest host has not
 FRAMES = 5
-GUESSED = ("quickstart", "contact")
+GUESSED = ("quickstart",)
 """Where what is behind the moving parts is painted; elsewhere the example's own plate saves time."""
 LENGTHS = {"seamless_loop": 36, "wan_first_last_frame": 1, "wan_lines": 13, "wan_tracks": 7, "wan_vace": 13}
 SIZES = {"wan_first_last_frame": (480, 832), "wan_lines": (480, 832), "wan_tracks": (370, 640), "wan_vace": (480, 832)}

@@ -8,7 +8,7 @@ from typing import Any
 from aiohttp import web
 
 
-class PromptQueue:
+class _PromptQueue:
     def __init__(self) -> None:
         self.running: list[tuple[Any, ...]] = []
 
@@ -19,9 +19,9 @@ class PromptQueue:
 class PromptServer:
     instance: PromptServer
 
-    def __init__(self) -> None:
+    def __init__(self, loop) -> None:
         self.routes = web.RouteTableDef()
-        self.prompt_queue = PromptQueue()
+        self.prompt_queue = _PromptQueue()
         self.client_id: str | None = "stand-in"
         self.messages: list[tuple[str, Any]] = []
         self.on_prompt_handlers: list[Callable[[Any], Any]] = []
@@ -33,4 +33,4 @@ class PromptServer:
         self.messages.append((event, data))
 
 
-PromptServer.instance = PromptServer()
+PromptServer.instance = PromptServer(None)

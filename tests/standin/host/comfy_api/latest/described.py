@@ -11,9 +11,9 @@ class Input:
     def __init__(self, id, display_name=None, optional=False, tooltip=None, lazy=None, extra_dict=None, raw_link=None):
         self.id, self.optional = id, optional
         self._told = {}
-        self.tell(display_name=display_name, tooltip=tooltip, lazy=lazy, rawLink=raw_link, **(extra_dict or {}))
+        self._tell(display_name=display_name, tooltip=tooltip, lazy=lazy, rawLink=raw_link, **(extra_dict or {}))
 
-    def tell(self, **options):
+    def _tell(self, **options):
         """Add to what is reported; what is None is left out."""
         self._told |= {name: value for name, value in options.items() if value is not None}
 
@@ -25,7 +25,7 @@ class WidgetInput(Input):
     def __init__(self, id, display_name=None, optional=False, tooltip=None, lazy=None, default=None, socketless=None,
                  widget_type=None, force_input=None, extra_dict=None, raw_link=None):  # fmt: skip
         super().__init__(id, display_name, optional, tooltip, lazy, extra_dict, raw_link)
-        self.tell(default=default, socketless=socketless, widgetType=widget_type, forceInput=force_input)
+        self._tell(default=default, socketless=socketless, widgetType=widget_type, forceInput=force_input)
 
 
 class Output:

@@ -53,7 +53,7 @@ class _Boolean(WidgetInput):
                  label_off=None, socketless=None, force_input=None, extra_dict=None, raw_link=None):  # fmt: skip
         super().__init__(id, display_name, optional, tooltip, lazy, default, socketless, None, force_input, extra_dict,
                          raw_link)  # fmt: skip
-        self.tell(label_on=label_on, label_off=label_off)
+        self._tell(label_on=label_on, label_off=label_off)
 
 
 class _Int(WidgetInput):
@@ -62,7 +62,7 @@ class _Int(WidgetInput):
                  extra_dict=None, raw_link=None):  # fmt: skip
         super().__init__(id, display_name, optional, tooltip, lazy, default, socketless, None, force_input, extra_dict,
                          raw_link)  # fmt: skip
-        self.tell(min=min, max=max, step=step, control_after_generate=control_after_generate, display=display_mode)
+        self._tell(min=min, max=max, step=step, control_after_generate=control_after_generate, display=display_mode)
 
 
 class _Float(WidgetInput):
@@ -71,7 +71,7 @@ class _Float(WidgetInput):
                  raw_link=None):  # fmt: skip
         super().__init__(id, display_name, optional, tooltip, lazy, default, socketless, None, force_input, extra_dict,
                          raw_link)  # fmt: skip
-        self.tell(min=min, max=max, step=step, round=round, display=display_mode)
+        self._tell(min=min, max=max, step=step, round=round, display=display_mode)
 
 
 class _String(WidgetInput):
@@ -80,7 +80,7 @@ class _String(WidgetInput):
                  extra_dict=None, raw_link=None):  # fmt: skip
         super().__init__(id, display_name, optional, tooltip, lazy, default, socketless, None, force_input, extra_dict,
                          raw_link)  # fmt: skip
-        self.tell(multiline=multiline, placeholder=placeholder, dynamicPrompts=dynamic_prompts)
+        self._tell(multiline=multiline, placeholder=placeholder, dynamicPrompts=dynamic_prompts)
 
 
 class _Combo(WidgetInput):
@@ -91,13 +91,21 @@ class _Combo(WidgetInput):
                          raw_link)  # fmt: skip
         if upload is not None or image_folder is not None or remote is not None:
             raise NotImplementedError("the stand-in has no combos of uploads")
-        self.tell(multiselect=False, options=options, control_after_generate=control_after_generate)
+        self._tell(multiselect=False, options=options, control_after_generate=control_after_generate)
+
+
+class _ComboOutput(Output):
+    io_type = "COMBO"
+
+    def __init__(self, id=None, display_name=None, options=None, tooltip=None, is_output_list=False):
+        super().__init__(id, display_name, tooltip, is_output_list)
+        self.options = options or []
 
 
 class _DynamicCombo(Input):
     def __init__(self, id, options, display_name=None, optional=False, tooltip=None, lazy=None, extra_dict=None):
         super().__init__(id, display_name, optional, tooltip, lazy, extra_dict)
-        self.tell(options=[option.as_dict() for option in options])
+        self._tell(options=[option.as_dict() for option in options])
 
 
 class _Option:
@@ -118,7 +126,9 @@ def described_inputs(inputs):
 
 Boolean, Int, Float = _wire("BOOLEAN", _Boolean), _wire("INT", _Int), _wire("FLOAT", _Float)
 String, Combo = _wire("STRING", _String), _wire("COMBO", _Combo)
+Combo.Output = _ComboOutput
 Image, Mask, Video, Latent = (_wire(name) for name in ("IMAGE", "MASK", "VIDEO", "LATENT"))
 Clip, ClipVision, Tracks = _wire("CLIP"), _wire("CLIP_VISION"), _wire("TRACKS")
 DynamicCombo = _wire("COMFY_DYNAMICCOMBO_V3", _DynamicCombo)
 DynamicCombo.Option = _Option
+del DynamicCombo.Output  # nothing gives one

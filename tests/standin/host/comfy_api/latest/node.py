@@ -31,7 +31,7 @@ class Schema:
             if len(set(named)) != len(named):
                 raise ValueError(f"{kind} ids must be unique. Got: {named}")
 
-    def told_inputs(self) -> dict[str, Any]:
+    def _told_inputs(self) -> dict[str, Any]:
         from .io import described_inputs
 
         found = described_inputs(self.inputs)
@@ -88,7 +88,7 @@ class ComfyNode(metaclass=_NodeClass):
 
     @classmethod
     def INPUT_TYPES(cls) -> dict[str, Any]:
-        return cls.define_schema().told_inputs()
+        return cls.define_schema()._told_inputs()
 
     @classmethod
     def GET_SCHEMA(cls) -> Schema:
@@ -100,7 +100,7 @@ class ComfyNode(metaclass=_NodeClass):
     @classmethod
     def GET_NODE_INFO_V1(cls) -> dict[str, Any]:
         schema = cls.GET_SCHEMA()
-        inputs, outputs = schema.told_inputs(), schema.outputs
+        inputs, outputs = schema._told_inputs(), schema.outputs
         return {
             "input": inputs,
             "input_order": {group: list(each) for group, each in inputs.items()},
