@@ -18,8 +18,9 @@ from .host.wires import BodiesWire, MaskedBody, MaskedMesh, MaterialWire, MeshWi
 
 __all__ = ["Body", "Material"]
 
-_CUSTOM = "custom"
+_CUSTOM, _LAME = "custom", "lame"
 _ELASTIC = ("youngs_modulus", "poisson_ratio", "density")
+_AS_IN_THE_PAPER = PhysicalMaterial(mu=200.0, lambda_=300.0)
 _OPTIONAL = ("stretch_limit", "wind_response", "root_stiffness")
 _TITLES = {"youngs_modulus": "Young's modulus", "poisson_ratio": "Poisson's ratio"}
 
@@ -29,6 +30,7 @@ class Material(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         options = [io.DynamicCombo.Option(name, _inputs(made, "sway_frequency")) for name, made in PRESETS.items()]
         options.append(io.DynamicCombo.Option(_CUSTOM, _inputs(PhysicalMaterial(), *_ELASTIC)))
+        options.append(io.DynamicCombo.Option(_LAME, _inputs(_AS_IN_THE_PAPER, "mu", "lambda_", "density")))
         return io.Schema(
             node_id="PhysAnimator_Material",
             display_name="Material",
@@ -38,7 +40,8 @@ class Material(io.ComfyNode):
                 io.DynamicCombo.Input(
                     "preset",
                     options=options,
-                    tooltip="What the part is; its usual values appear below. 'custom' takes elastic constants.",
+                    tooltip="What the part is; its usual values appear below. 'custom' takes Young's modulus and"
+                    " Poisson's ratio, 'lame' the Lame parameters mu and lambda of the paper.",
                 )
             ],
             outputs=[MaterialWire.Output(display_name="material", tooltip="For the node Body.")],
@@ -46,11 +49,13 @@ class Material(io.ComfyNode):
 
     @classmethod
     def execute(cls, preset: dict[str, Any] | None = None) -> io.NodeOutput:
-        name, given = chosen(preset, "preset", (*PRESETS, _CUSTOM))
+        name, given = chosen(preset, "preset", (*PRESETS, _CUSTOM, _LAME))
         values = {key: value for key, value in given.items() if value is not None}  # optional ones may be left out
+        if "lambda" in values:
+            values["lambda_"] = values.pop("lambda")  # no name that Python lets a field have
         if "stretch_limit" in values:
             values["stretch_limit"] = values["stretch_limit"] or None
-        return io.NodeOutput(PhysicalMaterial(**values) if name == _CUSTOM else preset_material(name, **values))
+        return io.NodeOutput(preset_material(name, **values) if name in PRESETS else PhysicalMaterial(**values))
 
 
 class Body(io.ComfyNode):
@@ -106,7 +111,7 @@ def _inputs(material: PhysicalMaterial, *names: str) -> list[io.Input]:
             PhysicalMaterial,
             name,
             default=getattr(material, name),
-            display_name=_TITLES.get(name, name.replace("_", " ")),
+            display_name=_TITLES.get(name, name.replace("_", " ").strip()),
             optional=name in _OPTIONAL,
         )
         for name in (*names, "damping", *_OPTIONAL)

@@ -27,6 +27,7 @@ from .host import (
     shown_with,
     tell_user,
 )
+from .host.field_inputs import ADVANCED
 from .host.wires import MaskedMesh, MeshWire
 from .models import segmenter_advice
 from .models.sam_backend import missing_sam_files, sam_inputs, sam_network
@@ -213,6 +214,14 @@ class MaskToMesh(io.ComfyNode):
                     tooltip="As in Render, which then moves the very pixels of the mask: so does the mesh.",
                 ),
                 in_front_input(),
+                io.Boolean.Input(
+                    "uniform",
+                    default=False,
+                    optional=True,
+                    tooltip="Outlines get their points at the same distance everywhere, the spacing, as in the paper;"
+                    " elements_across does not count. Thin parts then bend more stiffly.",
+                    **ADVANCED,
+                ),
             ],
             outputs=[
                 MeshWire.Output(display_name="mesh", tooltip="The triangles, with the mask that they came from."),
@@ -231,6 +240,7 @@ class MaskToMesh(io.ComfyNode):
         image_alpha: torch.Tensor | None = None,
         pixel_art: bool = False,
         in_front: torch.Tensor | None = None,
+        uniform: bool = False,
     ) -> io.NodeOutput:
         from ..physics.mesh import fitted, mesh_from_mask
         from ..physics.scene import mask_advice
@@ -250,6 +260,6 @@ class MaskToMesh(io.ComfyNode):
         if front is not None:
             coverage = behind_still(coverage, front > 0.5)
         meshed = partial(part_mesh, picture) if given and not pixel_art else mesh_from_mask
-        mesh = meshed(coverage, spacing=spacing or None, elements_across=elements_across)
+        mesh = meshed(coverage, spacing=spacing or None, elements_across=elements_across, uniform=uniform)
         preview = batch_of_pictures([draw_wireframe(over(picture), mesh)], 1)
         return io.NodeOutput(MaskedMesh(mesh, coverage, front), preview, ui=shown_with(ui.PreviewImage(preview), told))

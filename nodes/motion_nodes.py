@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 from comfy_api.latest import io
 from numpy.typing import NDArray
 
+from ..physics.fields import described_fields
 from ..physics.interruption import interruptible
-from ..physics.limits import DEFAULT_MINUTES, MAX_LOOP, MOST_MINUTES
+from ..physics.limits import DEFAULT_MINUTES, MAX_LOOP, MOST_MINUTES, TICK
+from ..physics.scene import Scene, StrokesAs
 from .host import (
     all_told,
     announce_batch,
@@ -22,6 +24,7 @@ from .host import (
     shown_with,
     tell_user,
 )
+from .host.field_inputs import ADVANCED
 from .host.previews import animated
 from .host.wires import MaskedMotion, MaskedScene, MotionWire, SceneWire
 
@@ -29,6 +32,8 @@ if TYPE_CHECKING:
     import torch
 
 __all__ = ["PreviewMotion", "Simulate"]
+
+_AS_THE_SCENE = "as the scene says"
 
 
 class Simulate(io.ComfyNode):
@@ -70,6 +75,36 @@ class Simulate(io.ComfyNode):
                     " what would take longer is refused before it begins, with the estimate. Raise it to wait for"
                     " long clips, fine meshes and stiff materials.",
                 ),
+                io.Float.Input(
+                    "time_step",
+                    default=0.0,
+                    min=0.0,
+                    max=TICK,
+                    step=0.0001,
+                    round=0.000001,
+                    optional=True,
+                    tooltip="Step of plain semi-implicit Euler [s], all forces evaluated in each: 0.001 is the paper's."
+                    " Where it would be unstable it is refused, with the longest that is not. 0: steps follow from the"
+                    " mesh, unless the scene has a time step.",
+                    **ADVANCED,
+                ),
+                io.Combo.Input(
+                    "strokes_as",
+                    options=[_AS_THE_SCENE, *get_args(StrokesAs)],
+                    default=_AS_THE_SCENE,
+                    optional=True,
+                    tooltip=f"{described_fields(Scene)['strokes_as'].input.tooltip} '{_AS_THE_SCENE}': as its document"
+                    " says, which is an acceleration where it says nothing.",
+                    **ADVANCED,
+                ),
+                io.Boolean.Input(
+                    "sag",
+                    default=False,
+                    optional=True,
+                    tooltip="Bodies are drawn without their weight: gravity makes them sag from the first frame on, as"
+                    " in the paper. Off: what is held hangs as it is drawn, unless the scene sags.",
+                    **ADVANCED,
+                ),
             ],
             outputs=[
                 MotionWire.Output(display_name="motion", tooltip="Where every part of every body is in each frame."),
@@ -81,13 +116,22 @@ class Simulate(io.ComfyNode):
 
     @classmethod
     def execute(
-        cls, scene: MaskedScene, frames: int, loop: float = 0.0, max_minutes: float = DEFAULT_MINUTES
+        cls,
+        scene: MaskedScene,
+        frames: int,
+        loop: float = 0.0,
+        max_minutes: float = DEFAULT_MINUTES,
+        time_step: float = 0.0,
+        strokes_as: str = _AS_THE_SCENE,
+        sag: bool = False,
     ) -> io.NodeOutput:
         from ..physics.motion import stillness
         from ..physics.scene import advice
         from ..physics.simulation import compile_aside, simulate, simulated_aside
 
-        acting = replace(scene.scene, loop=loop) if loop else scene.scene
+        said: dict[str, Any] = {"loop": loop, "time_step": time_step, "sag": sag}
+        said["strokes_as"] = "" if strokes_as == _AS_THE_SCENE else strokes_as
+        acting = replace(scene.scene, **{name: value for name, value in said.items() if value})
         told = tell_user(cls, advice(acting, masks=False))  # Mask to Mesh has spoken of those
         wanted = None if acting.loop else frames
         touches, serves = acting.contact is not None, server() is not None  # it has to answer meanwhile

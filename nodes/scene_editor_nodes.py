@@ -20,6 +20,7 @@ from .layer_nodes import artwork_of
 from .preview import STORE, PreviewBodies
 from .preview.server import start_warm_up
 from .scene_nodes import scene_output, scene_outputs
+from .told_materials import told_materials
 
 if TYPE_CHECKING:
     import torch
@@ -101,6 +102,7 @@ class SceneEditor(io.ComfyNode):
             "image": _saved(shown),
             "plate": _saved(behind),
             "layers": None if found is None else found.told(),
+            "materials": told_materials([item.body for item in bodies]),
         }
         # Where several bodies are drawn on, contact may be switched on at any moment.
         start_warm_up(contact=len(bodies) > 1 or drawn.contact is not None)

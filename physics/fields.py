@@ -117,13 +117,18 @@ class DescribedField:
     field: Field
     input: Input | None
 
+    @property
+    def key(self) -> str:
+        """Its name in documents, in inputs of nodes and for people: without the underscore of "lambda_"."""
+        return self.name.rstrip("_")
+
     def checked(self, value: Any) -> Any:
         """The value as it is kept.
 
         Raises:
             InvalidInputError: it is none that may be.
         """
-        field, name = self.field, self.name
+        field, name = self.field, self.key
         if value is None and self.nullable:
             return None
         if field.check is not None:

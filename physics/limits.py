@@ -28,6 +28,7 @@ __all__ = [
     "MOST_FACTOR",
     "MOST_MINUTES",
     "STIFFEST",
+    "TICK",
 ]
 
 LARGEST = 1_000_000
@@ -38,6 +39,13 @@ LEAST_FACTOR, MOST_FACTOR = 0.001, 1_000
 
 STIFFEST = 1e12
 """Largest Young's modulus [density side^2 / s^2]."""
+
+TICK = 1 / 240
+"""Time after which external forces are evaluated again where the step follows from the mesh, and largest step that can
+be asked for [s].
+
+It is the same at every frame rate, and common frame rates divide it: so the motion does not depend on them.
+"""
 
 DEFAULT_MINUTES = 5.0
 """Minutes of computing, by an estimate for one core of an ordinary machine, that a simulation may take unless told.

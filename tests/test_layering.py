@@ -26,7 +26,7 @@ MAY_IMPORT = {
     "physics/material": "physics physics/mesh",
     "physics/rig": "physics physics/mesh",
     "physics/scene": "physics physics/forces physics/material physics/mesh physics/rig",
-    "physics/solver": "physics/forces physics/material physics/rig physics/runtime",
+    "physics/solver": "physics physics/forces physics/material physics/rig physics/runtime",
     "physics/assembly": (
         "physics physics/forces physics/material physics/mesh physics/rig physics/scene physics/solver"
     ),

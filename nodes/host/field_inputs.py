@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import inspect
 from typing import Any
 
 from comfy_api.latest import io
 
 from ...physics.fields import described_fields
 
-__all__ = ["input_of"]
+__all__ = ["ADVANCED", "input_of"]
+
+ADVANCED: dict[str, Any] = {"advanced": True} if "advanced" in inspect.signature(io.Float.Input).parameters else {}
+"""Options of an input that few need: newer hosts fold it away."""
 
 
 def input_of(kind: type, field: str, *, name: str = "", default: Any = None, **options: Any) -> io.Input:
@@ -25,7 +29,7 @@ def input_of(kind: type, field: str, *, name: str = "", default: Any = None, **o
     shown, bounds = described.input, described.field
     if shown is None:
         raise TypeError(f"{kind.__name__}.{field} is not described for nodes")
-    name, default = name or field, described.default if default is None else default
+    name, default = name or described.key, described.default if default is None else default
     options["tooltip"] = shown.tooltip
     if described.choices:
         return io.Combo.Input(name, options=list(described.choices), default=default, **options)

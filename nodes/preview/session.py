@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics.assembly import Preparations, Prepare, Prepared
+from ...physics.assembly import Preparations, Prepare, Prepared, SwayPart
 from ...physics.errors import Cancelled, PhysAnimatorError
 from ...physics.interruption import interruptible
 from ...physics.scene import Scene
@@ -193,7 +193,17 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) ->
                 prepare=lambda _: prepared,  # what is prepared is the same for the scene and for its periodic form
             )
     seconds = time.perf_counter() - begun
-    return record(END, {"frames": frames, "seconds": seconds, "largest_displacement": largest})
+    stiffness = _stiffness(prepared.system.sway, len(scene.bodies))
+    end = {"frames": frames, "seconds": seconds, "largest_displacement": largest, "stiffness": stiffness}
+    return record(END, end)
+
+
+def _stiffness(sway: Sequence[SwayPart], count: int) -> list[float | None]:
+    """Young's modulus that each body has got from its sway frequency, where it has one: that of its longest part."""
+    found: list[float | None] = [None] * count
+    for part in sorted(sway, key=lambda each: -each.wanted):
+        found[part.body] = part.youngs_modulus
+    return found
 
 
 def _checking(run: PreviewRun) -> Callable[[int, int], None]:

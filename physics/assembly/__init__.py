@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from .driving import drive
+from .driving import drive, tick_of
 from .outlines import outline_spacing
 from .painted_bodies import with_paint
 from .planning import MAX_WORK, SimulationPlan, check_work, plan, plan_system, work_of_minutes
 from .preparation import AtRest, Preparations, Prepare, Prepared
 from .prestress import is_stable, prestressed, rest_shape_derivative
+from .sway import SwayPart
 from .system import System, assemble
 from .tethering import tethers
 
@@ -18,6 +19,7 @@ __all__ = [
     "Prepare",
     "Prepared",
     "SimulationPlan",
+    "SwayPart",
     "System",
     "assemble",
     "check_work",
@@ -29,6 +31,7 @@ __all__ = [
     "prestressed",
     "rest_shape_derivative",
     "tethers",
+    "tick_of",
     "with_paint",
     "work_of_minutes",
 ]

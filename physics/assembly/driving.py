@@ -12,7 +12,12 @@ from ..rig import RigPoint, lead
 from ..scene import Scene
 from ..solver import CALM, TICK, Drive, WindTable
 
-__all__ = ["drive"]
+__all__ = ["drive", "tick_of"]
+
+
+def tick_of(scene: Scene) -> float:
+    """Time after which a scene's forces from outside are evaluated again [s]: its time step, if it has one."""
+    return TICK if scene.time_step is None else scene.time_step
 
 
 def drive(scene: Scene, first_tick: int, count: int) -> Drive:
@@ -20,14 +25,17 @@ def drive(scene: Scene, first_tick: int, count: int) -> Drive:
 
     Args:
         scene: the scene.
-        first_tick: number of the first tick; tick i lasts from i to i + 1 times ``TICK``.
+        first_tick: number of the first tick; tick i lasts from i to i + 1 times ``tick_of(scene)``.
         count: number of ticks.
     """
-    times = (first_tick + np.arange(count + 1)) * TICK
+    length = tick_of(scene)
+    times = (first_tick + np.arange(count + 1)) * length
     led = times if scene.loop is None else times % scene.loop
     side = scene.bodies[0].mesh.longest_side
     leads, rates = _rig_tables(scene.rig_points, led, side)
-    found, counts = particles_at(scene.strokes, times[:-1] + TICK / 2)
+    # A tick that stands for several steps has the forces of its middle, a step of its own those of its beginning.
+    within = 0.5 if scene.time_step is None else 0.0
+    found, counts = particles_at(scene.strokes, times[:-1] + within * length)
     rows = found.position / side, found.direction, found.radius / side, found.strength
     return Drive(
         rig_leads=leads,
@@ -36,7 +44,8 @@ def drive(scene: Scene, first_tick: int, count: int) -> Drive:
         particles=np.column_stack(rows).astype(np.float32),
         kinds=found.kind,
         gravity=scene.gravity,
-        wind=_wind_table(scene, first_tick, count),
+        wind=_wind_table(scene, (first_tick + within + np.arange(count)) * length),
+        tick_length=length,
     )
 
 
@@ -50,10 +59,9 @@ def _rig_tables(
     return tables[0], tables[1]
 
 
-def _wind_table(scene: Scene, first_tick: int, count: int) -> WindTable:
+def _wind_table(scene: Scene, times: NDArray[np.floating]) -> WindTable:
     if scene.wind is None:
         return CALM
-    times = (first_tick + 0.5 + np.arange(count)) * TICK
     side = scene.bodies[0].mesh.longest_side
     waves = eddies(scene.wind, loop=scene.loop)
     phases = np.mod(waves.phase + times[:, None] * waves.rate, 2 * np.pi)  # small, to keep their digits

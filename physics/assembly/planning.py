@@ -10,8 +10,10 @@ import numpy as np
 from ..errors import SimulationError, require
 from ..forces import most_alive
 from ..limits import DEFAULT_MINUTES, MAX_OUTLINE_POINTS, MOST_MINUTES
+from ..material import Material
 from ..scene import MAX_OUTLINE_CROSSINGS, OutlineCounts, Scene, count_outlines
 from ..solver import TICK
+from .driving import tick_of
 from .outlines import outline_spacing
 from .sway import SwayPart
 from .system import System, assemble
@@ -58,8 +60,8 @@ class SimulationPlan:
     Attributes:
         frames: number of frames, the drawing included.
         frame_rate: frames a second.
-        substeps: substeps of the stiffest connected part in each tick of 1/240 s; the others take fewer, and large
-            deformation may take up to four times as many.
+        substeps: substeps of the stiffest connected part in each tick; the others take fewer, and large deformation
+            may take up to four times as many. One where the scene has a time step.
         triangles: triangles that are simulated.
         particles: most flow particles at any one time.
         outline_points: points of the outlines of colliders, where bodies can come, about.
@@ -70,6 +72,7 @@ class SimulationPlan:
         costliest_body: number of the body with the connected part that takes the most work.
         sway: what became of the sway frequencies that materials ask for.
         parts: connected parts; without contact they are computed side by side, a thread for each.
+        tick: time after which forces from outside are evaluated again [s].
     """
 
     frames: int
@@ -85,16 +88,17 @@ class SimulationPlan:
     costliest_body: int
     sway: tuple[SwayPart, ...]
     parts: int
+    tick: float = TICK
 
     @property
     def step(self) -> float:
         """The time step of the stiffest part [s]."""
-        return TICK / self.substeps
+        return self.tick / self.substeps
 
     @property
     def substeps_per_frame(self) -> float:
         """Steps of the stiffest part from one frame to the next; a whole number where the frame rate divides 240."""
-        return self.substeps / (TICK * self.frame_rate)
+        return self.substeps / (self.tick * self.frame_rate)
 
 
 def plan(scene: Scene, *, frames: int) -> SimulationPlan:
@@ -130,7 +134,8 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
     elastic = factor * system.substeps * triangles
     counts = NO_OUTLINES if scene.contact is None else count_outlines(scene, outline_spacing(scene, system))
     outline_work = OUTLINE_WORK * counts.points + CROWDING_WORK * counts.crowding
-    free, ticks = int(system.free.sum()), math.ceil(duration / TICK)
+    free, tick = int(system.free.sum()), tick_of(scene)
+    ticks = math.ceil(duration / tick)
     outside = STROKE_WORK * len(scene.strokes) + outline_work
     outside += WIND_WORK * free if scene.wind is not None else 0.0
     work = ticks * (float(elastic.sum()) + PARTICLE_WORK * alive * free + outside)
@@ -148,6 +153,7 @@ def plan_system(scene: Scene, system: System, *, frames: int) -> SimulationPlan:
         costliest_body=int(system.bodies[system.starts[elastic.argmax(), 0]]),
         sway=system.sway,
         parts=len(triangles),
+        tick=tick,
     )
 
 
@@ -219,13 +225,10 @@ def _remedies(scene: Scene, planned: SimulationPlan) -> str:
     spacing = np.median(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
     name = repr(body.name) if body.name else f"number {planned.costliest_body}"
     sways = any(part.body == planned.costliest_body for part in planned.sway)
-    softer = (
-        f"a lower sway_frequency (now {body.material.sway_frequency:g} Hz)"
-        if sways
-        else f"a lower youngs_modulus (now {body.material.youngs_modulus:g})"
-    )
-    remedies = [f"mesh body {name} with a larger spacing (now about {spacing:.3g} px)", f"give it {softer}"]
-    if body.material.poisson_ratio > 0.45:
+    remedies = [] if scene.time_step is None else [f"raise time_step or set it to 0 (now {scene.time_step:g} s)"]
+    remedies += [f"mesh body {name} with a larger spacing (now about {spacing:.3g} px)"]
+    remedies.append(f"give it {_softer(body.material, sways=sways)}")
+    if body.material.poisson_ratio > 0.45 and body.material.mu is None:
         remedies.append(f"a poisson_ratio further below 0.5 (now {body.material.poisson_ratio:g})")
     if planned.outline_points * OUTLINE_WORK > planned.substeps * planned.triangles:
         remedies.append("draw the colliders with fewer corners")
@@ -233,6 +236,15 @@ def _remedies(scene: Scene, planned: SimulationPlan) -> str:
         remedies.append("emit fewer flow particles (a larger interval or a higher speed)")
     remedies.append("make fewer frames")
     return f"To lower it: {', '.join(remedies[:-1])} or {remedies[-1]}."
+
+
+def _softer(material: Material, *, sways: bool) -> str:
+    """What would make a body softer, by the name under which its stiffness was given."""
+    if sways:
+        return f"a lower sway_frequency (now {material.sway_frequency:g} Hz)"
+    if material.mu is not None:
+        return f"a lower mu and lambda (now {material.mu:g} and {material.lambda_:g})"
+    return f"a lower youngs_modulus (now {material.youngs_modulus:g})"
 
 
 def _duration(seconds: float) -> str:

@@ -139,7 +139,9 @@ def _regions(scene: Scene) -> list[RigRegion]:
 
 def _key(scene: Scene, holds: Holds) -> str:
     """A digest of everything that ``Prepared`` reads of a scene."""
-    digest = hashlib.sha256(repr((scene.gravity, scene.sag, len(scene.paint))).encode())
+    digest = hashlib.sha256(
+        repr((scene.gravity, scene.sag, scene.time_step, scene.strokes_as, len(scene.paint))).encode()
+    )
     for number, body in enumerate(scene.bodies):
         digest.update(repr(body.name).encode() + body.mesh.content_hash.encode())
         _add_fields(digest, body)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -10,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SimulationError
-from ..material import RestShape, highest_eigenvalue, lame_parameters, lumped_masses, stiffness_matrix
+from ..material import RestShape, highest_eigenvalue, lumped_masses, stiffness_matrix
 from ..mesh import TriangleMesh
-from ..scene import Body, Holds, Scene, holds_of
+from ..scene import Body, Holds, Scene, StrokesAs, holds_of
 from ..solver import frequency_limits, substeps, vertex_frequencies
 from .painted_bodies import with_paint
 from .roots import roots_of
@@ -40,17 +41,18 @@ class System:
         parts: number of the connected part of each vertex, counted through all bodies, ascending, shape [v].
         bodies: number of each vertex's body, shape [v].
         youngs_modulus: of each triangle [density side^2 / s^2], shape [t]; triangles are in the order of their parts.
-        poisson_ratio: of each triangle, shape [t].
+        lame: (mu, lambda) of each triangle [density side^2 / s^2], two of shape [t].
         density: of each triangle, shape [t].
         masses: of each vertex, shape [v]; 0 where it has no triangle. Where slivers would dictate the step, they are
-            a little higher than what the density gives.
+            a little higher than what the density gives; not so where the step is asked for.
         damping: of each vertex [1/s], shape [v].
         leaders: index of the rig point that leads each vertex, -1 where it is free, shape [v].
         grips: how firmly a rig point pulls each vertex along that it does not lead, 0..1, shape [v].
         grippers: index of that rig point, -1 where there is none, shape [v].
         stretch_limits: of each vertex, infinite for none, shape [v].
-        wind_response: factor on the acceleration by wind and strokes of each vertex, shape [v].
+        wind_response: factor that makes an acceleration of what wind and strokes do to each vertex, shape [v].
         sway: what became of the sway frequencies that materials ask for.
+        time_step: that was asked for [s]; None for the one that suits each part.
     """
 
     rest: RestShape
@@ -58,7 +60,7 @@ class System:
     parts: IndexArray
     bodies: IndexArray
     youngs_modulus: FloatArray
-    poisson_ratio: FloatArray
+    lame: tuple[FloatArray, FloatArray]
     density: FloatArray
     masses: FloatArray
     damping: FloatArray
@@ -68,11 +70,7 @@ class System:
     stretch_limits: FloatArray
     wind_response: FloatArray
     sway: tuple[SwayPart, ...]
-
-    @cached_property
-    def lame(self) -> tuple[FloatArray, FloatArray]:
-        """(mu, lambda) of each triangle, two of shape [t]."""
-        return lame_parameters(self.youngs_modulus, self.poisson_ratio)
+    time_step: float | None = None
 
     @cached_property
     def free(self) -> NDArray[np.bool_]:
@@ -119,11 +117,15 @@ class System:
 
     @cached_property
     def substeps(self) -> IndexArray:
-        """Substeps of each part in a tick, shape [p].
+        """Substeps of each part in a tick, shape [p]; one where the step is asked for.
 
         Raises:
-            SimulationError: there are so many that nothing could be simulated.
+            SimulationError: there are so many that nothing could be simulated, or the step that is asked for is too
+                long.
         """
+        if self.time_step is not None:
+            self._require_stable(self.time_step)
+            return np.ones(len(self.highest), dtype=np.int32)
         counts = [substeps(squared) for squared in self.highest]
         most = int(np.argmax(counts))
         if counts[most] > _MOST_SUBSTEPS:
@@ -133,6 +135,19 @@ class System:
                 " youngs_modulus or sway_frequency or a higher density, or mesh it with a larger spacing."
             )
         return np.array(counts, dtype=np.int32)
+
+    def _require_stable(self, step: float) -> None:
+        """Refuse a step beyond 2 / omega_max, from which on semi-implicit Euler swings ever farther."""
+        stiffest = int(np.argmax(self.highest))
+        limit = 2 / math.sqrt(max(self.highest[stiffest], 1e-300))
+        if step > limit:
+            digits = 10 ** (math.floor(math.log10(limit)) - 1)  # two of them, rounded down
+            raise SimulationError(
+                f"time_step must be at most {math.floor(limit / digits) * digits:.2g} s for body number"
+                f" {self.bodies[self.starts[stiffest, 0]]}, beyond which it would swing ever farther; or set it to 0"
+                f" for steps that follow from the mesh, give the body a softer material, or mesh it with a larger"
+                f" spacing. Got: {step:g} s"
+            )
 
 
 def assemble(scene: Scene, holds: Holds | None = None) -> System:
@@ -154,6 +169,8 @@ def assemble(scene: Scene, holds: Holds | None = None) -> System:
         resolve_stiffness(body, held >= 0, number, roots=roots_of(body.mesh, held, scene.rig_points))
         for number, (body, held) in enumerate(zip(bodies, leaders, strict=True))
     ]
+    lame = [body.material.lame_at(values) for body, (values, _) in zip(bodies, stiffness, strict=True)]
+    mu, lam = (np.concatenate(values) for values in zip(*lame, strict=True))
     vertex_counts = [len(body.mesh.vertices) for body in bodies]
     triangle_counts = [len(body.mesh.triangles) for body in bodies]
     parts = _numbered_through(
@@ -171,7 +188,7 @@ def assemble(scene: Scene, holds: Holds | None = None) -> System:
         parts=parts[order],
         bodies=np.repeat(np.arange(len(bodies), dtype=np.int32), vertex_counts)[order],
         youngs_modulus=np.concatenate([values for values, _ in stiffness])[along],
-        poisson_ratio=np.repeat([body.material.poisson_ratio for body in bodies], triangle_counts)[along],
+        lame=(mu[along], lam[along]),
         density=density,
         masses=lumped_masses(rest, density),
         damping=np.repeat([body.material.damping for body in bodies], vertex_counts)[order]
@@ -182,8 +199,17 @@ def assemble(scene: Scene, holds: Holds | None = None) -> System:
         stretch_limits=np.repeat([body.material.stretch_limit or np.inf for body in bodies], vertex_counts)[order],
         wind_response=np.repeat([body.material.wind_response for body in bodies], vertex_counts)[order],
         sway=tuple(part for _, parts in stiffness for part in parts),
+        time_step=scene.time_step,
     )
-    return replace(system, masses=_masses_with_slower_slivers(system))
+    if scene.strokes_as != "acceleration":
+        system = replace(system, wind_response=system.wind_response * _per_force(system, scene.strokes_as))
+    return system if scene.time_step is not None else replace(system, masses=_masses_with_slower_slivers(system))
+
+
+def _per_force(system: System, strokes_as: StrokesAs) -> FloatArray:
+    """Acceleration of each vertex by a force of strength 1 on the area around it, or on itself, shape [v]."""
+    moved = lumped_masses(system.rest, 1.0) if strokes_as == "force" else np.ones(len(system.masses))
+    return np.divide(moved, system.masses, out=np.zeros_like(moved), where=system.masses > 0)
 
 
 def _require_bearable(body: Body, number: int) -> None:

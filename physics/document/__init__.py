@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .body_names import arranged_for, bodies_named, still_layers
 from .checking import check_document
-from .encoding import encode, scene_to_dict
+from .encoding import encode, encode_material, scene_to_dict
 from .given import given_scene, materials_of
 from .json_text import read_json
 from .overlay import checked_scene_over, scene_over
@@ -20,6 +20,7 @@ __all__ = [
     "checked_scene_over",
     "dumps",
     "encode",
+    "encode_material",
     "given_scene",
     "loads",
     "mask_pixels",

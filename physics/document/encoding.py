@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..fields import described_fields
+from ..material import Material
 from ..mesh import runs_of
 from ..rig import (
     Circle,
@@ -24,10 +25,23 @@ from ..rig import (
 )
 from ..scene import Body, LayerRegion, Scene
 
-__all__ = ["COLLIDER_TYPES", "MOTION_TYPES", "REGION_TYPES", "SCENE_VERSION", "SHAPE_TYPES", "encode", "scene_to_dict"]
+__all__ = [
+    "COLLIDER_TYPES",
+    "ELASTIC_CONSTANTS",
+    "MOTION_TYPES",
+    "REGION_TYPES",
+    "SCENE_VERSION",
+    "SHAPE_TYPES",
+    "encode",
+    "encode_material",
+    "scene_to_dict",
+]
 
 SCENE_VERSION = 2
 """Version of the document's format; a reader refuses what is newer."""
+
+ELASTIC_CONSTANTS = ("youngs_modulus", "poisson_ratio")
+"""Keys of a material for which mu and lambda may stand."""
 
 REGION_TYPES: dict[str, type] = {"circle": Circle, "polygon": Polygon, "mask": MaskRegion}
 SHAPE_TYPES: dict[str, type] = {"polygon": Polygon, "mask": MaskRegion}
@@ -63,7 +77,13 @@ def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
         >>> document["width"], document["frame_rate"]
         (60, 24.0)
     """
-    options = {"loop": encode(scene.loop), "wind": encode(scene.wind), "sag": True if scene.sag else None}
+    options = {
+        "loop": encode(scene.loop),
+        "wind": encode(scene.wind),
+        "sag": True if scene.sag else None,
+        "time_step": encode(scene.time_step),
+        "strokes_as": None if scene.strokes_as == "acceleration" else scene.strokes_as,
+    }
     return {
         "version": SCENE_VERSION,
         "width": int(scene.width),
@@ -104,15 +124,22 @@ def encode(value: Any) -> Any:
         height, width = value.mask.shape
         return {**tag, "width": width, "height": height, "runs": runs_of(value.mask)}
     kind: type = type(value)
-    names = described_fields(kind) if is_dataclass(kind) else {}
-    if not names and not tag:
+    described = described_fields(kind) if is_dataclass(kind) else {}
+    if not described and not tag:
         raise TypeError(f"a scene holds no {type(value).__name__}")
-    entries = {name: encode(getattr(value, name)) for name in names}
+    entries = {each.key: encode(getattr(value, name)) for name, each in described.items()}
     return {**tag, **{name: entry for name, entry in entries.items() if entry is not None}}
 
 
+def encode_material(material: Material) -> dict[str, Any]:
+    """A material with one of the two pairs that say how stiff it is, so that whoever edits it edits what counts."""
+    encoded: dict[str, Any] = encode(material)
+    left_out = ("mu", "lambda") if material.mu is None else ELASTIC_CONSTANTS
+    return {name: value for name, value in encoded.items() if name not in left_out}
+
+
 def _encode_body(body: Body, *, mesh: bool) -> dict[str, Any]:
-    encoded: dict[str, Any] = {"name": body.name, "layer": int(body.layer), "material": encode(body.material)}
+    encoded: dict[str, Any] = {"name": body.name, "layer": int(body.layer), "material": encode_material(body.material)}
     if body.strands:
         encoded["strands"] = True
     if mesh:

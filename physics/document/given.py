@@ -60,7 +60,7 @@ def given_scene(
     if preset is not None:
         materials = materials_of(preset, None, len(meshes))
     if sway is not None:
-        materials = [replace(each, sway_frequency=sway) for each in materials]
+        materials = [replace(each, sway_frequency=sway, mu=None, lambda_=None) for each in materials]
     bodies = tuple(replace(body, material=each) for body, each in zip(scene.bodies, materials, strict=True))
     return replace(scene, bodies=bodies, frame_rate=scene.frame_rate if frame_rate is None else frame_rate)
 

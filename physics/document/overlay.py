@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from ..material import SCALES
 from ..scene import Body, Scene
 from .body_names import arranged_for
 from .checking import check_document
@@ -18,8 +19,9 @@ def scene_over(document: object, bodies: Sequence[Body], *, layers: LayerMasks |
     """The scene that a document describes for given bodies.
 
     Names, layers and materials that the document's bodies give replace those of the bodies: of one name, where the
-    bodies have names, otherwise in order. Meshes in it are passed over. A document for a picture of another size is
-    scaled to that of the bodies.
+    bodies have names, otherwise in order. Factors that are painted on the triangles of a body's material stay where the
+    document's has none. Meshes in it are passed over. A document for a picture of another size is scaled to that of the
+    bodies.
 
     Args:
         document: a decoded scene document.
@@ -50,7 +52,16 @@ def checked_scene_over(
     entries = [{key: value for key, value in entry.items() if key != "mesh"} for entry in checked.get("bodies", [])]
     scene = scene_from_checked({**checked, "bodies": entries}, meshes=[body.mesh for body in bodies], layers=layers)
     named = [
-        replace(body, **{field: getattr(found, field) for field in entry})
+        replace(body, **{field: _value(field, found, body) for field in entry})
         for body, found, entry in zip(bodies, scene.bodies, entries, strict=False)
     ]
     return replace(scene, bodies=(*named, *bodies[len(named) :]), absent=absent)
+
+
+def _value(field: str, found: Body, body: Body) -> Any:
+    """A field of the body that the document describes, with the factors that are painted on the one at hand."""
+    if field != "material":
+        return getattr(found, field)
+    painted = {name: getattr(found.material, name) for name in SCALES}
+    kept = {name: getattr(body.material, name) for name in SCALES if painted[name] is None}
+    return replace(found.material, **kept)

@@ -24,7 +24,15 @@ from ..points import Scale
 from ..rig import Combined, MaskRegion, RigPoint
 from ..scene import Body, Collider, Contact, Paint, QueryPoint, Scene
 from .checking import check_document, join_path
-from .encoding import COLLIDER_TYPES, MOTION_TYPES, REGION_TYPES, SCENE_VERSION, SHAPE_TYPES, scene_to_dict
+from .encoding import (
+    COLLIDER_TYPES,
+    ELASTIC_CONSTANTS,
+    MOTION_TYPES,
+    REGION_TYPES,
+    SCENE_VERSION,
+    SHAPE_TYPES,
+    scene_to_dict,
+)
 from .json_text import read_json, write_json
 from .migration import migrated
 from .schema import scene_schema
@@ -140,9 +148,7 @@ def scene_from_checked(
             name: [_rescaled(each, scale, at) for each, at in _placed(name, found)] for name, found in lists.items()
         }
         fields = {name: each and _rescaled(each, scale, name) for name, each in fields.items()}
-    options: dict[str, Any] = {
-        name: document[name] for name in ("gravity", "frame_rate", "loop", "sag", "still") if name in document
-    }
+    options: dict[str, Any] = {name: document[name] for name in _OPTIONS if name in document}
     with _located(""):
         return Scene(tuple(bodies), **lists, **fields, **_floats(options))
 
@@ -173,6 +179,14 @@ def _read_mesh(entry: dict[str, Any], path: str, size: tuple[int, int]) -> Trian
 def _read_material(entry: dict[str, Any], path: str) -> Material:
     values = _floats(entry)
     name = values.pop("preset", None)
+    if values.get("mu") is not None or values.get("lambda") is not None:
+        for other in ELASTIC_CONSTANTS:
+            if other in values:
+                raise SceneError(
+                    f"{path}.{other}", f"must be left out where mu and lambda are given. Got: {values[other]:g}"
+                )
+    if "lambda" in values:
+        values["lambda_"] = values.pop("lambda")  # no name that Python lets a field have
     with _located(path):
         return preset(name, **values) if name else Material(**values)
 
@@ -243,6 +257,8 @@ def query_points_of(document: dict[str, Any]) -> list[QueryPoint]:
 def _read_query_point(entry: dict[str, Any], _path: str) -> QueryPoint:
     return QueryPoint(**_floats(entry))
 
+
+_OPTIONS = ("gravity", "frame_rate", "loop", "sag", "still", "time_step", "strokes_as")
 
 _READERS: dict[str, Callable[[dict[str, Any], str], Any]] = {
     "strokes": _read_stroke,

@@ -94,7 +94,9 @@ def _document() -> dict[str, Schema]:
         "height": whole_number("Height [px]", "Height of the illustration that the positions refer to.", 1, MAX_SIDE),
         **{name: own[name] for name in ("frame_rate", "loop")},
         "wind": defined("wind"),
-        **{name: own[name] for name in ("gravity", "sag", "bodies", "strokes", "rig_points")},
+        **{
+            name: own[name] for name in ("gravity", "sag", "time_step", "strokes_as", "bodies", "strokes", "rig_points")
+        },
         "contact": {**defined("contact"), "type": ["object", "null"], "description": own["contact"]["description"]},
         **{name: own[name] for name in ("colliders", "paint", "query_points", "still")},
     }

@@ -39,7 +39,7 @@ def object_of(
     kind: type | None, title: str, properties: dict[str, Schema], *, required: list[str] | None = None
 ) -> Schema:
     """An object with no other keys, its defaults and, unless told, its required keys those of a dataclass."""
-    of_class = {field.name: field for field in fields(kind)} if kind else {}
+    of_class = {field.name.rstrip("_"): field for field in fields(kind)} if kind else {}
     described = {}
     for name, schema in properties.items():
         has_default = name in of_class and of_class[name].default is not MISSING
@@ -57,7 +57,7 @@ def properties_of(kind: type, **others: Schema) -> dict[str, Schema]:
         kind: the dataclass.
         others: what a field is that holds objects, or what the entries of its list are.
     """
-    return {name: _property(each, others.get(name)) for name, each in described_fields(kind).items()}
+    return {each.key: _property(each, others.get(name)) for name, each in described_fields(kind).items()}
 
 
 def _property(described: DescribedField, form: Schema | None) -> Schema:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from .elasticity import (
     RestShape,
     deformation_gradients,
+    elastic_constants,
     energy,
     forces,
     gradient_products,
@@ -26,6 +27,7 @@ __all__ = [
     "Material",
     "RestShape",
     "deformation_gradients",
+    "elastic_constants",
     "energy",
     "forces",
     "gradient_products",

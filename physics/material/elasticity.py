@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = [
     "RestShape",
     "deformation_gradients",
+    "elastic_constants",
     "energy",
     "energy_densities",
     "forces",
@@ -95,6 +96,21 @@ def lame_parameters(youngs_modulus: ArrayLike, poisson_ratio: ArrayLike) -> tupl
     """
     e, nu = np.asarray(youngs_modulus, dtype=np.float64), np.asarray(poisson_ratio, dtype=np.float64)
     return e / (2 * (1 + nu)), e * nu / ((1 + nu) * (1 - 2 * nu))
+
+
+def elastic_constants(mu: ArrayLike, lam: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Young's modulus and Poisson's ratio in plane strain of Lame parameters, elementwise; the ratio is below 0.5.
+
+    nu = lambda / (2 (lambda + mu)) and E = mu (3 lambda + 2 mu) / (lambda + mu), the inverse of ``lame_parameters``.
+
+    Examples:
+        >>> from physanimator.physics.material import elastic_constants
+        >>> [round(float(each), 3) for each in elastic_constants(200.0, 200.0)]
+        [500.0, 0.25]
+    """
+    shear, pressure = np.asarray(mu, dtype=np.float64), np.asarray(lam, dtype=np.float64)
+    share = pressure / (pressure + shear)
+    return shear * (2 + share), np.minimum(share / 2, np.nextafter(0.5, 0.0))
 
 
 def deformation_gradients(rest: RestShape, positions: FloatArray) -> FloatArray:

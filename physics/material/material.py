@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import InvalidInputError, require
 from ..fields import Field, Input, check_fields, described
 from ..limits import LARGEST, MAX_TRIANGLES, STIFFEST
+from .elasticity import elastic_constants, lame_parameters
 
 __all__ = ["PRESETS", "SCALES", "Material", "preset"]
 
@@ -45,6 +46,11 @@ def _scale(quantity: str) -> Field:
 class Material:
     """An isotropic fixed corotated solid (paper, Method, "Deformable Body Model").
 
+    Its energy has the Lame parameters mu and lambda. Young's modulus E and Poisson's ratio nu give those of plane
+    strain, mu = E / (2 (1 + nu)) and lambda = E nu / ((1 + nu) (1 - 2 nu)). Given themselves, as ``mu`` and
+    ``lambda_``, they go into the energy as they are: then ``youngs_modulus`` and ``poisson_ratio`` are those that they
+    amount to, whatever was given for them, and there is no sway frequency.
+
     Damping is the rate alpha of the velocity's decay, v(t) = v(0) exp(-alpha t). From a sway frequency Young's modulus
     follows so that the body's longest connected part sways this often about its pinned points; parts without a pinned
     point keep ``youngs_modulus``, and do not feel the stretch limit. The automatic scene reads from the name how such
@@ -54,6 +60,8 @@ class Material:
         >>> from physanimator.physics.material import Material
         >>> Material(youngs_modulus=800.0, damping=2.0).poisson_ratio
         0.3
+        >>> Material(mu=200.0, lambda_=300.0).youngs_modulus
+        520.0
     """
 
     youngs_modulus: Annotated[
@@ -177,9 +185,58 @@ class Material:
             step=1.0,
         ),
     ] = 1.0
+    mu: Annotated[
+        float | None,
+        Field(
+            "Lame parameter mu",
+            "Resistance to a change of shape, as the paper's mu. Given with lambda, instead of youngs_modulus and"
+            " poisson_ratio. null: as those two say.",
+            "density side^2/s^2",
+            above=0,
+            maximum=STIFFEST,
+        ),
+        Input(
+            "Resistance to stretching, bending and shear [density x side^2/s^2], a side being the picture's longest;"
+            " the paper's mu.",
+            0.01,
+            1_000_000.0,
+            step=10.0,
+        ),
+    ] = None
+    lambda_: Annotated[
+        float | None,
+        Field(
+            "Lame parameter lambda",
+            "Resistance to a change of area, as the paper's lambda; 0 for none. Given with mu.",
+            "density side^2/s^2",
+            minimum=0,
+            maximum=STIFFEST,
+        ),
+        Input(
+            "Resistance to a change of area [density x side^2/s^2], the paper's lambda; 0 lets it narrow or widen"
+            " freely.",
+            0.0,
+            100_000_000.0,
+            step=10.0,
+        ),
+    ] = None
 
     def __post_init__(self) -> None:
         check_fields(self)
+        for name, value, other in (("mu", self.mu, self.lambda_), ("lambda", self.lambda_, self.mu)):
+            if value is None and other is not None:
+                given = "lambda" if name == "mu" else "mu"
+                raise InvalidInputError(f"{name} must be given together with {given}. Got: {given} alone")
+        if self.mu is None or self.lambda_ is None:
+            return
+        if self.sway_frequency is not None:
+            raise InvalidInputError(
+                f"sway_frequency must be left out where mu and lambda say how stiff the body is."
+                f" Got: {self.sway_frequency:g} Hz"
+            )
+        modulus, ratio = elastic_constants(self.mu, self.lambda_)
+        object.__setattr__(self, "youngs_modulus", min(float(modulus), STIFFEST))
+        object.__setattr__(self, "poisson_ratio", float(ratio))
 
     def densities(self, count: int) -> NDArray[np.float64]:
         """Mass per area of each of so many triangles, shape [t]."""
@@ -187,9 +244,20 @@ class Material:
 
     @property
     def lame(self) -> tuple[float, float]:
-        """Lame parameters (mu, lambda) in plane strain [density side^2 / s^2]."""
-        e, nu = self.youngs_modulus, self.poisson_ratio
-        return e / (2 * (1 + nu)), e * nu / ((1 + nu) * (1 - 2 * nu))
+        """Lame parameters (mu, lambda) [density side^2 / s^2]: those given, or those of plane strain."""
+        mu, lam = self.lame_at(np.float64(self.youngs_modulus))
+        return float(mu), float(lam)
+
+    def lame_at(self, modulus: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lame parameters of triangles that paint, roots or sway have made stiffer or softer, elementwise.
+
+        Args:
+            modulus: their Young's moduli [density side^2 / s^2].
+        """
+        if self.mu is None or self.lambda_ is None:
+            return lame_parameters(modulus, self.poisson_ratio)
+        factor = np.asarray(modulus, dtype=np.float64) / self.youngs_modulus  # just 1 where nothing has changed it
+        return self.mu * factor, self.lambda_ * factor
 
 
 PRESETS: dict[str, Material] = {
@@ -230,6 +298,8 @@ PRESETS: dict[str, Material] = {
 def preset(preset_name: str, /, **changes: Any) -> Material:
     """The preset of a name with fields, its ``name`` among them, replaced by ``changes``.
 
+    Lame parameters among them take the place of its sway frequency.
+
     Raises:
         InvalidInputError: there is no such preset.
 
@@ -240,4 +310,6 @@ def preset(preset_name: str, /, **changes: Any) -> Material:
     """
     if not isinstance(preset_name, str) or preset_name not in PRESETS:
         raise InvalidInputError(f"preset must be one of {', '.join(PRESETS)}. Got: {preset_name!r:.60}")
+    if changes.get("mu") is not None or changes.get("lambda_") is not None:
+        changes = {"sway_frequency": None, **changes}
     return replace(PRESETS[preset_name], **changes)

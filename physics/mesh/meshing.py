@@ -57,6 +57,7 @@ def mesh_from_mask(
     border_margin: float | None = None,
     smallest_part: float | None = None,
     smallest_hole: float | None = None,
+    uniform: bool = False,
 ) -> TriangleMesh:
     """A triangle mesh of the white parts of a mask (paper, Method, "Deformable Body Model").
 
@@ -78,6 +79,9 @@ def mesh_from_mask(
         smallest_part: white parts below this area [px^2] are dropped; None means 16, or a twentieth of the largest
             part if that is less, but at least 4.
         smallest_hole: holes below this area [px^2] are filled; None means half of spacing squared.
+        uniform: sample outlines at the same spacing everywhere, as the paper says, whatever ``elements_across`` and
+            ``min_angle``: thin parts are then stiffer than they are. Outlines that would cross are all sampled more
+            finely, and get points in between only where triangles would be very low.
 
     Raises:
         InvalidInputError: an option is out of range.
@@ -94,7 +98,7 @@ def mesh_from_mask(
         (80, 60, True)
     """
     options = _Options(
-        spacing, min_angle, elements_across, smallest_spacing, border_margin, smallest_part, smallest_hole, 1.0
+        spacing, min_angle, elements_across, smallest_spacing, border_margin, smallest_part, smallest_hole, uniform, 1.0
     )
     coverage = coverage_of(mask)
     height = coverage.shape[0] if height is None else height
@@ -166,6 +170,7 @@ class _Options:
     border_margin: float | None
     smallest_part: float | None
     smallest_hole: float | None
+    uniform: bool
     unit: float
 
     def enlarged(self, times: int) -> _Options:
@@ -219,7 +224,8 @@ def _prepared(coverage: NDArray[np.float32], spacing: float, options: _Options) 
     sound = with_sound_details(
         around, thinnest=_THINNEST * floor, narrowest=floor / GAP_FACTOR, smallest_hole=smallest_hole
     )
-    field = spacing_field(sound > 0.5, spacing=spacing, floor=floor, elements_across=across)
+    finest = spacing if options.uniform else floor
+    field = spacing_field(sound > 0.5, spacing=spacing, floor=finest, elements_across=across)
     return _Shape(sound, origin, field, floor)
 
 
@@ -246,7 +252,7 @@ def _meshed(shape: _Shape, options: _Options) -> tuple[FloatArray, NDArray[np.in
         loops = [resampled(outline, field.at) for outline in outlines]
         seeds = interior_seeds(loops, field, shape.inside)
         try:
-            return triangulate(loops, seeds, field, min_angle=options.min_angle)
+            return triangulate(loops, seeds, field, min_angle=options.min_angle, refine=not options.uniform)
         except CrossingEdgesError:
             field = SpacingField(field.values * _TIGHTER, field.cell)
     raise MeshingError("mask must have outlines that do not cross at this spacing; use a smaller spacing")

@@ -70,7 +70,7 @@ def interior_seeds(loops: Sequence[FloatArray], field: SpacingField, inside: NDA
 
 
 def triangulate(
-    loops: Sequence[FloatArray], seeds: FloatArray, field: SpacingField, *, min_angle: float
+    loops: Sequence[FloatArray], seeds: FloatArray, field: SpacingField, *, min_angle: float, refine: bool = True
 ) -> tuple[FloatArray, IndexArray]:
     """Triangulate the area that polygons bound.
 
@@ -81,6 +81,7 @@ def triangulate(
         seeds: interior points [px], shape [m, 2].
         field: wanted spacing.
         min_angle: refine until no angle [degrees] is smaller, except at sharp corners of the polygons.
+        refine: otherwise add no points, unless triangles are very low without.
 
     Returns:
         Vertices [px], shape [v, 2], and triangles, shape [t, 3]. The polygons' points come first.
@@ -92,7 +93,12 @@ def triangulate(
     for _ in range(_SMOOTHING_ROUNDS):
         points, triangles = _delaunay(boundary, seeds, edges)
         seeds = _centred(points, triangles, field)[len(boundary) :]
-    return _refined(boundary, seeds, edges, min_angle=min_angle, lowest=_LOWEST_TRIANGLE * float(field.values.min()))
+    lowest = _LOWEST_TRIANGLE * float(field.values.min())
+    if not refine:
+        plain = _delaunay(boundary, seeds, edges)
+        if _lowest_altitude(*plain) >= lowest:
+            return plain
+    return _refined(boundary, seeds, edges, min_angle=min_angle, lowest=lowest)
 
 
 def morton_order(points: FloatArray) -> IndexArray:

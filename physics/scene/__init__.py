@@ -18,7 +18,7 @@ from .collision import Collider, Contact
 from .holds import Holds, holds_of, region_work
 from .paint import QUANTITIES, Paint
 from .query_points import QueryPoint
-from .scene import Body, Scene, check_scene_rate
+from .scene import Body, Scene, StrokesAs, check_scene_rate
 from .shapes import LayerRegion
 
 __all__ = [
@@ -36,6 +36,7 @@ __all__ = [
     "Paint",
     "QueryPoint",
     "Scene",
+    "StrokesAs",
     "absent_bodies",
     "advice",
     "automatic_scene",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from ..limits import (
     MAX_QUERY_POINTS,
     MAX_RIG_POINTS,
     MAX_STROKES,
+    TICK,
 )
 from ..material import SCALES, Material
 from ..mesh import TriangleMesh
@@ -30,8 +31,10 @@ from .collision import Collider, Contact
 from .paint import Paint
 from .query_points import QueryPoint
 
-__all__ = ["Body", "Scene", "check_scene_rate"]
+__all__ = ["Body", "Scene", "StrokesAs", "check_scene_rate"]
 
+StrokesAs = Literal["acceleration", "force", "vertex_force"]
+"""What the strengths of strokes and wind are."""
 
 _DRAWN = ("strokes", "rig_points", "colliders", "paint", "query_points")  # lists of what scales with the picture
 
@@ -264,6 +267,31 @@ class Scene:
     ] = ()
     absent: tuple[str, ...] = ()
     """Names of bodies that the scene's document has and that none of the parts is."""
+    time_step: Annotated[
+        float | None,
+        Field(
+            "Time step",
+            "The step of plain semi-implicit Euler, in each of which all forces are evaluated, such as the paper's"
+            " 0.001. null: steps follow from the mesh, and forces from outside are evaluated every 1/240 s.",
+            "s",
+            minimum=1e-5,
+            maximum=TICK,
+        ),
+    ] = None
+    strokes_as: Annotated[
+        StrokesAs,
+        Field(
+            "Strokes as",
+            "What the strengths of strokes and wind are: an acceleration, the same for light and heavy; a force on the"
+            " area, which moves a body of density 4 a quarter as far; or, as the paper's formulas read to the letter, a"
+            " vertex_force on each vertex, which moves a finer mesh farther.",
+        ),
+        Input(
+            "What the strengths of strokes and wind are: an acceleration, the same for light and heavy; a force on the"
+            " area, which moves density 4 a quarter as far; a force on each vertex, as the paper writes, which moves a"
+            " finer mesh farther and takes strengths of some 0.0001.",
+        ),
+    ] = "acceleration"
 
     def __post_init__(self) -> None:
         check_fields(self)

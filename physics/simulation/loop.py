@@ -16,7 +16,7 @@ from ..progress import Progress
 from ..rig import Combined, Pinned, Pulse, RigMotion, Swing, Wave, lead
 from ..scene import Scene
 
-__all__ = ["MOST_CYCLES", "TOLERANCE", "first_frame", "loop_frames", "periodic", "settled"]
+__all__ = ["MOST_CYCLES", "TOLERANCE", "first_frame", "loop_frames", "periodic", "require_bounded", "settled"]
 
 FloatArray = NDArray[np.float64]
 
@@ -30,6 +30,7 @@ _LARGEST_RESIDUAL = 0.03  # [side]: more cannot be closed without being seen
 _CLOSING = 0.75  # [s] over which the residual is closed, but no more than half of the loop
 _CLOSED = 0.5  # [px]: a keyed path whose ends are nearer than this is closed
 _ARM = 100.0  # [px] from the rig point, where turns and squashes are judged
+_OUT_OF_HAND = 1000.0  # [side]
 _PERIODS = 1e-6  # slack in counting periods
 
 
@@ -141,9 +142,9 @@ def settled(
     count, side = loop_frames(scene), max(scene.width, scene.height)
     overlap = max(1, min(count // 2, round(_CLOSING * scene.frame_rate)))
     report = _Estimate(scene, count, tolerance, progress)
-    last, cycles = _cycle(displacements, count, 0, report), 1
+    last, cycles = _cycle(scene, displacements, count, 0, report), 1
     while True:
-        before, last = last, _cycle(displacements, count, cycles, report)
+        before, last = last, _cycle(scene, displacements, count, cycles, report)
         residual = float(np.linalg.norm(last - before, axis=2).max(initial=0.0)) * side
         cycles += 1
         if residual <= tolerance or cycles >= most_cycles:
@@ -161,17 +162,31 @@ def settled(
     return closed, LoopReport(seconds=seconds, frames=count, cycles=cycles, residual=residual, closed_residual=left)
 
 
+def require_bounded(scene: Scene, displacement: NDArray[np.float32], when: str) -> None:
+    """Refuse a motion that has got out of hand.
+
+    Raises:
+        SimulationError: a displacement [side] is no finite number, or at a time step that was asked for one that no
+            drawing makes.
+    """
+    if scene.time_step is None and not np.isfinite(displacement).all():
+        raise SimulationError(
+            f"The motion is no longer finite in {when}. Weaken the strokes, or move the rig points less far."
+        )
+    if scene.time_step is not None and not (np.abs(displacement) < _OUT_OF_HAND).all():
+        raise SimulationError(
+            f"The motion has got out of hand in {when}: so far deformed, it needs a time_step below"
+            f" {scene.time_step:g} s. Lower it, set it to 0 for steps that follow from the mesh, or weaken the strokes."
+        )
+
+
 def _cycle(
-    displacements: Iterator[NDArray[np.float32]], count: int, number: int, report: _Estimate
+    scene: Scene, displacements: Iterator[NDArray[np.float32]], count: int, number: int, report: _Estimate
 ) -> NDArray[np.float32]:
     frames = []
     for frame in range(count):
         frames.append(np.array(next(displacements), dtype=np.float32))
-        if not np.isfinite(frames[-1]).all():
-            raise SimulationError(
-                f"The motion is no longer finite in frame {frame} of cycle {number}. Weaken the strokes, or move the"
-                " rig points less far."
-            )
+        require_bounded(scene, frames[-1], f"frame {frame} of cycle {number}")
         report(number * count + frame + 1)
     return np.array(frames)
 

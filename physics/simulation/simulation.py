@@ -1,7 +1,7 @@
 """simulate(): a scene becomes a motion.
 
-Time runs in ticks of 1/240 s that are the same at every frame rate (see ``stepping``); a frame that falls between
-two ticks is read from the cubic through both.
+Time runs in ticks of 1/240 s, or of the scene's time step, that are the same at every frame rate (see ``stepping``); a
+frame that falls between two ticks is read from the cubic through both.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from ..assembly import (
     work_of_minutes,
 )
 from ..contact import TouchingBodies
-from ..errors import InvalidInputError, SimulationError, require
+from ..errors import InvalidInputError, require
 from ..limits import DEFAULT_MINUTES
 from ..material import RestShape
 from ..motion import Motion
@@ -36,8 +36,8 @@ from ..process_end import stop_at_end, working
 from ..progress import Progress
 from ..rig import Pinned
 from ..scene import Scene
-from ..solver import STEP_LIMIT, TICK, Solid, State, advance, squared_frequencies
-from .loop import MOST_CYCLES, first_frame, loop_frames, periodic, settled
+from ..solver import STEP_LIMIT, Solid, State, advance, squared_frequencies
+from .loop import MOST_CYCLES, first_frame, loop_frames, periodic, require_bounded, settled
 
 __all__ = ["OnFrame", "SimulationPlan", "plan", "simulate"]
 
@@ -64,7 +64,9 @@ def simulate(
 
     The motion does not depend on the frame rate nor on the picture's resolution. However strong the forces are, it
     stays finite: above 5 sides a second a vertex cannot move farther in a substep than a quarter of the smallest
-    altitude of its triangles.
+    altitude of its triangles. A scene with a time step is integrated as the paper writes, in steps of just that length,
+    with all forces evaluated in each, the masses just those of the triangles and no such limit: a motion that gets out
+    of hand is refused.
 
     Args:
         scene: what to simulate.
@@ -116,10 +118,7 @@ def simulate(
     positions = np.empty((frames, len(rest), 2), dtype=np.float32)
     for frame, displacement in zip(range(frames), _displacements(scene, at_rest, planned), strict=False):
         positions[frame, order] = rest + displacement.astype(np.float64) * side
-        if not np.isfinite(positions[frame]).all():
-            raise SimulationError(
-                f"The motion is no longer finite in frame {frame}. Weaken the strokes, or move the rig points less far."
-            )
+        require_bounded(scene, displacement, f"frame {frame}")
         if on_frame is not None:
             on_frame(frame, positions[frame])
         if progress is not None:
@@ -186,8 +185,9 @@ def _displacements(
     """
     system, start = at_rest.system, at_rest.start
     solid, size = _solid(scene, system, start), len(system.masses)
-    done, _ = _ticks(first, scene.frame_rate)
-    ticks = max(1.0, (planned.frames - 1) / (planned.frame_rate * TICK))
+    length = planned.tick
+    done, _ = _ticks(first, scene.frame_rate, length)
+    ticks = max(1.0, (planned.frames - 1) / (planned.frame_rate * planned.tick))
     inside = planned.work - planned.outside_work
     block = int(
         min(_LAUNCH_WORK * ticks / (inside + ticks * size), _OUTSIDE_WORK * ticks / max(planned.outside_work, 1))
@@ -201,7 +201,7 @@ def _displacements(
         touching = TouchingBodies(scene, system, solid, scene.contact, start)
         state, run, record = touching.state, partial(touching.advance, block=block), touching.record
     yield state.displacement[:size]
-    per_frame, fraction = _ticks(1, scene.frame_rate)
+    per_frame, fraction = _ticks(1, scene.frame_rate, length)
     if fraction == 0 and block >= 2 * per_frame:
         most, left, together = block // per_frame, planned.frames - 1, 1
         while True:
@@ -212,7 +212,7 @@ def _displacements(
             together = min(2 * together, most, left if left > 0 else most)  # the first frame comes at once
     for frame in count(first + 1):
         stop_at_end()
-        whole, fraction = _ticks(frame, scene.frame_rate)
+        whole, fraction = _ticks(frame, scene.frame_rate, length)
         run(done, whole)
         done = whole
         if fraction == 0:
@@ -221,12 +221,12 @@ def _displacements(
         before = state._replace(displacement=state.displacement.copy(), velocity=state.velocity.copy())
         run(whole, whole + 1)
         done = whole + 1
-        yield _between(before, state, fraction)[:size]
+        yield _between(before, state, fraction, length)[:size]
 
 
-def _ticks(frame: int, frame_rate: float) -> tuple[int, float]:
-    """Whole ticks before a frame, and the part of the next one."""
-    time = frame / (frame_rate * TICK)
+def _ticks(frame: int, frame_rate: float, length: float) -> tuple[int, float]:
+    """Whole ticks of a length [s] before a frame, and the part of the next one."""
+    time = frame / (frame_rate * length)
     whole = math.floor(time + _ON_TICK)
     fraction = time - whole
     return whole, fraction if fraction > _ON_TICK else 0.0
@@ -245,11 +245,11 @@ def _record(scene: Scene, solid: Solid, state: State, first: int, end: int, *, c
     return recording.records
 
 
-def _between(before: State, after: State, fraction: float) -> NDArray[np.float32]:
-    """The cubic through two ticks' displacements and velocities."""
+def _between(before: State, after: State, fraction: float, length: float) -> NDArray[np.float32]:
+    """The cubic through the displacements and velocities of two ticks a length [s] apart."""
     s = np.float32(fraction)
     a, b = before.displacement, after.displacement
-    va, vb = before.velocity * np.float32(TICK), after.velocity * np.float32(TICK)
+    va, vb = before.velocity * np.float32(length), after.velocity * np.float32(length)
     return a + s * (va + s * (3 * (b - a) - 2 * va - vb + s * (2 * (a - b) + va + vb)))
 
 
@@ -269,6 +269,9 @@ def _solid(scene: Scene, system: System, start: NDArray[np.float32] | None = Non
     kinematic = np.where(np.isin(system.leaders, moving), system.leaders, -1)
     squared = squared_frequencies(rest, mu, lam, system.density)
     squared = np.minimum(squared, system.highest[system.part_of_triangle])
+    limits = STEP_LIMIT * altitudes
+    if scene.time_step is not None:  # nothing asks for other steps than these, nor cuts them short
+        squared, limits = np.zeros_like(squared), np.full_like(altitudes, np.finfo(np.float32).max)
     stiffness = np.column_stack([2 * mu * rest.areas, lam * rest.areas, squared])
     drawn = rest.positions if start is None else rest.positions + start
     anchors, lengths = tethers(RestShape(drawn, rest.triangles), system.leaders >= 0, system.stretch_limits)
@@ -277,7 +280,7 @@ def _solid(scene: Scene, system: System, start: NDArray[np.float32] | None = Non
         starts=system.starts,
         substeps=system.substeps,
         vertices=np.column_stack([rest.positions, inverse_mass, system.damping]).astype(np.float32),
-        step_limits=np.where(free, STEP_LIMIT * altitudes, 0.0).astype(np.float32),
+        step_limits=np.where(free, limits, 0.0).astype(np.float32),
         handles=np.where(gripped, system.grippers, kinematic).astype(np.int32),
         grips=np.where(gripped, system.grips, 0.0).astype(np.float32),
         triangles=np.ascontiguousarray(rest.triangles[active]),

@@ -5,6 +5,8 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
+
 from ..runtime import LANES
 from .arrays import Drive, Solid, State
 
@@ -71,7 +73,7 @@ def argument_packs(ti: Any) -> SimpleNamespace:
             first_particles=types.integers,
             particles=types.scalars2,
             kinds=types.integers,
-            gravity=ti.types.vector(2, ti.f32),
+            constants=types.scalars,
             uniform=types.vectors,
             waves=types.vectors4,
             phases=types.scalars2,
@@ -90,10 +92,14 @@ def state_group(state: State) -> dict[str, Any]:
 
 
 def drive_group(drive: Drive) -> dict[str, Any]:
-    """A drive's arrays by their names in its pack, those of the wind among them."""
-    group = {**drive._asdict(), **drive.wind._asdict()}
-    del group["wind"]
-    return group
+    """A drive's arrays by their names in its pack: those of the wind among them, and its single numbers in one.
+
+    The kernels of contact have as many arguments as may be.
+    """
+    single = ("gravity", "tick_length", "wind")
+    group = {name: value for name, value in drive._asdict().items() if name not in single}
+    constants = np.array([*drive.gravity, drive.tick_length], dtype=np.float32)
+    return {**group, **drive.wind._asdict(), "constants": constants}
 
 
 class PackedArguments:

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..limits import TICK
 from ..runtime import LANES, aligned
 
 __all__ = ["CALM", "Drive", "Solid", "State", "WindTable"]
@@ -163,6 +164,7 @@ class Drive(NamedTuple):
         kinds: kind and falloff as in ``EnergyStroke.effect_number``, int32, shape [p].
         gravity: acceleration of every vertex [side/s^2].
         wind: beside it.
+        tick_length: of each tick [s].
     """
 
     rig_leads: Float32Array
@@ -172,6 +174,7 @@ class Drive(NamedTuple):
     kinds: Int32Array
     gravity: tuple[float, float]
     wind: WindTable = CALM
+    tick_length: float = TICK
 
 
 def _in_blocks(rows: NDArray[Any]) -> NDArray[Any]:

@@ -6,9 +6,8 @@
 import taichi as ti
 
 from ..forces import FALLOFFS, STROKE_KINDS
-from .handle_functions import place
+from .handle_functions import place, tick_length
 from .kernel_types import any_value, vec2
-from .stepping import TICK
 
 __all__ = ["begin_vertices"]
 
@@ -66,7 +65,7 @@ def external_acceleration(i: ti.i32, tick: ti.i32, solid: any_value, state: any_
             total = total + particle_push(q, drive, p)
         if solid.wind_response.shape[0] > 0:
             total = total * solid.wind_response[i]
-        total = total + vec2(drive.gravity[0], drive.gravity[1])
+        total = total + vec2(drive.constants[0], drive.constants[1])
     return total
 
 
@@ -81,7 +80,7 @@ def begin_vertices(
     drive: any_value,
 ):
     """External acceleration of vertices in a tick, and their damping in one of its substeps."""
-    damping, decay, dt = 0.0, 1.0, TICK / count
+    damping, decay, dt = 0.0, 1.0, tick_length(drive) / count
     for i in range(first, end):
         if solid.vertices[i][3] != damping:  # most have the same
             damping = solid.vertices[i][3]

@@ -7,9 +7,14 @@ import taichi as ti
 
 from ..rig import FIRMNESS
 from .kernel_types import any_value, vec2
-from .stepping import TICK
 
-__all__ = ["affine", "goal", "place", "pulled", "tether"]
+__all__ = ["affine", "goal", "place", "pulled", "tether", "tick_length"]
+
+
+@ti.func
+def tick_length(drive: any_value):
+    """Length of a tick [s]."""
+    return drive.constants[2]
 
 
 @ti.func
@@ -32,7 +37,8 @@ def affine(x: vec2, coefficients: any_value, tick: ti.i32, handle: ti.i32):
 def goal(x: vec2, tick: ti.i32, handle: ti.i32, s: ti.f32, drive: any_value):
     """Displacement that a rig point prescribes at x, at a part s (0 to 1) of a tick: a cubic in time."""
     a, b = affine(x, drive.rig_leads, tick, handle), affine(x, drive.rig_leads, tick + 1, handle)
-    va, vb = TICK * affine(x, drive.rig_rates, tick, handle), TICK * affine(x, drive.rig_rates, tick + 1, handle)
+    length = tick_length(drive)
+    va, vb = length * affine(x, drive.rig_rates, tick, handle), length * affine(x, drive.rig_rates, tick + 1, handle)
     return a + s * (va + s * (3.0 * (b - a) - 2.0 * va - vb + s * (2.0 * (a - b) + va + vb)))
 
 
@@ -52,7 +58,7 @@ def tether(i: ti.i32, tick: ti.i32, step: ti.i32, count: ti.i32, solid: any_valu
     u, v = ti.static(state.displacement, state.velocity)
     anchor = solid.anchors[i]
     if anchor >= 0:
-        begin, end, dt = step / ti.cast(count, ti.f32), (step + 1.0) / count, TICK / count
+        begin, end, dt = step / ti.cast(count, ti.f32), (step + 1.0) / count, tick_length(drive) / count
         x, handle = place(solid.vertices[anchor]), solid.handles[anchor]
         held, rate = vec2(0.0, 0.0), vec2(0.0, 0.0)
         if handle >= 0:

@@ -6,9 +6,9 @@
 import taichi as ti
 
 from .elastic_functions import BLOCK_MASK, add_forces
-from .handle_functions import affine, goal, place, pulled, tether
+from .handle_functions import affine, goal, place, pulled, tether, tick_length
 from .kernel_types import any_value, vec2
-from .stepping import SPEED_FLOOR, TICK
+from .stepping import SPEED_FLOOR
 
 __all__ = ["move_vertices", "record", "take_step"]
 
@@ -26,7 +26,7 @@ def move(
     """One of the substeps of a vertex in a tick: v' = exp(-alpha dt) (v + dt (f / m + a)), u' = u + dt v'."""
     u, v = ti.static(state.displacement, state.velocity)
     vertex, handle, grip = solid.vertices[i], solid.handles[i], solid.grips[i]
-    begin, end, dt = step / ti.cast(count, ti.f32), (step + 1.0) / count, TICK / count
+    begin, end, dt = step / ti.cast(count, ti.f32), (step + 1.0) / count, tick_length(drive) / count
     if handle < 0 or grip > 0.0:
         force = vec2(0.0, 0.0)
         for slot in range(solid.first_slots[i], solid.first_slots[i + 1]):

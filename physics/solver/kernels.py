@@ -1,7 +1,7 @@
 # mypy: ignore-errors
 """The Taichi kernels: semi-implicit Euler for fixed corotated triangles under flow particles and rig points.
 
-The unit is a tick (``stepping.TICK``). At its start the external acceleration of every vertex is evaluated and the
+The unit is a tick (``Drive.tick_length``). At its start the external acceleration of every vertex is evaluated and the
 step is chosen; then follow whole substeps: forces of all triangles, then velocities and positions of all vertices.
 One launch runs several ticks. Connected parts do not feel each other: each takes its own steps, on a thread of its own,
 or a large one on several (``sharing``).

@@ -11,6 +11,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..limits import TICK
 from ..material import RestShape, gradient_products
 
 __all__ = [
@@ -28,12 +29,6 @@ __all__ = [
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
-
-TICK = 1 / 240
-"""Time after which external forces are evaluated again [s]; each tick takes a whole number of substeps.
-
-It is the same at every frame rate, and common frame rates divide it: so the motion does not depend on them.
-"""
 
 SAFETY = 0.9
 """The step as a part of the largest stable one: room for what deformation adds to the frequencies within a tick."""

@@ -35,7 +35,12 @@ def shown_part(image: NDArray[Any], mask: NDArray[Any]) -> NDArray[np.float32]:
 
 
 def part_mesh(
-    image: NDArray[Any], mask: NDArray[Any], *, spacing: float | None = None, elements_across: int = 3
+    image: NDArray[Any],
+    mask: NDArray[Any],
+    *,
+    spacing: float | None = None,
+    elements_across: int = 3,
+    uniform: bool = False,
 ) -> TriangleMesh:
     """The mesh of a part as the picture shows it, so that all that is drawn moves with the mesh.
 
@@ -46,6 +51,7 @@ def part_mesh(
         mask: soft mask in 0 to 1, shape [h, w].
         spacing: see :func:`~physanimator.physics.mesh.mesh_from_mask`.
         elements_across: see there.
+        uniform: see there.
 
     Raises:
         InvalidInputError: the mask gives no mesh.
@@ -60,7 +66,7 @@ def part_mesh(
         (60, 60)
     """
     refuse_noise(np.asarray(mask, dtype=np.float32))  # in which the search for edges would take long
-    meshed = partial(mesh_from_mask, spacing=spacing, elements_across=elements_across)
+    meshed = partial(mesh_from_mask, spacing=spacing, elements_across=elements_across, uniform=uniform)
     shown = shown_part(image, mask)
     if ((shown > _HALF) == (np.asarray(mask) > _HALF)).all():
         return meshed(mask)

@@ -53,12 +53,16 @@ def meshes(draw: st.DrawFn, width: int, height: int) -> TriangleMesh:
 def bodies(draw: st.DrawFn, width: int, height: int) -> Body:
     mesh = draw(meshes(width, height))
     count = len(mesh.triangles)
+    constants = {
+        "youngs_modulus": draw(st.floats(1e-3, 1e12)),
+        "poisson_ratio": draw(st.floats(0, 0.5, exclude_max=True)),
+        "sway_frequency": draw(st.none() | st.floats(0.001, 1000)),
+    }
+    lame = {"mu": draw(st.floats(0, 1e12, exclude_min=True)), "lambda_": draw(st.floats(0, 1e12))}
     material = Material(
-        youngs_modulus=draw(st.floats(1e-3, 1e12)),
-        poisson_ratio=draw(st.floats(0, 0.5, exclude_max=True)),
+        **(lame if draw(st.booleans()) else constants),
         density=draw(positive),
         damping=draw(st.floats(0, 1e6)),
-        sway_frequency=draw(st.none() | st.floats(0.001, 1000)),
         stiffness_scale=draw(st.none() | st.lists(positive, min_size=count, max_size=count).map(np.array)),
         name=draw(st.text(max_size=5)),
     )
@@ -185,7 +189,7 @@ def test_schema_has_the_fields_and_defaults_of_the_dataclasses() -> None:
     }  # fmt: skip
     for name, kind in classes.items():
         properties = definitions[name]["properties"]
-        assert set(properties) - {"type", "preset"} == described_fields(kind).keys()
+        assert set(properties) - {"type", "preset"} == {each.key for each in described_fields(kind).values()}
         for field in fields(kind):
             if field.name in properties and field.default is not MISSING:
                 assert "default" in properties[field.name]
@@ -217,7 +221,10 @@ def test_bounds_of_the_schema_are_those_of_the_dataclasses() -> None:
         "query_point": {"x": 0.0, "y": 0.0},
         "circle": {"radius": 1.0},
         "material": {},
+        "mu": {"lambda_": 1.0},
+        "lambda": {"mu": 1.0},
     }
+    names = {"lambda": "lambda_"}
     checked = 0
     for name, kind in classes.items():
         for key, schema in scene_schema()["$defs"][name]["properties"].items():
@@ -227,9 +234,10 @@ def test_bounds_of_the_schema_are_those_of_the_dataclasses() -> None:
                 bound = float(schema[rule])
                 next_to_it = math.nextafter(bound, step * math.inf)
                 good, bad = (next_to_it, bound) if rule.startswith("exclusive") else (bound, next_to_it)
-                kind(**{**beside[name], **beside.get(key, {}), key: good})
+                field = names.get(key, key)
+                kind(**{**beside[name], **beside.get(key, {}), field: good})
                 with pytest.raises(InvalidInputError, match=f"^{key} must be"):
-                    kind(**{**beside[name], **beside.get(key, {}), key: bad})
+                    kind(**{**beside[name], **beside.get(key, {}), field: bad})
                 checked += 1
     assert checked >= 20
 
@@ -346,6 +354,30 @@ def test_text_is_easy_to_edit() -> None:
     assert "null" not in text
 
 
+def material_of(entry: dict[str, Any]) -> Material:
+    return scene_from_dict({**BARE, "bodies": [{"material": entry}]}, meshes=[square_mesh()]).bodies[0].material
+
+
+def test_lame_parameters_are_read_as_they_are_and_written_alone() -> None:
+    """One pair stands in what is written: whoever edits it edits what counts."""
+    read = material_of({"mu": 3, "lambda": 0.1, "density": 2})
+    assert (read.lame, read.density) == ((3.0, 0.1), 2.0)
+    written = scene_to_dict(Scene((Body(square_mesh(), read),)))["bodies"][0]["material"]
+    assert (written["mu"], written["lambda"]) == (3.0, 0.1)
+    assert not {"youngs_modulus", "poisson_ratio", "lambda_", "sway_frequency"} & written.keys()
+    assert material_of(written).lame == (3.0, 0.1)
+    other = scene_to_dict(Scene((Body(square_mesh()),)))["bodies"][0]["material"]
+    assert "youngs_modulus" in other
+    assert not {"mu", "lambda"} & other.keys()
+
+
+def test_lame_parameters_take_the_place_of_a_presets_sway() -> None:
+    read = material_of({"preset": "hair", "mu": 100, "lambda": 0})
+    assert (read.lame, read.sway_frequency) == ((100.0, 0.0), None)
+    assert read.root_stiffness == PRESETS["hair"].root_stiffness
+    assert material_of({"preset": "hair", "mu": None, "lambda": None}).sway_frequency == PRESETS["hair"].sway_frequency
+
+
 # Wrong documents
 
 
@@ -397,6 +429,14 @@ WRONG = [
     ([*BODY, "material"], {"density": -1}, "bodies[0].material.density", "must be above 0"),
     ([*BODY, "material"], {"damping": "5"}, "bodies[0].material.damping", 'must be a number. Got: "5"'),
     ([*BODY, "material"], {"sway_frequency": 0}, "bodies[0].material.sway_frequency", "at least 0.001 Hz"),
+    ([*BODY, "material"], {"mu": 0, "lambda": 1}, "bodies[0].material.mu", "above 0 density side^2/s^2. Got: 0"),
+    ([*BODY, "material"], {"mu": 1, "lambda": -1}, "bodies[0].material.lambda", "at least 0 density side^2/s^2"),
+    ([*BODY, "material"], {"mu": 1}, "bodies[0].material.lambda", "must be given together with mu. Got: mu alone"),
+    ([*BODY, "material"], {"lambda": 0}, "bodies[0].material.mu", "must be given together with lambda"),
+    ([*BODY, "material"], {"lambda_": 1, "mu": 1}, "bodies[0].material.lambda_", "did you mean 'lambda'?"),
+    ([*BODY, "material"], {"mu": 1, "lambda": 1, "youngs_modulus": 9}, "bodies[0].material.youngs_modulus", "left out"),
+    ([*BODY, "material"], {"mu": 1, "lambda": 1, "poisson_ratio": 0}, "bodies[0].material.poisson_ratio", "left out"),
+    ([*BODY, "material"], {"mu": 1, "lambda": 1, "sway_frequency": 2}, "bodies[0].material.sway_frequency", "2 Hz"),
     ([*BODY, "material"], {"stiffness": 3}, "bodies[0].material.stiffness", "did you mean 'root_stiffness'?"),
     ([*BODY, "material"], {"stiffness_scale": [1, 2]}, "bodies[0].material.stiffness_scale", "each of the 1 triangles"),
     ([*BODY, "material"], {"stiffness_scale": [0]}, "bodies[0].material.stiffness_scale[0]", "must be above 0"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -25,6 +26,42 @@ def test_lame_parameters_give_back_young_and_poisson(ratio: float) -> None:
     mu, lam = Material(youngs_modulus=77.0, poisson_ratio=ratio).lame
     assert mu * (3 * lam + 2 * mu) / (lam + mu) == pytest.approx(77.0)
     assert lam / (2 * (lam + mu)) == pytest.approx(ratio)
+
+
+def test_lame_parameters_given_are_kept_to_the_last_bit() -> None:
+    """They are those of the paper's energy; Young and Poisson follow, up to what is almost incompressible."""
+    for mu, lam in ((0.1, 0.3), (1 / 3, 0.0), (1e-3, 1e12), (3e11, 0.1)):
+        material = Material(mu=mu, lambda_=lam)
+        assert material.lame == (mu, lam)
+        assert replace(material, damping=3.0).lame == (mu, lam)
+        assert material.poisson_ratio < 0.5
+        assert material.youngs_modulus == pytest.approx(mu * (3 * lam + 2 * mu) / (lam + mu))
+    assert Material(mu=5.0, lambda_=0.0).youngs_modulus == 10.0
+    back = replace(Material(mu=200.0, lambda_=300.0), mu=None, lambda_=None)
+    assert (back.youngs_modulus, back.poisson_ratio) == (pytest.approx(520.0), pytest.approx(0.3))
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"mu": 1.0}, "lambda must be given together with mu"),
+        ({"lambda_": 1.0}, "mu must be given together with lambda"),
+        ({"mu": 1.0, "lambda_": 0.0, "sway_frequency": 2.0}, "sway_frequency must be left out"),
+        ({"mu": 0.0, "lambda_": 0.0}, "mu must be above 0"),
+        ({"mu": 1.0, "lambda_": -0.1}, "lambda must be 0 to"),
+        ({"mu": 1.0, "lambda_": math.nan}, "lambda must be 0 to"),
+    ],
+)
+def test_lame_parameters_that_cannot_be_are_refused(given: dict[str, float], words: str) -> None:
+    with pytest.raises(InvalidInputError, match=f"^{words}.*Got: "):
+        Material(**given)
+
+
+def test_triangles_that_are_stiffer_have_both_lame_parameters_so() -> None:
+    for material in (Material(mu=200.0, lambda_=300.0), Material(youngs_modulus=520.0, poisson_ratio=0.3)):
+        mu, lam = material.lame_at(np.array([520.0, 1560.0]))
+        np.testing.assert_allclose(mu, [200, 600])
+        np.testing.assert_allclose(lam, [300, 900])
 
 
 def test_every_preset_is_itself_and_knows_its_name() -> None:

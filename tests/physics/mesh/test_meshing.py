@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import cv2
 import numpy as np
 import pytest
@@ -212,11 +214,11 @@ def test_outlines_that_cross_are_sampled_more_finely(monkeypatch: pytest.MonkeyP
     triangulate_once = meshing.triangulate
     spacings: list[float] = []
 
-    def fail_twice(loops: list[np.ndarray], seeds: np.ndarray, field: SpacingField, *, min_angle: float) -> object:
+    def fail_twice(loops: list[np.ndarray], seeds: np.ndarray, field: SpacingField, **options: float) -> object:
         spacings.append(float(field.values.max()))
         if len(spacings) < 3:
             raise CrossingEdgesError("edges cross")
-        return triangulate_once(loops, seeds, field, min_angle=min_angle)
+        return triangulate_once(loops, seeds, field, **options)
 
     monkeypatch.setattr(meshing, "triangulate", fail_twice)
     mesh_from_mask(disc(), spacing=20.0)
@@ -253,6 +255,34 @@ def test_thick_shapes_are_sampled_uniformly_at_the_spacing() -> None:
     assert np.ptp(steps) < 0.05
     assert np.abs(np.hypot(*(loop - 200.5 + (0, 50)).T) - 110.5).max() < 0.5
     assert altitudes(mesh).min() > 0.5 * 12
+
+
+@pytest.mark.parametrize("make", [strands, several, lambda: noise(3)], ids=["strands", "several", "noise"])
+def test_uniform_outlines_have_their_points_at_one_distance_in_thin_parts_too(make: Callable[[], np.ndarray]) -> None:
+    """Chords over corners are shorter, and each outline takes a whole number of them."""
+    spacing = 14.0
+
+    def lengths(*, uniform: bool) -> np.ndarray:
+        mesh = mesh_from_mask(make(), spacing=spacing, uniform=uniform)
+        loops = boundary_loops(mesh)
+        return np.concatenate([np.hypot(*(np.roll(loop, -1, axis=0) - loop).T) for loop in loops])
+
+    sides = lengths(uniform=True)
+    assert np.median(sides) == pytest.approx(spacing, rel=0.1)
+    assert sides.max() < 1.2 * spacing
+    assert np.percentile(sides, 10) > 0.7 * spacing
+    assert np.percentile(lengths(uniform=False), 10) < 0.66 * spacing
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from([8.0, 14.0, 25.0]))
+@settings(max_examples=20, deadline=None)
+def test_random_masks_become_uniform_meshes_without_flat_triangles(seed: int, spacing: float) -> None:
+    mask = noise(seed)
+    if not has_a_part(mask):
+        return
+    mesh = mesh_from_mask(mask, spacing=spacing, uniform=True)
+    assert altitudes(mesh).min() > 0.04 * spacing
+    assert mesh.areas.sum() == pytest.approx(mesh_from_mask(mask, spacing=spacing).areas.sum(), rel=0.1)
 
 
 def test_mask_is_covered_to_within_the_bulge_of_a_chord() -> None:

@@ -36,6 +36,7 @@ export class Backdrop {
     if (run.layers && !run.image) this.picture = null;
     const picture = run.image ? await loaded(run.image) : this.picture;
     if (run.image) this.wanted = null;
+    editor.setMaterials(run.materials);
     editor.setLayers(run.layers?.layers ?? []);
     if (picture) this.#take(picture);
     else this.fitTo(run.width, run.height);

@@ -85,6 +85,7 @@ export class Editor {
       trouble: (error) => this.backdrop.trouble(error),
       started: () => this.notes.show("run", ""),
       moved: () => setTimeout(() => this.tell()),
+      ended: (end) => (this.inspector.material.moduli = end.stiffness ?? []),
     });
     listenTo(this);
     this.show();
@@ -138,18 +139,42 @@ export class Editor {
     // Who is not looked at is known by number, which holds as long as the layers are the same.
     if (layers.some((layer, i) => layer.name !== before[i])) this.live.player.unseen.clear();
     this.layerList.setLayers(layers);
+    this.inspector.material.layers = layers;
     this.show();
+  }
+
+  /** @param {import("../scene/materials.js").Materials | null} materials  of the bodies */
+  setMaterials(materials) {
+    this.inspector.material.materials = materials;
+    this.inspector.body.number = -1;
+  }
+
+  /**
+   * @param {string} name of the body whose material is shown; empty where it has none
+   * @param {number} number  of it
+   */
+  chooseBody(name, number) {
+    this.inspector.body = { name, number };
+    this.select(null);
+    if (this.layerList.layers.length) this.choose(name);
+    else this.show();
   }
 
   /** @param {string} name of the layer to select; empty for none */
   choose(name) {
     this.chosen = name;
+    this.inspector.body = { name, number: -1 };
     if (this.chosenLayer) this.layerList.reveal(this.chosenLayer);
     this.show();
   }
 
   /** @param {Point} point at which somebody clicked beside all that is drawn */
   chooseAt(point) {
+    const { materials } = this.inspector.material;
+    if (!this.layerList.layers.length && materials) {
+      const number = materials.order[this.live.bodyAt(point) ?? -1] ?? -1;
+      return this.chooseBody(materials.bodies[number]?.name ?? "", number);
+    }
     const index = this.live.layerAt(point);
     this.choose(this.layerList.layers.find((layer) => layer.index === index)?.name ?? "");
   }
@@ -284,6 +309,12 @@ export class Editor {
     this.timeline.showItems(document, selection, playback.duration / playback.frameRate);
   }
 
+  /** Place of the chosen body from the back where the picture is flat; -1 for none. */
+  get #chosenBody() {
+    const { body, material } = this.inspector;
+    return body.number < 0 || this.layerList.layers.length ? -1 : (material.materials?.order.indexOf(body.number) ?? -1);
+  }
+
   /** What the tool does, how large the picture is shown, and its size. */
   #showStatus() {
     const { width, height } = this.document;
@@ -340,7 +371,7 @@ export class Editor {
       draft: this.tool.draft,
       brush: brushing ? { at: brushing, radius: this.brushRadius } : null,
       itemsShown: this.shown.items,
-      outline: this.chosenLayer && live.outlineOf(this.chosenLayer.index),
+      outline: this.chosenLayer ? live.outlineOf(this.chosenLayer.index) : live.outlineOfBody(this.#chosenBody),
     });
     live.draw(stage.view, stage.across, stage.down, this.shown.mesh);
     this.#showStatus();

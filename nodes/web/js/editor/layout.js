@@ -25,6 +25,7 @@ export function layout(editor) {
     change: (reference, changes, key) => editor.change(reference, changes, key),
     redrawRegion: (kind) => editor.commands.redrawRegion(kind),
     brushSize: (radius) => editor.commands.setBrush(radius),
+    chooseBody: (target) => editor.chooseBody(target.name, target.number),
   });
   const layerList = new LayerList({
     choose: (layer) => editor.choose(layer?.name ?? ""),

@@ -12,6 +12,7 @@
  * @property {string | null} image  URL of the picture; null where none is connected
  * @property {string} plate  URL of what is behind the bodies
  * @property {LayersOfRun | null} layers  null where masks cut the bodies out of a flat picture
+ * @property {import("../scene/materials.js").Materials | null} materials
  *
  * @typedef {object} LayersOfRun
  * @property {import("../scene/layers.js").Layer[]} layers  from front to back
@@ -21,6 +22,7 @@
  * @property {() => void} redraw
  * @property {(error: Error | null) => void} trouble
  * @property {() => void} started  the first frame has come
+ * @property {(end: any) => void} ended  the last one has come, with what is known of the whole
  * @property {() => void} moved  the first frame in which something moves is on the screen
  */
 
@@ -47,7 +49,7 @@ export class Live {
     this.run = null;
     /** @type {Mesh | null} */
     this.mesh = null;
-    /** @type {{drawn: any, box: [number, number, number, number], mesh: Mesh | null} | null} of one layer, made last */
+    /** @type {{drawn: any, box: [number, number, number, number], mesh: Mesh | null, whole?: Mesh} | null} of one layer or body, made last */
     this.outlined = null;
     /** Displacements of a mesh at rest. */
     this.still = new Int16Array(0);
@@ -108,6 +110,29 @@ export class Live {
   }
 
   /**
+   * The body at a point, in front of all others, where the picture is flat.
+   *
+   * @param {import("../scene/document.js").Point} point
+   * @returns {number | null} its place from the back
+   */
+  bodyAt(point) {
+    const { mesh, playback } = this;
+    if (!mesh) return null;
+    const bodies = Array.from({ length: mesh.bodies.length / 2 }, (_, body) => ({ layer: body, body }));
+    return layerAt(mesh, bodies, new Set(), point, playback.shown?.displacements ?? null, this.unit);
+  }
+
+  /** @param {number} body  its place from the back; its mesh alone, to be drawn around it */
+  outlineOfBody(body) {
+    const { mesh } = this;
+    if (!mesh || body < 0) return null;
+    if (this.outlined?.drawn === body && this.outlined.whole === mesh) return this.outlined;
+    const triangles = mesh.triangles.subarray(3 * mesh.bodies[2 * body], 3 * mesh.bodies[2 * body + 1]);
+    this.outlined = { drawn: body, box: [0, 0, 0, 0], mesh: { ...mesh, triangles }, whole: mesh };
+    return this.outlined;
+  }
+
+  /**
    * The mesh of one layer alone, and where its picture is; the same object as long as nothing changes.
    *
    * @param {number} layer  its index in the artwork
@@ -156,7 +181,10 @@ export class Live {
       if (this.measured.frames === 2) this.measured.firstFrame = performance.now() - this.measured.asked;
       if (this.measured.frames === 1) this.listener.started();
       this.listener.redraw();
-    } else if (record.type === "end") this.measured.largest = record.end.largest_displacement;
+    } else if (record.type === "end") {
+      this.measured.largest = record.end.largest_displacement;
+      this.listener.ended(record.end);
+    }
     else if (record.type === "error") this.#fail(new Error(record.error));
   }
 

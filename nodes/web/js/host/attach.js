@@ -162,11 +162,11 @@ function takePlace(node, root) {
  * @param {any} info  as the node tells it
  * @returns {import("../editor/live.js").Run}
  */
-function runOf(api, { key, width, height, image, plate, layers = null }) {
+function runOf(api, { key, width, height, image, plate, layers = null, materials = null }) {
   const url = (/** @type {any} */ saved) => api.apiURL(`/view?${new URLSearchParams(saved)}`);
   const behind = plate ? url(plate) : api.apiURL(`/physanimator/plate/${key}`);
   const drawn = (layers?.drawn ?? []).map((/** @type {any} */ one, /** @type {number} */ number) => ({ ...one, url: api.apiURL(`/physanimator/layer/${key}/${number}`) }));
-  return { key, width, height, image: image ? url(image) : null, plate: behind, layers: layers && { layers: layers.layers, drawn } };
+  return { key, width, height, image: image ? url(image) : null, plate: behind, layers: layers && { layers: layers.layers, drawn }, materials };
 }
 
 /**

@@ -9,6 +9,7 @@
  * @property {(reference: Reference | null, changes: [string, any][], key: string) => void} change
  * @property {(kind: "circle" | "polygon" | "brush") => void} redrawRegion
  * @property {(radius: number) => void} brushSize
+ * @property {(target: import("../scene/materials.js").Target) => void} chooseBody
  */
 
 import { itemAt, LISTS } from "../scene/document.js";
@@ -16,6 +17,7 @@ import { CONTACT_FIELDS, fieldsOf, newMotion, SCENE_FIELDS, WIND_FIELDS } from "
 import { titleOf } from "../scene/items.js";
 import { element } from "./elements.js";
 import { fieldRow } from "./field_inputs.js";
+import { MaterialPanel } from "./material_panel.js";
 
 export class Inspector {
   /** @param {InspectorListener} listener */
@@ -23,6 +25,12 @@ export class Inspector {
     this.listener = listener;
     /** @type {any[]} on which depends what is shown */
     this.values = [];
+    this.material = new MaterialPanel(
+      (bodies, key) => this.listener.change(null, [["bodies", bodies]], key && `material.${key}`),
+      (target) => this.listener.chooseBody(target),
+    );
+    /** The body that is chosen, by its name or its number; -1 for none. */
+    this.body = { name: "", number: -1 };
     this.root = element("div", { className: "physanimator-inspector", role: "group", "aria-label": "Values" });
   }
 
@@ -41,7 +49,7 @@ export class Inspector {
     }
     this.subject = this.#subject(document, selection);
     const item = itemAt(document, selection);
-    const values = item ? [selection?.list, selection?.index, item, brush?.radius] : [brush?.radius, ...sceneValues(document)];
+    const values = item ? [selection?.list, selection?.index, item, brush?.radius] : [brush?.radius, ...sceneValues(document), this.material.materials, this.body.name, this.body.number];
     if (values.length === this.values.length && values.every((value, i) => value === this.values[i])) return;
     this.values = values;
     const rows = selection && item ? this.#itemRows(selection, item) : this.#sceneRows(document);
@@ -54,7 +62,7 @@ export class Inspector {
    */
   #subject(document, selection) {
     const item = itemAt(document, selection);
-    return selection && item ? `${selection.list}.${selection.index}.${item.motion?.type ?? ""}` : "scene";
+    return selection && item ? `${selection.list}.${selection.index}.${item.motion?.type ?? ""}` : `scene.${this.body.name}.${this.body.number}`;
   }
 
   /**
@@ -76,11 +84,15 @@ export class Inspector {
   #sceneRows(document) {
     /** @type {Change} */
     const change = (changes, key) => this.listener.change(null, changes, key && `scene.${key}`);
+    const material = this.material.rows(document, this.body);
+    const chosen = this.material.shows(document, this.body);
     return [
+      ...(chosen ? material : []),
       this.#heading("Scene"),
       ...SCENE_FIELDS.map((field) => fieldRow(field, document, change)),
       ...this.#section("Wind everywhere", "wind", document, WIND_FIELDS, change),
       ...this.#section("Contact", "contact", document, CONTACT_FIELDS, change),
+      ...(chosen ? [] : material),
     ];
   }
 

@@ -88,7 +88,7 @@ function blend(gl, mode) {
  * The body that is seen at a point, in front of all others.
  *
  * @param {Mesh} mesh
- * @param {DrawnLayer[]} layers  from back to front
+ * @param {Pick<DrawnLayer, "layer" | "body">[]} layers  from back to front
  * @param {Set<number>} unseen
  * @param {[number, number]} point  [px]
  * @param {Int16Array | null} displacements  [unit]

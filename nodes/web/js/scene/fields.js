@@ -149,6 +149,9 @@ export const SCENE_FIELDS = [
   number("frame_rate", "Frame rate", "frames/s", { default: 24, min: 1, max: 240, step: 1, hint: "How many frames a second has. The motion stays the same.", schema: "scene.frame_rate" }),
   number("loop", "Loop", "s", { optional: true, min: 0.1, max: 600, step: 0.5, hint: "Length of a seamless loop. Empty: no loop.", schema: "scene.loop" }),
   { path: "gravity", title: "Gravity", unit: "side/s²", kind: "pair", default: [0, 0], min: -LARGEST, max: LARGEST, step: 0.1, hint: "A steady pull on everything, x and y. 0 and 0.5 pull down gently.", schema: "scene.gravity" },
+  { path: "sag", title: "Sag", kind: "boolean", default: false, hint: "Bodies are drawn without their weight: gravity makes them sag from the first frame on.", schema: "scene.sag" },
+  { path: "strokes_as", title: "Strokes as", kind: "choice", default: "acceleration", choices: ["acceleration", "force", "vertex_force"], hint: "What strengths of strokes and wind are: an acceleration; a force, which moves density 4 a quarter as far; a force on each vertex, as the paper writes.", schema: "scene.strokes_as" },
+  number("time_step", "Time step", "s", { optional: true, min: 0.00001, max: 0.004, step: 0.0001, hint: "Step of plain semi-implicit Euler, 0.001 in the paper; refused where it is unstable. Empty: it follows from the mesh.", schema: "scene.time_step" }),
 ];
 
 /** @type {Field[]} */
