@@ -14,8 +14,9 @@ _NOTE = """\
 *physanimator_paper* takes what works without further files or looks better; this graph takes what the paper says.
 
 - **Segment Anything** cuts cape and hair out at the query points
-- meshes with **boundary points at equal distances**, and not fitted to the picture's outlines
-- materials by elastic constants alone: **no damping, no stretch limit, no stiffer roots**
+- meshes with **boundary points at equal distances** (*uniform*), and not fitted to the picture's outlines
+- materials by the **Lame parameters** alone: no damping, no stretch limit, no stiffer roots
+- **semi-implicit Euler with a step of 0.001 s**, strokes as forces, and bodies that sag under gravity
 - the **drawing network of Chan et al.**, its lines as they come
 - **the paper's warp weight**, and blurred sketches
 - video model without *keep_still_parts*
@@ -48,8 +49,8 @@ _POINTS = """\
  [872, 170, 0, 1], [940, 310, 0, 1], [880, 420, 0, 1],
  [510, 350, 0, 1], [1000, 310, 0, 1], [860, 265, 0, 1]]"""
 
-_ELASTIC = {"preset": "custom", "preset.damping": 0.0, "preset.stretch_limit": 0.0}
-_MESHED = {"spacing": 16.0, "elements_across": 1}
+_ELASTIC = {"preset": "lame", "preset.damping": 0.0, "preset.stretch_limit": 0.0}
+_MESHED = {"spacing": 16.0, "uniform": True}
 
 
 def paper_strict() -> tuple[Group, ...]:
@@ -68,7 +69,7 @@ def paper_strict() -> tuple[Group, ...]:
 
 
 def _bodies() -> tuple[Node, ...]:
-    cape, hair = _ELASTIC | {"preset.youngs_modulus": 12.0}, _ELASTIC | {"preset.youngs_modulus": 12.0}
+    cape, hair = _ELASTIC | {"preset.mu": 5.0, "preset.lambda": 7.0}, _ELASTIC | {"preset.mu": 5.0, "preset.lambda": 7.0}
     return (
         ours("mesh_cape", "MaskToMesh", 340, "Mask to Mesh: cape", _MESHED, mask="segment.mask"),
         ours("cloth", "Material", 0, "Material: cape", cape),
@@ -105,10 +106,11 @@ def _acting() -> tuple[Node, ...]:
 
 def _simulated() -> tuple[Node, ...]:
     acting = {"bodies": "body_hair.bodies", "strokes": "hand.strokes", "rig_points": "shoulder.rig_points"}
+    step = {"frames": 46, "time_step": 0.001, "strokes_as": "force", "sag": True}
     shown = {"image": "example.image", "motion": "simulate.motion", "scene": "scene.scene"}
     return (
         ours("scene", "Scene", **acting),
-        ours("simulate", "Simulate", 0, "", {"frames": 46}, scene="scene.scene"),
+        ours("simulate", "Simulate", 0, "", step, scene="scene.scene"),
         ours("preview", "PreviewMotion", 430, **shown),
     )
 
