@@ -11,6 +11,10 @@ import pytest
 from PIL import Image
 
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
+API = (Path(__file__).resolve().parents[2] / "workflows" / "api").glob("*.json")
+IN_WORKFLOWS = {node["class_type"] for path in API for node in json.loads(path.read_text(encoding="utf-8")).values()}
+RUN_HERE = {"FrameAsLayers", "LayersFromImageBatch", "SaveAnimation", "SaveLayers"}
+"""Nodes that stand in no published workflow, all of which are run in test_running_workflows.py."""
 FILE_TYPES = SCHEMAS["PhysAnimator_SaveAnimation"]["input"]["required"]["file_type"][1]["options"]
 
 
@@ -41,6 +45,10 @@ def moving_bar(frames: int = 4) -> dict[str, Any]:
 
 def pictures(standin: Any, outputs: dict[str, Any], key: str) -> np.ndarray:
     return np.stack([np.asarray(Image.open(standin.file(saved))).astype(int) for saved in outputs[key]["images"]])
+
+
+def test_every_node_is_run_here_or_in_a_workflow() -> None:
+    assert set(SCHEMAS) - IN_WORKFLOWS == {f"PhysAnimator_{name}" for name in RUN_HERE}
 
 
 def test_a_bar_moves_and_what_was_not_changed_is_not_computed_again(standin: Any) -> None:
