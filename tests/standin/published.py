@@ -12,7 +12,7 @@ from typing import Any
 
 from .choices import described
 
-__all__ = ["DESCRIBED", "filled", "graphs", "prompt_of", "shortened", "video_model_graphs"]
+__all__ = ["DESCRIBED", "filled", "graphs", "prompt_of", "shortened", "video_model_graphs", "without_beginnings"]
 
 _HOST = Path(__file__).resolve().parents[1] / "host"
 _NOTES = ("MarkdownNote", "Note")
@@ -52,6 +52,13 @@ def filled(kind: type, inputs: Mapping[str, Any]) -> dict[str, Any]:
         if not missing:
             return given
         given |= missing
+
+
+def without_beginnings(kind: type, inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """A node's inputs without the optional ones that are as their widgets begin."""
+    optional = described(kind.INPUT_TYPES(), inputs).optional
+    begins = {name: _beginning(*each) for name, each in optional.items()}
+    return {name: value for name, value in inputs.items() if name not in begins or value != begins[name]}
 
 
 def _beginning(kind: Any, options: Mapping[str, Any]) -> Any:
