@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable, Iterator
+from dataclasses import asdict
 from pathlib import Path
 
 import torch
@@ -16,7 +18,7 @@ from physanimator.rendering.tooncrafter import (
     UNetConfiguration,
 )
 from physanimator.rendering.tooncrafter.autoencoder import DualReferenceAutoencoder
-from physanimator.rendering.tooncrafter.models import ModelSizes
+from physanimator.rendering.tooncrafter.model_sizes import ModelSizes, sizes_file
 from physanimator.rendering.tooncrafter.resampler import ImageResampler
 from physanimator.rendering.tooncrafter.sketch_encoder import SketchEncoder
 from physanimator.rendering.tooncrafter.text_encoder import TextEncoder, TextEncoderConfiguration
@@ -80,6 +82,13 @@ def content(given: dict[str, Tensors], *, encoders: bool) -> Tensors:
         found |= {"cond_stage_model.model.logit_scale": torch.zeros(()), "embedder.mean": torch.zeros(3)}
         found |= {"betas": torch.zeros(1000), "scale_arr": torch.ones(1000)}
     return found
+
+
+def write_sizes(weights: Path, sizes: ModelSizes = TINY) -> Path:
+    """The document beside a file that tells the sizes of its networks."""
+    file = sizes_file(weights)
+    file.write_text(json.dumps(asdict(sizes)), encoding="utf-8")
+    return file
 
 
 def write_lightning(path: Path, given: dict[str, Tensors]) -> Path:

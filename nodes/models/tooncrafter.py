@@ -75,6 +75,7 @@ def _options(choice: dict[str, Any]) -> ToonCrafterOptions:
 
 
 def _networks(choice: dict[str, Any], device: torch.device) -> Networks[ToonCrafterModels]:
+    from ...rendering.tooncrafter.model_sizes import sizes_beside
     from ...rendering.tooncrafter.models import load_models
 
     model, sketch = model_file(choice["tooncrafter_model"]), None
@@ -85,8 +86,9 @@ def _networks(choice: dict[str, Any], device: torch.device) -> Networks[ToonCraf
         if sketch is None:
             raise InvalidInputError(_missing("sketch_model", choice["sketch_model"]))
     dtype = dtype_of(choice["precision"], device)
-    key = model, sketch, tuple(file.stat().st_mtime for file in (model, sketch) if file), dtype
-    return kept_networks("tooncrafter", key, lambda: load_models(model, sketch=sketch, dtype=dtype))
+    sizes = sizes_beside(model, sketch)
+    key = model, sketch, tuple(file.stat().st_mtime for file in (model, sketch) if file), dtype, sizes
+    return kept_networks("tooncrafter", key, lambda: load_models(model, sketch=sketch, dtype=dtype, sizes=sizes))
 
 
 def _with_kept_prompt(models: ToonCrafterModels, choice: dict[str, Any]) -> ToonCrafterModels:

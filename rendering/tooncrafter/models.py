@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
 
@@ -14,13 +14,9 @@ from ..networks.checkpoints import CheckpointError, below, network_of, read_chec
 from ..networks.image_encoder import ImageEncoder, ImageEncoderConfiguration
 from ..networks.image_encoder_names import from_open_clip
 from .autoencoder import DualReferenceAutoencoder
-from .configuration import (
-    AutoencoderConfiguration,
-    ResamplerConfiguration,
-    SketchEncoderConfiguration,
-    UNetConfiguration,
-)
+from .configuration import SketchEncoderConfiguration
 from .kept_prompt import keep_prompt, kept_prompt
+from .model_sizes import ModelSizes, sizes_beside
 from .resampler import ImageResampler
 from .sketch_encoder import SketchEncoder
 from .text_encoder import TextEncoder, TextEncoderConfiguration, empty_prompt, text_weights
@@ -45,18 +41,6 @@ _TEXT, _PICTURE = "cond_stage_model.model.", "embedder.model.visual."
 _SKETCH_PREFIXES = ("control_model.", "")
 
 Network = TypeVar("Network", bound=nn.Module)
-
-
-@dataclass(frozen=True)
-class ModelSizes:
-    """Sizes of all networks; the defaults are the public ones."""
-
-    unet: UNetConfiguration = field(default_factory=UNetConfiguration)
-    resampler: ResamplerConfiguration = field(default_factory=ResamplerConfiguration)
-    autoencoder: AutoencoderConfiguration = field(default_factory=AutoencoderConfiguration)
-    sketch: SketchEncoderConfiguration = field(default_factory=SketchEncoderConfiguration)
-    image_encoder: ImageEncoderConfiguration = field(default_factory=ImageEncoderConfiguration)
-    text_encoder: TextEncoderConfiguration = field(default_factory=TextEncoderConfiguration)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,12 +87,12 @@ def load_models(
         text_encoder: the text encoder, where the model's file holds none; only the empty prompt's embedding is kept,
             beside the model's file, so that the next time none is needed.
         dtype: in which all but the autoencoder compute.
-        sizes: of the networks; the public ones by default.
+        sizes: of the networks; by default what a document beside each file tells, else the public ones.
 
     Raises:
         CheckpointError: a file is missing, damaged or another one; it tells what is wrong and what is wanted.
     """
-    sizes = sizes or ModelSizes()
+    sizes = sizes or sizes_beside(model, sketch)
     tensors = read_checkpoint(model, wanted=WANTED_MODEL)
     for network in (InterpolationUNet, ImageResampler, DualReferenceAutoencoder):
         if not any(name.startswith(network.prefix) for name in tensors):

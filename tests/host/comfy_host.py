@@ -26,7 +26,7 @@ PACK = "PhysAnimator"
 STAND_IN = Path(__file__).with_name("see_through_stand_in")
 """A pack with the nodes of ComfyUI-See-through, without its models."""
 _START_SECONDS = 180
-_RUN_SECONDS = 300
+_RUN_SECONDS = 900
 
 
 class Host:

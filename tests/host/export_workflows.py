@@ -2,7 +2,7 @@
 
     COMFYUI_PATH=/path/to/ComfyUI /path/to/its/python tests/host/export_workflows.py [workflow ...]
 
-Without names, all of them. The graphs are described in graphs.py, layer_graphs.py and video_model_graphs.py. The
+Without names, all of them. The graphs are described in graphs.py and the files beside it that end like it. The
 frontend itself builds and serialises them: the files are what it would save; the API files are what it would post.
 """
 
@@ -25,10 +25,12 @@ from comfy_host import ROOT, Host
 from frame_interpolation_graph import NAME, with_frame_interpolation
 from graphs import WORKFLOWS, Group, without_models
 from layer_graphs import LAYER_WORKFLOWS
+from paper_graphs import PAPER_WORKFLOWS
+from showcase_graphs import SHOWCASE_WORKFLOWS
 from video_model_graphs import VIDEO_MODEL_WORKFLOWS, without_video_model
 
 SCHEMAS = ROOT / "tests" / "nodes" / "node_schemas.json"
-_WORKFLOWS = WORKFLOWS | LAYER_WORKFLOWS | VIDEO_MODEL_WORKFLOWS
+_WORKFLOWS = WORKFLOWS | PAPER_WORKFLOWS | SHOWCASE_WORKFLOWS | LAYER_WORKFLOWS | VIDEO_MODEL_WORKFLOWS
 _GAP = 40
 # The Vue canvas of newer frontends draws nodes taller than this one.
 _ROW_GAP = 75

@@ -518,9 +518,14 @@ WORKFLOWS = {
 
 
 def without_models(api: dict[str, Any]) -> dict[str, Any]:
-    """The workflow with the renderer and the in-betweens that need no model files."""
+    """The workflow with those choices that need no model files."""
     changed = copy.deepcopy(api)
-    for kind, choice, plain in (("Render", "renderer", "composite"), ("Interpolate", "backend", "motion")):
+    for kind, choice, plain in (
+        ("SegmentByPoints", "backend", "grabcut"),
+        ("ExtractSketch", "extractor", "difference of Gaussians"),
+        ("Render", "renderer", "composite"),
+        ("Interpolate", "backend", "motion"),
+    ):
         for node in changed.values():
             if node["class_type"] == f"PhysAnimator_{kind}":
                 kept = {name: value for name, value in node["inputs"].items() if not name.startswith(f"{choice}.")}

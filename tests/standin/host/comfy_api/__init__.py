@@ -1,0 +1,1 @@
+"""Stands in for the host's package of the same name."""
