@@ -210,7 +210,8 @@ class Interpolate(io.ComfyNode):
                     default="",
                     optional=True,
                     tooltip="Frame numbers of the keyframes, from 0, with commas between them, instead of every n-th."
-                    " Empty: every n-th.",
+                    " Frames before the first and after the last of them stay as they are; of keyframes alone the first"
+                    " is shown until its turn. Empty: every n-th.",
                 ),
                 io.Image.Input(
                     "image",
@@ -255,8 +256,10 @@ class Interpolate(io.ComfyNode):
         pictures = pictures_of(images, name="images", alpha=not drawn_by_model)
         at = _numbers_of(keyframes_at, images_are)
         keyframes, indices = _keyframes(pictures, images_are, every, at, known)
-        told = announce_batch(cls, indices[-1] + 1, pictures.shape[2], pictures.shape[1], channels=pictures.shape[3])
+        count = indices[-1] + 1 if images_are == _IMAGES_ARE[1] else len(pictures)
+        told = announce_batch(cls, count, pictures.shape[2], pictures.shape[1], channels=pictures.shape[3])
         sketches = choice.get("sketches")
+        before, after = _kept(pictures, images_are, indices)
         frames = interpolate(
             list(keyframes),
             indices,
@@ -266,8 +269,10 @@ class Interpolate(io.ComfyNode):
             sketches=() if sketches is None else list(pictures_of(sketches, name="sketches")),
             find_file=find_model_file,
             progress=None if drawn_by_model else host_progress(),
+            before=before,
+            after=after,
         )
-        return io.NodeOutput(batch_of_pictures(frames, indices[-1] + 1), ui=told or None)
+        return io.NodeOutput(batch_of_pictures(frames, count), ui=told or None)
 
 
 def _shown_masks(
@@ -292,8 +297,6 @@ def _numbers_of(keyframes_at: str, images_are: str | None) -> tuple[int, ...]:
     if images_are == _IMAGES_ARE[1] and at:
         rising = all(one < next_one for one, next_one in pairwise(at))
         require("keyframes_at", keyframes_at[:60], rising, "increasing frame numbers, one for each keyframe")
-        # Nothing says what is to be seen before it.
-        require("keyframes_at", keyframes_at[:60], at[0] == 0, "0 for the first keyframe: the clip begins with it")
     return at
 
 
@@ -309,3 +312,12 @@ def _keyframes(
         return pictures, list(at) or regular
     indices = keyframe_indices(len(pictures), every, at=at)
     return pictures[indices], indices
+
+
+def _kept(
+    pictures: NDArray[Any], images_are: str, indices: list[int]
+) -> tuple[list[NDArray[Any]], list[NDArray[Any]]]:
+    """What is shown before the first keyframe and after the last."""
+    if images_are == _IMAGES_ARE[1]:
+        return [pictures[0]] * indices[0], []
+    return list(pictures[: indices[0]]), list(pictures[indices[-1] + 1 :])
