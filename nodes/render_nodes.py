@@ -314,9 +314,7 @@ def _keyframes(
     return pictures[indices], indices
 
 
-def _kept(
-    pictures: NDArray[Any], images_are: str, indices: list[int]
-) -> tuple[list[NDArray[Any]], list[NDArray[Any]]]:
+def _kept(pictures: NDArray[Any], images_are: str, indices: list[int]) -> tuple[list[NDArray[Any]], list[NDArray[Any]]]:
     """What is shown before the first keyframe and after the last."""
     if images_are == _IMAGES_ARE[1]:
         return [pictures[0]] * indices[0], []

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ..physics.errors import require
 from ..physics.scene import Contact, Scene, check_scene_rate
-from .animation import StageProgress
 from .drawing_checks import check_count
+from .stages import StageProgress
 
 __all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "AutomaticWind", "LayerChoice", "Timing", "Touching", "Watch"]
 

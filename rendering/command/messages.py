@@ -11,7 +11,7 @@ from typing import IO, TYPE_CHECKING, Any
 from ...physics.errors import printable
 
 if TYPE_CHECKING:
-    from ..animation import StageProgress
+    from ..stages import StageProgress
 
 __all__ = ["printable_streams", "progress_bars", "say", "show", "warn"]
 

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...physics.assembly import SimulationPlan
-    from ..animation import Animation, StageProgress
+    from ..animation import Animation
+    from ..stages import StageProgress
 
 __all__ = ["background_for", "check_layers", "check_outputs", "check_sizes", "report", "write_outputs"]
 

@@ -8,8 +8,8 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..animation import StageProgress
     from ..options import Watch
+    from ..stages import StageProgress
 
 __all__ = ["progress_of", "watch_of"]
 

@@ -78,9 +78,7 @@ def test_advice_is_in_the_history_of_a_run_without_a_browser(host: Any) -> None:
     assert f"PhysAnimator, Simulate: {sentence}" in host.log
 
 
-@pytest.mark.parametrize(
-    ("at", "sentence"), [("0, 9, 5", "increasing"), ("3, 3", "increasing"), ("-1, 4", "from 0")]
-)
+@pytest.mark.parametrize(("at", "sentence"), [("0, 9, 5", "increasing"), ("3, 3", "increasing"), ("-1, 4", "from 0")])
 def test_keyframes_that_no_clip_has_are_refused_before_any_work(host: Any, at: str, sentence: str) -> None:
     filled = ours("Interpolate", images=["keys", 0], images_are="keyframes", every=5, backend="blend", keyframes_at=at)
     keys = core("EmptyImage", width=64, height=32, batch_size=2, color=0)
