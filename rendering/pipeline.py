@@ -19,12 +19,12 @@ from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
 from ..physics.process_end import working
 from ..physics.scene import Attachment, Collider, Contact, Scene, automatic_scene
-from ..physics.simulation import loop_frames, simulate
+from ..physics.simulation import simulate
 from .animation import Animation, timed
 from .drawing_checks import check_drawing
 from .neural import NetworkOptions
 from .neural.checking import check_networks, naming_files
-from .options import DEFAULT_FRAME_RATE, DEFAULT_FRAMES, AutomaticWind, LayerChoice, Timing, Touching, Watch
+from .options import DEFAULT_FRAME_RATE, AutomaticWind, LayerChoice, Timing, Touching, Watch
 from .parts import OF_STRANDS, Parts, about, coverage, coverages, parts_of_artwork, parts_of_picture
 from .pictures import as_picture, over
 from .stages import stage_of
@@ -143,7 +143,7 @@ def animate(
         parts, whole = how.automatic(parts) if scene is None else how.given(parts, scene)
         whole = replace(whole, still=parts.still) if parts.still else whole
         whole = parts.covered(whole if timing.loop is None else replace(whole, loop=timing.loop))
-        timing = _settled(timing, whole)
+        timing = timing.settled(whole)
         _check_length(timing, whole, networks)
         whole = _touching(whole, touching.contact, _colliders(touching.colliders, parts.image, parts.layer_mask))
     if watch.on_scene is not None:
@@ -272,14 +272,6 @@ def _split_by(scene: Scene | Mapping[str, Any], count: int) -> list[bool]:
     else:
         said = [bool(body.get("strands")) for body in scene.get("bodies", [])]
     return [*said, *[False] * count][:count]
-
-
-def _settled(timing: Timing, scene: Scene) -> Timing:
-    """The timing with its number of frames, which may follow from the scene's loop."""
-    if timing.frames is not None:
-        return timing
-    frames = DEFAULT_FRAMES if scene.loop is None else loop_frames(scene) + timing.skip
-    return replace(timing, frames=frames)
 
 
 def _check_length(timing: Timing, scene: Scene, networks: NetworkOptions) -> None:

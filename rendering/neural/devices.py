@@ -5,9 +5,11 @@ from __future__ import annotations
 import torch
 
 from ...physics.errors import InvalidInputError, require
+from ..networks.memory import peak_memory
 from ..networks.placement import Placement
+from .options import NetworkOptions
 
-__all__ = ["device_of", "dtype_of", "placement_on"]
+__all__ = ["device_of", "dtype_of", "most_memory", "placement_on"]
 
 _TYPES = {"fp32": torch.float32, "fp16": torch.float16, "bf16": torch.bfloat16}
 
@@ -46,3 +48,9 @@ def dtype_of(name: str, device: torch.device) -> torch.dtype:
 def placement_on(device: torch.device) -> Placement:
     """The device for networks that come to it one after another; memory of a GPU is given back between them."""
     return Placement(device, left=torch.cuda.empty_cache) if device.type == "cuda" else Placement(device)
+
+
+def most_memory(options: NetworkOptions) -> tuple[str, str]:
+    """The device, and the most memory that was used on it, or by the process where it is the CPU, in words."""
+    device = device_of(options.device)
+    return str(device), f"{peak_memory(device) / 2**30:.1f} GiB"
