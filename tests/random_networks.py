@@ -72,4 +72,5 @@ def write(folder: Path, kind: str) -> dict[str, Path]:
 def _weights() -> tuple[Any, ...]:
     drawer = build_without_storage(lambda: InformativeDrawings(InformativeDrawingsConfiguration()))
     lines = random_svd.random_weights(drawer, 9)
-    return random_svd.weights(), random_tooncrafter.weights(), lines, random_sam.random_network("sam")
+    # This seed's network cuts a piece of some size out of a picture with a dark bar, where others take all or nothing.
+    return random_svd.weights(), random_tooncrafter.weights(), lines, random_sam.random_network("sam", seed=28)

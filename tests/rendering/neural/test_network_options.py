@@ -19,8 +19,10 @@ from physanimator.rendering.neural import NetworkOptions
 from physanimator.rendering.neural import drawing as neural_drawing
 from physanimator.rendering.neural.checking import check_networks
 from physanimator.rendering.neural.devices import device_of, dtype_of
-from physanimator.rendering.options import Timing
+from physanimator.rendering.options import Timing, Watch
 from physanimator.rendering.pipeline import animate
+from physanimator.rendering.segmentation import Prompt
+from physanimator.rendering.segmentation.sam.segmenter import SamSegmenter
 from physanimator.rendering.sketch import extract_sketch
 from physanimator.rendering.svd import SVDOptions
 from physanimator.rendering.tooncrafter import ToonCrafterOptions
@@ -146,6 +148,24 @@ def test_keyframes_are_those_of_the_whole_clip(drawing: NetworkOptions, files: d
     whole, some = frames(animation), frames(animation, keyframes_at=[1, 4])
     np.testing.assert_array_equal(some[[0, 1, 4, 5]], whole[[0, 1, 4, 5]])
     np.testing.assert_allclose(some[2], (2 * whole[1] + whole[4]) / 3, atol=1e-6)
+
+
+@pytest.mark.parametrize("kind", ["folder", "single"])
+def test_parts_are_cut_by_segment_anything(kind: str, tmp_path: Path) -> None:
+    sam = random_networks.write(tmp_path, kind)["sam"]
+    cut: list[NDArray[Any]] = []
+    watch, points = Watch(on_cut=cut.extend), "42,30,1\n80,60,0\n"
+    animate(
+        PICTURE,
+        points=[points],
+        strands=False,
+        timing=Timing(frames=1),
+        watch=watch,
+        networks=NetworkOptions(segmenter="sam", sam=sam),
+    )
+    (expected,), _ = SamSegmenter.load(sam).segment(PICTURE, [Prompt([(42, 30), (80, 60)], [1, 0])])
+    np.testing.assert_array_equal(cut, [expected])
+    assert 0.1 < expected.mean() < 0.9
 
 
 def test_sketches_lead_the_in_betweens(filling: NetworkOptions) -> None:
