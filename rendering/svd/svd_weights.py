@@ -126,7 +126,7 @@ def _sizes_told(folder: Path) -> ModelSizes:
         return ModelSizes(_network_sizes(unet), _channels(vae["block_out_channels"]), _encoder_sizes(encoder))
     except KeyError as error:
         raise CheckpointError(f"{folder} does not fit: a config.json lacks {error}. Wanted: {WANTED_SVD}") from error
-    except (InvalidInputError, OSError, RecursionError, TypeError, ValueError, ZeroDivisionError) as error:
+    except (IndexError, InvalidInputError, OSError, RecursionError, TypeError, ValueError) as error:
         raise CheckpointError(
             f"{folder} does not fit: a config.json does not tell the sizes of such a network. Wanted: {WANTED_SVD}"
         ) from error
@@ -170,6 +170,8 @@ def _tensors(folder: Path, *stems: str) -> dict[str, Tensor]:
 
 def _network_sizes(config: Mapping[str, Any]) -> NetworkConfiguration:
     channels, heads = _channels(config["block_out_channels"]), config["num_attention_heads"]
+    first = heads[0] if isinstance(heads, list) else heads
+    check_whole("num_attention_heads", first, 1, channels[0])
     return replace(
         NetworkConfiguration(),
         in_channels=_whole(config, "in_channels", _MOST_CHANNELS),
@@ -180,7 +182,7 @@ def _network_sizes(config: Mapping[str, Any]) -> NetworkConfiguration:
         attention_at_levels=tuple(
             level for level, kind in enumerate(config["down_block_types"]) if str(kind).startswith("CrossAttn")
         ),
-        num_head_channels=channels[0] // (heads if isinstance(heads, int) else heads[0]),
+        num_head_channels=channels[0] // int(first),
         context_dim=_whole(config, "cross_attention_dim", _MOST_CHANNELS),
         adm_in_channels=_whole(config, "projection_class_embeddings_input_dim", _MOST_CHANNELS),
         ids_embed_dim=_whole(config, "addition_time_embed_dim", _MOST_CHANNELS),
