@@ -24,8 +24,10 @@ from .host import (
     picture_with_alpha,
     pictures_of,
     refusal,
+    sent_inputs,
     whole_numbers_of,
 )
+from .host.running import is_linked
 from .host.wires import MaskedMotion, MotionWire
 from .models import find_model_file
 from .models.svd import missing_svd_files, svd_frames
@@ -45,7 +47,7 @@ __all__ = ["Interpolate", "Render"]
 
 _COMPOSITE, _SVD = "composite", "sketch-guided SVD"
 _TOONCRAFTER = "tooncrafter"
-_FRAMES, _ALPHA = 0, 1  # numbers of the outputs
+_FRAMES, _ALPHA, _PLATE = 0, 1, 2  # numbers of the outputs
 _IMAGES_ARE = ("all frames", "keyframes")
 
 
@@ -60,7 +62,12 @@ class Render(io.ComfyNode):
             " a video model that follows sketches.",
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
-                MotionWire.Input("motion", tooltip="From Simulate; it carries the masks along."),
+                MotionWire.Input(
+                    "motion",
+                    optional=True,
+                    tooltip="From Simulate; it carries the masks along. sketch-guided SVD draws without it, too, if"
+                    " keep_still_parts is off.",
+                ),
                 io.DynamicCombo.Input(
                     "renderer",
                     options=[
@@ -95,17 +102,22 @@ class Render(io.ComfyNode):
         cls, renderer: dict[str, Any] | None = None, background: dict[str, Any] | None = None, **others: Any
     ) -> bool | str:
         # Before the simulation, not after it. The host hands over what a choice brings only if every input is taken.
-        return missing_svd_files(renderer or {}) or refusal(lambda: background_chosen(background))
+        sent = sent_inputs() or {"motion": []}
+        checks = [lambda: background_chosen(background)]
+        if "motion" not in sent:
+            checks.append(lambda: _check_without_motion(renderer, plate="clean_plate" in sent))
+        return missing_svd_files(renderer or {}) or refusal(*checks)
 
     @classmethod
     def fingerprint_inputs(cls, **inputs: Any) -> list[bool]:
-        return [is_wanted(_FRAMES), is_wanted(_ALPHA)]
+        plate = is_wanted(_PLATE) and "motion" not in (sent_inputs() or {"motion": []})
+        return [is_wanted(_FRAMES), is_wanted(_ALPHA), *[True] * plate]
 
     @classmethod
     def execute(
         cls,
         image: torch.Tensor,
-        motion: MaskedMotion,
+        motion: MaskedMotion | None = None,
         renderer: dict[str, Any] | None = None,
         clean_plate: torch.Tensor | None = None,
         background: dict[str, Any] | None = None,
@@ -122,6 +134,9 @@ class Render(io.ComfyNode):
             transparent = behind.has_alpha or pixel_art
             require("background", behind.kind, not transparent, "opaque, and pixel_art off, with sketch-guided SVD")
             picture, plate = over(picture, behind.colour), plate if plate is None else over(plate, behind.colour)
+        if motion is None:
+            _check_without_motion(renderer, plate=plate is not None)
+            return _from_sketches(cls, picture, plate, renderer or {})
         drawing = drawing_of(motion, picture, plate=plate, pixel_art=pixel_art, in_front=in_front)
         count, (height, width) = len(motion.motion), picture.shape[:2]
         frames = picture_batch(count) if is_wanted(_FRAMES) else None
@@ -133,14 +148,49 @@ class Render(io.ComfyNode):
             told = all_told(told, hint_of_pixel_art(cls, picture))
         told = all_told(told, told_of_another_picture(cls, motion, picture))
         layers = drawing(motion.motion)
-        if by_model and frames is not None:
-            for frame in svd_frames(picture, layers, renderer):
+        if renderer is not None and by_model and frames is not None:
+            for frame in svd_frames(picture, _sketches_of(renderer), layers, renderer):
                 frames.put(frame)
         _compose(layers, behind, None if by_model else frames, alpha)
         both = (("frames", frames), ("alpha", alpha))
         made = [not_made(name) if batch is None else batch.tensor for name, batch in both]
         behind_all = layers.plate if behind.has_alpha else over(layers.plate, behind.colour)
         return io.NodeOutput(*made, batch_of_pictures([behind_all], 1), ui=told or None)
+
+
+def _check_without_motion(renderer: dict[str, Any] | None, *, plate: bool) -> None:
+    """Raise where something is asked for that only a motion can tell.
+
+    Args:
+        renderer: the choice, with what it brings.
+        plate: a clean plate is connected.
+    """
+    choice = renderer or {"renderer": _COMPOSITE}
+    wants = {
+        "for the renderer composite, which moves the picture's own pixels": choice.get("renderer") != _SVD,
+        "or keep_still_parts switched off, as it tells which parts are still": choice.get("keep_still_parts"),
+        "where alpha is, which shows the moving parts": is_linked(_ALPHA) is True,
+        "where the output clean_plate is, or the input clean_plate": is_linked(_PLATE) is True and not plate,
+    }
+    for reason, wanted in wants.items():
+        require("motion", "nothing", not wanted, f"connected {reason}")
+
+
+def _sketches_of(choice: dict[str, Any]) -> list[NDArray[Any]]:
+    return list(pictures_of(choice["sketches"], name="sketches"))
+
+
+def _from_sketches(
+    node: Any, picture: NDArray[Any], plate: NDArray[Any] | None, choice: dict[str, Any]
+) -> io.NodeOutput:
+    """What the video model draws of the illustration and its sketches alone."""
+    sketches, made = _sketches_of(choice), not_made("frames")
+    told: dict[str, list[str]] = {}
+    if is_wanted(_FRAMES):
+        told = announce_batch(node, len(sketches), picture.shape[1], picture.shape[0])
+        made = batch_of_pictures(svd_frames(picture, sketches, None, choice), len(sketches))
+    behind = not_made("clean_plate") if plate is None else batch_of_pictures([plate], 1)
+    return io.NodeOutput(made, not_made("alpha"), behind, ui=told or None)
 
 
 def _compose(
@@ -210,7 +260,8 @@ class Interpolate(io.ComfyNode):
                     default="",
                     optional=True,
                     tooltip="Frame numbers of the keyframes, from 0, with commas between them, instead of every n-th."
-                    " Empty: every n-th.",
+                    " Frames before the first and after the last of them stay as they are; of keyframes alone the first"
+                    " is shown until its turn. Empty: every n-th.",
                 ),
                 io.Image.Input(
                     "image",
@@ -255,8 +306,10 @@ class Interpolate(io.ComfyNode):
         pictures = pictures_of(images, name="images", alpha=not drawn_by_model)
         at = _numbers_of(keyframes_at, images_are)
         keyframes, indices = _keyframes(pictures, images_are, every, at, known)
-        told = announce_batch(cls, indices[-1] + 1, pictures.shape[2], pictures.shape[1], channels=pictures.shape[3])
+        count = indices[-1] + 1 if images_are == _IMAGES_ARE[1] else len(pictures)
+        told = announce_batch(cls, count, pictures.shape[2], pictures.shape[1], channels=pictures.shape[3])
         sketches = choice.get("sketches")
+        before, after = _kept(pictures, images_are, indices)
         frames = interpolate(
             list(keyframes),
             indices,
@@ -266,8 +319,10 @@ class Interpolate(io.ComfyNode):
             sketches=() if sketches is None else list(pictures_of(sketches, name="sketches")),
             find_file=find_model_file,
             progress=None if drawn_by_model else host_progress(),
+            before=before,
+            after=after,
         )
-        return io.NodeOutput(batch_of_pictures(frames, indices[-1] + 1), ui=told or None)
+        return io.NodeOutput(batch_of_pictures(frames, count), ui=told or None)
 
 
 def _shown_masks(
@@ -292,8 +347,6 @@ def _numbers_of(keyframes_at: str, images_are: str | None) -> tuple[int, ...]:
     if images_are == _IMAGES_ARE[1] and at:
         rising = all(one < next_one for one, next_one in pairwise(at))
         require("keyframes_at", keyframes_at[:60], rising, "increasing frame numbers, one for each keyframe")
-        # Nothing says what is to be seen before it.
-        require("keyframes_at", keyframes_at[:60], at[0] == 0, "0 for the first keyframe: the clip begins with it")
     return at
 
 
@@ -309,3 +362,10 @@ def _keyframes(
         return pictures, list(at) or regular
     indices = keyframe_indices(len(pictures), every, at=at)
     return pictures[indices], indices
+
+
+def _kept(pictures: NDArray[Any], images_are: str, indices: list[int]) -> tuple[list[NDArray[Any]], list[NDArray[Any]]]:
+    """What is shown before the first keyframe and after the last."""
+    if images_are == _IMAGES_ARE[1]:
+        return [pictures[0]] * indices[0], []
+    return list(pictures[: indices[0]]), list(pictures[indices[-1] + 1 :])

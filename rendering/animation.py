@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -13,27 +13,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError, require
-from ..physics.mesh import coverage_of
 from ..physics.motion import Motion
 from ..physics.scene import Scene
-from .composite import Background, background_of, shown_frame, usual_background
+from .composite import Background, background_of, usual_background
 from .drawing_checks import check_drawing, height_at
 from .files import check_text_output, write_text
+from .frame_drawing import FrameDrawing
+from .inbetweens import keyframe_indices
+from .neural import NetworkOptions
 from .pictures import check_output, holds_alpha, is_transparent, over, resized, write_animation
+from .stages import StageProgress
 
 if TYPE_CHECKING:
     from .artwork import Artwork
     from .composite import LayeredRenderer, PixelArtRenderer
 
-__all__ = ["Animation", "StageProgress", "timed"]
+__all__ = ["Animation", "timed"]
 
 Image = NDArray[Any]
 Mask = NDArray[Any]
 StrPath = str | os.PathLike[str]
 T = TypeVar("T")
 
-StageProgress = Callable[[str, int, int], None]
-"""Called with (stage, done, total) while something takes time; may raise to stop the work."""
+_NO_NETWORKS = NetworkOptions()
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +51,7 @@ class Animation:
         first: number of the motion's first frame that is shown; the ones before let the motion settle in.
         own: each part alone, straight RGBA as large as the illustration; empty where it is known from masks alone.
         seconds: how long each stage took [s], by its name, in the order of the work.
+        networks: which networks draw frames, in-betweens and lines.
     """
 
     image: Image
@@ -59,6 +62,7 @@ class Animation:
     first: int = 0
     seconds: dict[str, float] = field(default_factory=dict)
     own: Sequence[Image] = ()
+    networks: NetworkOptions = _NO_NETWORKS
 
     def __len__(self) -> int:
         """Number of frames that are shown."""
@@ -77,18 +81,21 @@ class Animation:
         return range(self.first, len(self.motion))
 
     def background(self, text: str | None = None, *, file_has_alpha: bool = True) -> Background:
-        """The background of a name or colour; without one, transparency stays where the file can hold it.
+        """The background of a name or colour; without one, transparency stays where frames and the file can hold it.
 
         Args:
             text: see :func:`~physanimator.rendering.composite.background_of`.
             file_has_alpha: what is written can hold transparency.
 
         Raises:
-            InvalidInputError: there is no such background.
+            InvalidInputError: there is no such background, or the renderer does not draw on it.
         """
-        if text is None:
-            return usual_background(transparent_picture=is_transparent(self.image), file_has_alpha=file_has_alpha)
-        return background_of(text)
+        if text is not None:
+            chosen = background_of(text)
+            check_drawing(transparent=chosen.has_alpha, by_model=self.networks.draws_all)
+            return chosen
+        held = file_has_alpha and not self.networks.draws_all
+        return usual_background(transparent_picture=is_transparent(self.image), file_has_alpha=held)
 
     def frames(
         self,
@@ -97,29 +104,33 @@ class Animation:
         every: int = 1,
         progress: StageProgress | None = None,
         background: str | None = None,
+        keyframes_at: Sequence[int] = (),
     ) -> Iterator[Image]:
         """The pictures of the animation, one after another: RGB, or straight RGBA where they have transparency.
 
         Args:
             transparent: short for the background "transparent".
-            every: draw each so many-th frame anew and fill in the others from the known motion.
-            progress: called after each frame with the stage "render".
+            every: draw each so many-th frame anew and fill in the others from the known motion, or as ``networks`` say.
+            progress: called after each frame with the stage "render", and with each step of a video model with "svd" or
+                "tooncrafter".
             background: what is there where nothing moves: "picture", "transparent", "parts" or a colour (see
-                :mod:`~physanimator.rendering.composite.background`); None keeps the transparency that the picture has.
+                :mod:`~physanimator.rendering.composite.background`); None keeps the transparency that the picture has,
+                if it is not drawn by a video model.
+            keyframes_at: numbers of the frames that are drawn, from 0, instead of each so many-th; frames before the
+                first and after the last of them are drawn as well.
 
         Raises:
-            InvalidInputError: in-betweens and transparency are asked for together, or the background is unknown.
+            InvalidInputError: in-betweens, or a video model's frames, and transparency are asked for together, the
+                background is unknown, or there is no such frame.
         """
         check_drawing(every=every)
+        at = keyframe_indices(len(self), every, at=keyframes_at) if every > 1 or keyframes_at else []
         chosen = self.background("transparent" if transparent and background is None else background)
-        if background is None and not transparent and every > 1:
+        if background is None and not transparent and at:
             chosen = Background()
-        check_drawing(transparent=chosen.has_alpha, every=every, pixel_art=self.pixel_art)
-        pictures: Iterable[Image]
-        if every > 1:
-            pictures = self._with_in_betweens(every, chosen)
-        else:
-            pictures = (shown_frame(self.renderer, t, chosen) for t in self.shown)
+        check_drawing(transparent=chosen.has_alpha, in_betweens=bool(at), pixel_art=self.pixel_art)
+        drawing = self._drawing
+        pictures = drawing.with_in_betweens(at, chosen, progress) if at else drawing.frames(chosen, progress)
         return self._measured("render", pictures, progress)
 
     def layers(self, t: int) -> Artwork:
@@ -177,16 +188,7 @@ class Animation:
 
     def sketches(self, *, progress: StageProgress | None = None) -> Iterator[Image]:
         """The line drawing of the illustration, warped along the motion: float32 0..1, shape [h, w], lines dark."""
-        from ..physics.motion import FlowSequence
-        from .sketch import extract_sketch, warped_sketches
-
-        def drawn() -> Iterator[Image]:
-            sketch, behind = extract_sketch(over(self.image)), extract_sketch(over(self.renderer.plate))
-            own = [extract_sketch(over(part)) for part in self.own] or None
-            warped = warped_sketches(sketch, FlowSequence(self.motion), self.shown, behind=behind, own=own)
-            yield from (each.sketch for each in warped)
-
-        return self._measured("sketch", drawn(), progress)
+        return self._measured("sketch", self._drawing.sketches(), progress)
 
     def flows(self, *, progress: StageProgress | None = None) -> Iterator[Image]:
         """The optical flow from the drawing as colours, on one scale for the whole clip."""
@@ -216,6 +218,7 @@ class Animation:
         width: int | None = None,
         progress: StageProgress | None = None,
         background: str | None = None,
+        keyframes_at: Sequence[int] = (),
     ) -> None:
         """Write the animation to a video, an animated picture or a folder of pictures.
 
@@ -224,18 +227,20 @@ class Animation:
             transparent: see :meth:`frames`.
             every: see :meth:`frames`.
             width: width of the written frames [px]; that of the illustration when None.
-            progress: called after each frame with the stage "render".
+            progress: see :meth:`frames`.
             background: see :meth:`frames`; None keeps the picture's transparency if the file can hold it.
+            keyframes_at: see :meth:`frames`.
 
         Raises:
             InvalidInputError: nothing can be written there, or the background is unknown.
         """
         check_drawing(every=every)
         name = "transparent" if transparent and background is None else background
-        if name is None and (every > 1 or not holds_alpha(path)):
+        if name is None and (every > 1 or keyframes_at or self.networks.draws_all or not holds_alpha(path)):
             name = "picture"
         check_output(path, alpha=self.background(name).has_alpha)
-        self.write(self.frames(every=every, progress=progress, background=name), path, width=width)
+        pictures = self.frames(every=every, progress=progress, background=name, keyframes_at=keyframes_at)
+        self.write(pictures, path, width=width)
 
     def write(self, pictures: Iterable[Image], path: StrPath, *, width: int | None = None) -> None:
         """Write any of the clips of this animation, at its frame rate; see :func:`write_animation`.
@@ -322,15 +327,9 @@ class Animation:
         check_text_output(path, ".json")
         write_text(path, tracks(self.shown_motion, **options).to_json() + "\n")
 
-    def _with_in_betweens(self, every: int, background: Background) -> Iterator[Image]:
-        from .inbetweens import interpolate, keyframe_indices
-        from .matting import shown_part
-
-        indices = [self.first + t for t in keyframe_indices(len(self), every)]
-        keyframes = [shown_frame(self.renderer, t, background) for t in indices]
-        masks = [coverage_of(mask) for mask in self.masks]
-        shown = masks if self.own else [shown_part(self.image, mask) for mask in masks]
-        yield from interpolate(keyframes, indices, motion=self.motion, masks=shown)
+    @property
+    def _drawing(self) -> FrameDrawing:
+        return FrameDrawing(self.image, self.masks, self.own, self.motion, self.renderer, self.first, self.networks)
 
     def _measured(self, stage: str, pictures: Iterable[T], progress: StageProgress | None) -> Iterator[T]:
         iterator = iter(pictures)

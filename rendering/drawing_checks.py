@@ -29,20 +29,32 @@ def check_count(name: str, value: object, *, least: int = 1, unit: str = "frame"
     require(name, value, whole and int(value) >= least, expected)  # type: ignore[call-overload]
 
 
-def check_drawing(*, transparent: bool = False, every: int = 1, pixel_art: bool = False) -> None:
+def check_drawing(
+    *,
+    transparent: bool = False,
+    every: int = 1,
+    pixel_art: bool = False,
+    in_betweens: bool = False,
+    by_model: bool = False,
+) -> None:
     """Refuse ways to draw frames that do not go together.
 
     Args:
         transparent: frames have an alpha channel.
         every: draw each so many-th frame anew and fill in the others.
         pixel_art: pixels are moved whole, and no colours mixed.
+        in_betweens: frames are filled in, whatever ``every`` is.
+        by_model: a video model draws the frames.
 
     Raises:
-        InvalidInputError: ``every`` is no number of frames, or in-betweens are asked for together with transparency or
-            with pixel art.
+        InvalidInputError: ``every`` is no number of frames, or in-betweens or a video model are asked for together with
+            transparency or with pixel art.
     """
     check_count("every", every)
-    if every == 1:
+    if by_model and (pixel_art or transparent):
+        got = "pixel art" if pixel_art else "transparency"
+        raise InvalidInputError(f"frames that a video model draws must be opaque, and no pixel art. Got: {got}")
+    if every == 1 and not in_betweens:
         return
     if pixel_art:
         raise InvalidInputError("frames of pixel art must be drawn one by one. Got: in-betweens as well")

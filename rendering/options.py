@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from numpy.typing import NDArray
 
 from ..physics.errors import require
 from ..physics.scene import Contact, Scene, check_scene_rate
-from .animation import StageProgress
+from ..physics.simulation import loop_frames
 from .drawing_checks import check_count
+from .stages import StageProgress
 
 __all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "AutomaticWind", "LayerChoice", "Timing", "Touching", "Watch"]
 
@@ -50,6 +51,13 @@ class Timing:
             )
         if self.frame_rate is not None:
             check_scene_rate(self.frame_rate)
+
+    def settled(self, scene: Scene) -> Timing:
+        """The timing with its number of frames, which may follow from the scene's loop."""
+        if self.frames is not None:
+            return self
+        frames = DEFAULT_FRAMES if scene.loop is None else loop_frames(scene) + self.skip
+        return replace(self, frames=frames)
 
 
 @dataclass(frozen=True)

@@ -8,24 +8,27 @@ animate(picture, [mask], preset="hair").save("girl.mp4")
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
 from ..physics.assembly import work_of_minutes
-from ..physics.document import LayerMasks, arranged_for, given_scene, materials_of
+from ..physics.document import LayerMasks, arranged_for, check_document, given_scene, materials_of
 from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
 from ..physics.process_end import working
-from ..physics.progress import Progress
-from ..physics.scene import Attachment, Body, Collider, Contact, Scene, automatic_scene
-from ..physics.simulation import loop_frames, simulate
-from .animation import Animation, StageProgress, timed
-from .options import DEFAULT_FRAME_RATE, DEFAULT_FRAMES, AutomaticWind, LayerChoice, Timing, Touching, Watch
-from .parts import OF_STRANDS, about, coverage, coverages, parts_of_artwork, parts_of_picture
+from ..physics.scene import Attachment, Collider, Contact, Scene, automatic_scene
+from ..physics.simulation import simulate
+from .animation import Animation, timed
+from .drawing_checks import check_drawing
+from .neural import NetworkOptions
+from .neural.checking import check_networks, naming_files
+from .options import DEFAULT_FRAME_RATE, AutomaticWind, LayerChoice, Timing, Touching, Watch
+from .parts import OF_STRANDS, Parts, about, coverage, coverages, parts_of_artwork, parts_of_picture
 from .physics_options import PhysicsOptions
 from .pictures import as_picture, over
+from .stages import stage_of
 
 if TYPE_CHECKING:
     from .artwork import Artwork
@@ -36,8 +39,7 @@ Image = NDArray[Any]
 Mask = NDArray[Any]
 
 _USUAL_WIND, _USUAL_TIMING, _AS_THE_SCENE_SAYS, _NOBODY = AutomaticWind(), Timing(), Touching(), Watch()
-_BY_THEIR_NAMES = LayerChoice()
-_USUAL_PHYSICS = PhysicsOptions()
+_BY_THEIR_NAMES, _NO_NETWORKS, _USUAL_PHYSICS = LayerChoice(), NetworkOptions(), PhysicsOptions()
 
 
 @working()
@@ -62,6 +64,7 @@ def animate(
     max_minutes: float = DEFAULT_MINUTES,
     physics: PhysicsOptions = _USUAL_PHYSICS,
     watch: Watch = _NOBODY,
+    networks: NetworkOptions = _NO_NETWORKS,
 ) -> Animation:
     """Set parts of an illustration in motion.
 
@@ -96,6 +99,8 @@ def animate(
             would take longer is refused before it begins.
         physics: what parts are made of and how their motion is computed, where not as presets and the scene say.
         watch: who hears of the work while it is done.
+        networks: which networks cut parts out, draw lines, frames and in-betweens. Their files are opened before any
+            work; the animation reads those of its frames when they are asked for.
 
     Raises:
         InvalidInputError: an input is unusable; the message names it.
@@ -116,72 +121,134 @@ def animate(
     seconds: dict[str, float] = {}
     work_of_minutes(max_minutes)
     if scene is not None and not isinstance(scene, Scene):
-        from ..physics.document import check_document
-
         check_document(scene)
-    if not isinstance(image, Artwork):
-        image = as_picture(image, alpha=True)
-        plate = _checked_plate(plate, image)
-        masks = coverages("masks", () if masks is None else masks, image)
-        front = None if in_front is None else coverage("in_front", in_front, image)
-        _colliders(touching.colliders, image)
-        with timed(seconds, "segment"):
-            cut = (*masks, *_segmented(over(image), points or ()))
-        _check_parts(cut)
-        names = _part_names(len(masks), len(cut))
-        if watch.on_cut is not None:
-            watch.on_cut(cut[len(masks) :])
-        with timed(seconds, "mesh"):
-            parts = parts_of_picture(
-                image, cut, names, spacing=spacing, plate=plate, in_front=front, pixel_art=pixel_art
-            )
-    else:
+    check_drawing(pixel_art=pixel_art, by_model=networks.draws_all)
+    if networks.uses_networks:
+        with timed(seconds, "check"):
+            check_networks(networks)
+    if isinstance(image, Artwork):
         _check_layers_alone(masks=masks, points=points, plate=plate, in_front=in_front, pixel_art=pixel_art or None)
         with timed(seconds, "mesh"):
             said = None if isinstance(scene, Scene) else scene
             parts = parts_of_artwork(image, move=layers.move, still=layers.still, spacing=spacing, document=said)
+    else:
+        flat = _Flat.of(image, masks, points, plate, in_front, touching)
+        with timed(seconds, "segment"):
+            cut = flat.cut(networks, watch)
+        with timed(seconds, "mesh"):
+            parts = flat.parts(cut, spacing=spacing, pixel_art=pixel_art)
     if watch.on_note is not None:
         for note in parts.notes:
             watch.on_note(note)
-    bars_strands = "pixel_art" if pixel_art else "contact" if touching.contact or _has_contact(scene) else ""
+    barring = "pixel_art" if pixel_art else "contact" if touching.contact or _has_contact(scene) else ""
     with timed(seconds, "scene"):
-        if scene is None:
-            suiting = [each or "hair" for each in parts.presets]
-            materials = materials_of(preset or suiting, sway, len(parts.meshes))
-            sides = parts.attachments if attach == "auto" else (attach,) * len(parts.meshes)
-            split = _split(strands, [each.name in OF_STRANDS for each in materials], bars_strands)
-            parts = parts.in_strands(split, sides)
-            whole = _automatic(parts.bodies(materials, split), wind, timing, attach=sides, sway_by_size=sway is None)
-        else:
-            absent: tuple[str, ...] = ()
-            if not isinstance(scene, Scene):
-                scene, absent = arranged_for(scene, parts.names)
-            split = _split(strands, _split_by(scene, len(parts.meshes)), bars_strands)
-            parts = parts.in_strands(split, parts.attachments)
-            given = list(parts.meshes)
-            whole = given_scene(
-                scene,
-                given,
-                names=parts.names,
-                layers=parts.layer_mask,
-                preset=preset,
-                sway=sway,
-                frame_rate=timing.frame_rate,
-            )
-            whole = replace(whole, absent=absent)
+        how = _Movement(preset, sway, attach, wind, timing, strands, barring)
+        parts, whole = how.automatic(parts) if scene is None else how.given(parts, scene)
         whole = replace(whole, still=parts.still) if parts.still else whole
         whole = physics.applied(whole, sway=sway)
         whole = parts.covered(whole if timing.loop is None else replace(whole, loop=timing.loop))
-        timing = _settled(timing, whole)
+        timing = timing.settled(whole)
+        _check_length(timing, whole, networks)
         whole = _touching(whole, touching.contact, _colliders(touching.colliders, parts.image, parts.layer_mask))
     if watch.on_scene is not None:
         watch.on_scene(whole)
     with timed(seconds, "simulate"):
-        hears = _stage("simulate", watch.progress)
+        hears = stage_of("simulate", watch.progress)
         motion = simulate(whole, frames=timing.frames, progress=hears, max_minutes=max_minutes)
     with timed(seconds, "prepare"):
         renderer = parts.renderer(motion)
-    return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds, parts.own)
+    return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds, parts.own, networks)
+
+
+@dataclass(frozen=True, eq=False)
+class _Flat:
+    """A flat picture and what was said of it, in forms that suit each other."""
+
+    image: Image
+    masks: Sequence[Mask]
+    points: Sequence[Any]
+    plate: Image | None
+    front: Mask | None
+
+    @classmethod
+    def of(
+        cls,
+        image: Image,
+        masks: Sequence[Mask] | None,
+        points: Sequence[Any] | None,
+        plate: Image | None,
+        in_front: Mask | None,
+        touching: Touching,
+    ) -> _Flat:
+        picture = as_picture(image, alpha=True)
+        plate = _checked_plate(plate, picture)
+        covered = coverages("masks", () if masks is None else masks, picture)
+        front = None if in_front is None else coverage("in_front", in_front, picture)
+        _colliders(touching.colliders, picture)
+        return cls(picture, covered, points or (), plate, front)
+
+    def cut(self, networks: NetworkOptions, watch: Watch) -> tuple[Mask, ...]:
+        """The masks of all parts; somebody may look at those that were cut from points."""
+        cut = tuple(_segmented(over(self.image), self.points, networks))
+        _check_parts((*self.masks, *cut))
+        if watch.on_cut is not None:
+            watch.on_cut(cut)
+        return (*self.masks, *cut)
+
+    def parts(self, cut: Sequence[Mask], *, spacing: float | None, pixel_art: bool) -> Parts:
+        names = _part_names(len(self.masks), len(cut))
+        return parts_of_picture(
+            self.image, cut, names, spacing=spacing, plate=self.plate, in_front=self.front, pixel_art=pixel_art
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class _Movement:
+    """What was said of how parts move, and what bars slits between strands."""
+
+    preset: str | Sequence[str] | None
+    sway: float | None
+    attach: Attachment
+    wind: AutomaticWind
+    timing: Timing
+    strands: bool | None
+    barring: str
+
+    def automatic(self, parts: Parts) -> tuple[Parts, Scene]:
+        """The parts, slit where that suits them, and the scene where none is given."""
+        suiting = [each or "hair" for each in parts.presets]
+        materials = materials_of(self.preset or suiting, self.sway, len(parts.meshes))
+        sides = parts.attachments if self.attach == "auto" else (self.attach,) * len(parts.meshes)
+        split = _split(self.strands, [each.name in OF_STRANDS for each in materials], self.barring)
+        parts = parts.in_strands(split, sides)
+        rate = self.timing.frame_rate
+        return parts, automatic_scene(
+            parts.bodies(materials, split),
+            attach=sides,
+            frame_rate=DEFAULT_FRAME_RATE if rate is None else rate,
+            wind_strength=self.wind.strength,
+            wind_angle=self.wind.angle,
+            turbulence=self.wind.turbulence,
+            sway_by_size=self.sway is None,
+        )
+
+    def given(self, parts: Parts, scene: Scene | Mapping[str, Any]) -> tuple[Parts, Scene]:
+        """The parts, slit where the scene says so, and the scene with them."""
+        absent: tuple[str, ...] = ()
+        if not isinstance(scene, Scene):
+            scene, absent = arranged_for(scene, parts.names)
+        split = _split(self.strands, _split_by(scene, len(parts.meshes)), self.barring)
+        parts = parts.in_strands(split, parts.attachments)
+        whole = given_scene(
+            scene,
+            list(parts.meshes),
+            names=parts.names,
+            layers=parts.layer_mask,
+            preset=self.preset,
+            sway=self.sway,
+            frame_rate=self.timing.frame_rate,
+        )
+        return parts, replace(whole, absent=absent)
 
 
 def _split(asked: bool | None, suiting: list[bool], barring: str) -> list[bool]:
@@ -211,32 +278,10 @@ def _split_by(scene: Scene | Mapping[str, Any], count: int) -> list[bool]:
     return [*said, *[False] * count][:count]
 
 
-def _automatic(
-    bodies: Sequence[Body],
-    wind: AutomaticWind,
-    timing: Timing,
-    *,
-    attach: Attachment | Sequence[Attachment],
-    sway_by_size: bool,
-) -> Scene:
-    """The scene where none is given."""
-    return automatic_scene(
-        bodies,
-        attach=attach,
-        frame_rate=DEFAULT_FRAME_RATE if timing.frame_rate is None else timing.frame_rate,
-        wind_strength=wind.strength,
-        wind_angle=wind.angle,
-        turbulence=wind.turbulence,
-        sway_by_size=sway_by_size,
-    )
-
-
-def _settled(timing: Timing, scene: Scene) -> Timing:
-    """The timing with its number of frames, which may follow from the scene's loop."""
-    if timing.frames is not None:
-        return timing
-    frames = DEFAULT_FRAMES if scene.loop is None else loop_frames(scene) + timing.skip
-    return replace(timing, frames=frames)
+def _check_length(timing: Timing, scene: Scene, networks: NetworkOptions) -> None:
+    """Refuse a clip of nothing but the illustration where a video model draws it."""
+    alone = networks.draws_all and scene.loop is None and timing.frames == 1
+    require("frames", timing.frames, not alone, "at least 2 where a video model draws them")
 
 
 def _checked_plate(plate: Image | None, image: Image) -> Image | None:
@@ -249,17 +294,25 @@ def _checked_plate(plate: Image | None, image: Image) -> Image | None:
     return plate
 
 
-def _segmented(image: Image, points: Sequence[Any]) -> Iterator[Mask]:
+def _segmented(image: Image, points: Sequence[Any], networks: NetworkOptions) -> Iterator[Mask]:
     if not points:
         return
     from ..physics.document import parse_points
-    from .segmentation import segment
+    from .neural.cutting import segmenter_of
+    from .pictures import as_uint8
+    from .segmentation import Prompt, segment
 
     height, width = image.shape[:2]
+    with naming_files(networks):
+        network = segmenter_of(networks)
     for each, name in zip(points, _part_names(0, len(points)), strict=True):
         with about(name):
             clicked = parse_points(each, width=width, height=height)
-            yield segment(image, [(p.x, p.y) for p in clicked], [int(p.positive) for p in clicked])
+            places, labels = [(p.x, p.y) for p in clicked], [int(p.positive) for p in clicked]
+            if network is None:
+                yield segment(image, places, labels)
+            else:
+                yield network.segment(as_uint8(image), [Prompt(places, labels)])[0][0]
 
 
 def _part_names(masks: int, parts: int) -> list[str]:
@@ -305,7 +358,3 @@ def _touching(scene: Scene, contact: Contact | None, colliders: Sequence[Collide
         return scene
     require("contact", scene.contact, scene.contact is not None, "given where there are colliders")
     return replace(scene, colliders=(*scene.colliders, *colliders))
-
-
-def _stage(name: str, progress: StageProgress | None) -> Progress | None:
-    return None if progress is None else lambda done, total: progress(name, done, total)

@@ -34,6 +34,7 @@ SHOWN = {
     "rendering.metrics": "measure_clip chamfer_distance",
     "rendering.segmentation": "segment segment_parts",
     "rendering.svd": "SVDOptions",
+    "rendering.neural": "NetworkOptions",
     "rendering.pipeline": "animate",
 }
 """Public functions and classes that show a call, by the module that people import them from."""

@@ -66,21 +66,27 @@ MAY_IMPORT = {
     "rendering/metrics": "physics physics/mesh physics/motion rendering/pictures rendering/sketch",
     "rendering/segmentation": "physics physics/document physics/scene rendering/pictures rendering/sketch",
     "rendering/sketch/drawings": "physics rendering/networks rendering/pictures rendering/sketch",
-    "rendering": (
-        "physics physics/assembly physics/document physics/material physics/mesh physics/motion physics/rig "
-        "physics/scene physics/simulation rendering/artwork rendering/composite rendering/files rendering/inbetweens "
-        "rendering/matting rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
-    ),
     "rendering/segmentation/sam": (
         "physics rendering/files rendering/networks rendering/pictures rendering/segmentation"
     ),
     "rendering/tooncrafter": (
         "physics rendering/files rendering/inbetweens rendering/networks rendering/pictures rendering/svd"
     ),
+    "rendering/neural": (
+        "physics rendering/composite rendering/networks rendering/pictures rendering/segmentation/sam rendering/sketch "
+        "rendering/sketch/drawings rendering/svd rendering/tooncrafter"
+    ),
+    "rendering": (
+        "physics physics/assembly physics/document physics/material physics/mesh physics/motion physics/rig "
+        "physics/scene physics/simulation rendering/artwork rendering/composite rendering/files rendering/inbetweens "
+        "rendering/matting rendering/neural rendering/overlays rendering/pictures rendering/segmentation "
+        "rendering/sketch"
+    ),
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
         "physics/scene rendering rendering/artwork rendering/composite rendering/figures rendering/files "
-        "rendering/metrics rendering/metrics/learned rendering/pictures rendering/segmentation"
+        "rendering/inbetweens rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "
+        "rendering/segmentation rendering/svd rendering/tooncrafter"
     ),
     # nodes: the host
     "nodes/host": (

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import logging
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...rendering.composite import keep_still_parts, moving_region
+from ...physics.errors import InvalidInputError, require
+from ...rendering.neural.drawing import sketch_guided_frames
 from ...rendering.svd import CLIP_FRAMES, SVDOptions
-from ..host import dtype_of, pictures_of, watched_sampling
+from ..host import dtype_of, watched_sampling
 from .model_files import SVD_FILES, lvcd_file, svd_file
 from .networks import Networks, kept_networks
 from .svd_inputs import AREAS
@@ -29,39 +30,42 @@ __all__ = ["missing_svd_files", "svd_frames"]
 FloatImage = NDArray[np.float32]
 
 
-def svd_frames(image: FloatImage, layers: LayeredRenderer, choice: dict[str, Any]) -> Iterator[FloatImage]:
+def svd_frames(
+    image: FloatImage, sketches: Sequence[FloatImage], layers: LayeredRenderer | None, choice: dict[str, Any]
+) -> Iterator[FloatImage]:
     """The frames.
 
     Args:
         image: the illustration, shape [h, w, 3].
-        layers: knows where the moving bodies are.
+        sketches: one for each frame, shape [h, w, 3] each.
+        layers: knows where the moving bodies are; None where nothing does, and nothing is kept still.
         choice: values of the inputs.
     """
     import torch
     from comfy import model_management
 
-    from ...physics.errors import require
     from ...rendering.networks.memory import peak_memory
-    from ...rendering.svd.renderer import SVDRenderer
 
     files = _files(choice)
-    sketches = pictures_of(choice["sketches"], name="sketches")
-    require(
-        "sketches", len(sketches), len(sketches) == len(layers), f"one for each of the motion's {len(layers)} frames"
-    )
+    if layers is not None:
+        frames = f"one for each of the motion's {len(layers)} frames"
+        require("sketches", len(sketches), len(sketches) == len(layers), frames)
     device = model_management.get_torch_device()
     if device.type == "cuda":
         torch.cuda.reset_peak_memory_stats(device)
     began = time.perf_counter()
     networks = _networks(*files, dtype_of(choice["precision"], device))
-    renderer = SVDRenderer(networks.held, options=_options(choice), placement=networks.placement(device))
-    region = None
-    if choice["keep_still_parts"]:
-        alphas = (layers.alpha(number) for number in range(len(layers)))
-        region = moving_region(alphas, soft_edge=choice["soft_edge"])
-    watched = watched_sampling(device, lambda clean: clean[len(clean) - CLIP_FRAMES // 2 :][:1])
-    for frame in renderer.frames(image, list(sketches), **watched):
-        yield frame if region is None else keep_still_parts(frame, image, region)
+    kept = choice["keep_still_parts"] and layers is not None
+    yield from sketch_guided_frames(
+        networks.held,
+        image,
+        sketches,
+        options=_options(choice),
+        placement=networks.placement(device),
+        alphas=map(layers.alpha, range(len(layers))) if kept else None,
+        soft_edge=choice["soft_edge"],
+        **watched_sampling(device, lambda clean: clean[len(clean) - CLIP_FRAMES // 2 :][:1]),
+    )
     seconds, peak = time.perf_counter() - began, peak_memory(device) / 2**30
     logging.info("Render: %d frames in %.0f s, at most %.1f GiB of memory", len(sketches), seconds, peak)
 
@@ -82,8 +86,6 @@ def missing_svd_files(choice: dict[str, Any]) -> str:
 
 def _files(choice: dict[str, Any]) -> tuple[Path, Path]:
     """The chosen model files."""
-    from ...physics.errors import InvalidInputError
-
     svd, lvcd = svd_file(choice["svd_model"]), lvcd_file(choice["lvcd_model"])
     if svd is None or lvcd is None:
         raise InvalidInputError(missing_svd_files(choice))

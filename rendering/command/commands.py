@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import argparse
 from contextlib import ExitStack
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ... import __version__
-
-if TYPE_CHECKING:
-    from ..options import Timing
 
 __all__ = ["command_parser"]
 
@@ -50,9 +47,11 @@ def _schema(options: argparse.Namespace) -> None:
 
 def _demo(options: argparse.Namespace) -> None:
     from .example import bundled_files, read_example
+    from .networks import check_networks_used
     from .outputs import check_outputs, check_sizes
 
     check_outputs(options, bundled=bundled_files())
+    check_networks_used(options)
     image, masks, scene = read_example()
     check_sizes(options, image)
     _run(options, image, masks=masks, scene=scene)
@@ -96,10 +95,12 @@ def _figure(options: argparse.Namespace) -> None:
 
 def _animate(options: argparse.Namespace) -> None:
     from .inputs import check_inputs, check_taken, read_inputs
+    from .networks import check_networks_used
     from .outputs import check_layers, check_outputs, check_sizes
 
     check_inputs(options)
     check_outputs(options)
+    check_networks_used(options)
     image, inputs = read_inputs(options)
     check_taken(options, image)
     check_layers(options, image)
@@ -130,10 +131,12 @@ def _measure(options: argparse.Namespace) -> None:
     from .inputs import check_inputs, check_taken, read_inputs, read_plate
     from .measures import check_measures, measured, table
     from .messages import show
+    from .networks import check_networks_used, networks_of, timing_of
     from .watching import progress_of, watch_of
 
     check_inputs(options)
     check_measures(options)
+    check_networks_used(options)
     image, inputs = read_inputs(options)
     check_taken(options, image)
     image = over(image) if isinstance(image, np.ndarray) else image  # clips are compared by their colours
@@ -142,7 +145,13 @@ def _measure(options: argparse.Namespace) -> None:
         progress = progress_of(options, bars)
         watch = watch_of(options, progress, inputs["points"])
         animation = animate(
-            image, plate=plate, timing=_timing(options), max_minutes=options.max_minutes, watch=watch, **inputs
+            image,
+            plate=plate,
+            timing=timing_of(options),
+            max_minutes=options.max_minutes,
+            watch=watch,
+            networks=networks_of(options),
+            **inputs,
         )
         found = measured(options, animation, progress)
     show(table(found, as_json=options.json))
@@ -155,6 +164,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     from ..pipeline import animate
     from .inputs import read_plate
     from .messages import say, warn
+    from .networks import networks_of, timing_of
     from .outputs import background_for, report, write_outputs
     from .watching import progress_of, watch_of
 
@@ -167,11 +177,12 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
         progress = progress_of(options, bars)
         animation = animate(
             image,
-            timing=_timing(options),
+            timing=timing_of(options),
             plate=plate,
             pixel_art=options.pixel_art,
             max_minutes=options.max_minutes,
             watch=watch_of(options, progress, inputs.get("points", ())),
+            networks=networks_of(options),
             **inputs,
         )
         for sentence in stillness(animation.motion):
@@ -181,9 +192,3 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
         report(animation)
     if not options.quiet:
         say(f"{options.output}: {len(animation)} frames at {animation.motion.frame_rate:g} frames a second")
-
-
-def _timing(options: argparse.Namespace) -> Timing:
-    from ..options import Timing
-
-    return Timing(frames=options.frames, loop=options.loop, skip=options.skip, frame_rate=options.fps)

@@ -28,6 +28,14 @@ INPUTS = (
     "reference",
     "fid",
     "video_score",
+    "svd",
+    "lvcd",
+    "tooncrafter",
+    "sketch_encoder",
+    "image_encoder",
+    "text_encoder",
+    "lines",
+    "sam",
 )
 """Every option that names something to read, as the parser calls it."""
 
@@ -94,10 +102,11 @@ def check_apart(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) ->
 
 
 def _read(path: str) -> Iterator[str]:
-    """What is read of a path: the file, or the folder and what lies in it."""
+    """What is read of a path: the file, or the folder and what lies in it and in its folders."""
     yield path
     if os.path.isdir(path):
-        yield from (entry.path for entry in islice(os.scandir(path), _MOST_READ))
+        inside = (os.path.join(folder, name) for folder, _, names in os.walk(path) for name in names)
+        yield from islice(inside, _MOST_READ)
 
 
 def _check_among_frames(outputs: Sequence[tuple[str, str]]) -> None:

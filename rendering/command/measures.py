@@ -13,7 +13,8 @@ from ..metrics.learned import FID_FILE, VIDEO_SCORE_FOLDER, require_file
 from .names import named_as
 
 if TYPE_CHECKING:
-    from ..animation import Animation, StageProgress
+    from ..animation import Animation
+    from ..stages import StageProgress
 
 __all__ = ["check_measures", "measured", "table"]
 

@@ -11,9 +11,12 @@ from typing import IO, TYPE_CHECKING, Any
 from ...physics.errors import printable
 
 if TYPE_CHECKING:
-    from ..animation import StageProgress
+    from ..stages import StageProgress
 
 __all__ = ["printable_streams", "progress_bars", "say", "show", "warn"]
+
+_OF_STEPS = ("svd", "tooncrafter")
+"""Stages of video models, which advance by steps of sampling."""
 
 
 @contextmanager
@@ -62,7 +65,8 @@ def progress_bars(stack: ExitStack) -> StageProgress | None:
 
     def advance(stage: str, done: int, total: int) -> None:
         if stage not in bars:
-            bars[stage] = stack.enter_context(tqdm(total=total, desc=f"{stage:<8}", unit="frame", file=stream))
+            unit = "step" if stage in _OF_STEPS else "frame"
+            bars[stage] = stack.enter_context(tqdm(total=total, desc=f"{stage:<8}", unit=unit, file=stream))
         bars[stage].update(done - bars[stage].n)
         if done == total:
             bars[stage].close()

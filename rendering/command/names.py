@@ -33,13 +33,22 @@ _OPTIONS = {
     "youngs_modulus": "--youngs-modulus",
 } | {name: f"--{name}" for name in ("attach", "background", "frames", "loop", "plate", "preset", "skip", "spacing")}
 _OPTIONS |= {"turbulence": "--turbulence", "width": "--width"}
+_FILES = ("svd", "lvcd", "tooncrafter", "sketch_encoder", "image_encoder", "text_encoder", "lines", "sam")
+_CHOICES = ("renderer", "interpolate_with", "extractor", "segmenter")
+_OPTIONS |= {
+    name: f"--{name.replace('_', '-')}"
+    for name in (*_FILES, *_CHOICES, "device", "dtype", "soft_edge", "lines_size", "keyframes_at")
+}
+_OPTIONS["keyframes"] = "--keyframes-at"
 _LISTS = {"masks": ("mask", "--mask"), "colliders": ("collider", "--collider"), "points": ("points", "--points")}
 
 _ITEM = re.compile(r"(masks|colliders|points)\[(\d+)\](?=:| must)")
+_FILE = re.compile(rf"({'|'.join(_FILES)})(?=: )")
 _HEAD = re.compile(r"(?P<before>|.*?: )(?P<name>[a-z_]+)(?= must )", re.DOTALL)
 _REMEDIES = (
     ("max_minutes", re.compile(r"\bset max_minutes\b"), "set --max-minutes"),
     ("spacing", re.compile(r"\ba (larger|smaller) spacing\b"), r"a \1 --spacing"),
+    *((name, re.compile(rf"\b(where|unless) {name} is\b"), rf"\1 {_OPTIONS[name]} is") for name in _CHOICES),
     ("sway", re.compile(r"\ba lower sway_frequency\b"), "a lower --sway"),
 )
 
@@ -83,7 +92,9 @@ def named_by_options(options: argparse.Namespace) -> Iterator[None]:
 
 
 def _in_options(text: str, options: argparse.Namespace) -> str:
-    if found := _ITEM.match(text):
+    if found := _FILE.match(text):
+        text = option_of(found[1]) + text[found.end() :]
+    elif found := _ITEM.match(text):
         attribute, option = _LISTS[found[1]]
         given = _given(options, attribute)
         if int(found[2]) < len(given):

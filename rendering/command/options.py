@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from ...physics.limits import DEFAULT_MINUTES
+from .network_options import add_networks
 from .physics_options import add_physics
 
 __all__ = ["add_animate", "add_demo", "add_figure", "add_layers", "add_measure"]
@@ -25,6 +26,7 @@ def add_animate(parser: argparse.ArgumentParser) -> None:
     _add_parts(parser)
     _add_direction(parser)
     _add_files(parser, output=None)
+    add_networks(parser, points=True, in_betweens=True)
     _add_data(parser)
     _add_volume(parser)
 
@@ -33,6 +35,7 @@ def add_demo(parser: argparse.ArgumentParser) -> None:
     """All that ``physanimator demo`` takes."""
     parser.description = "Animate the bundled example: hair, cape, ribbon and a plant in the wind."
     _add_files(parser, output="demo.mp4")
+    add_networks(parser, points=False, in_betweens=True)
     _add_data(parser)
     _add_volume(parser)
 
@@ -107,6 +110,7 @@ def add_measure(parser: argparse.ArgumentParser) -> None:
     clip.add_argument("--reference", metavar="CLIP", help="clip or folder that --fid compares with")
     clip.add_argument("--video-score", metavar="FOLDER", help="also VideoScore's grades; folder of the model")
     clip.add_argument("--description", metavar="TEXT", help="what the clip shows, for --video-score")
+    add_networks(parser, points=True, in_betweens=False)
     parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
     parser.add_argument("--quiet", "-q", action="store_true", help="no progress bars")
 
@@ -242,6 +246,12 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
     )
     drawing.add_argument(
         "--interpolate", metavar="N", type=int, default=1, help="draw every N-th frame, fill in the rest"
+    )
+    drawing.add_argument(
+        "--keyframes-at",
+        metavar="N,N,...",
+        help="draw the frames of these numbers, from 0, and fill in what is between them; frames before the first and"
+        " after the last are drawn as well",
     )
     drawing.add_argument("--plate", metavar="IMAGE", help="the illustration without its moving parts, if you have it")
     drawing.add_argument("--save-sketch", metavar="OUT", help="also write the moving line drawing")

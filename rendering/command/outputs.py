@@ -10,14 +10,16 @@ from typing import TYPE_CHECKING, Any
 from .files import CLIPS, coming_folders, named, writing_order
 from .messages import warn
 from .names import named_as
+from .networks import keyframes_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...physics.assembly import SimulationPlan
-    from ..animation import Animation, StageProgress
+    from ..animation import Animation
+    from ..stages import StageProgress
 
-__all__ = ["background_for", "check_layers", "check_outputs", "check_sizes", "report", "write_outputs"]
+__all__ = ["background_for", "check_layers", "check_outputs", "check_sizes", "draws_all", "report", "write_outputs"]
 
 _TRACKED = ("--track-points", "--track-static", "--track-frames")
 _TEXTS = {"save_tracks": ".json", "save_motion": ".json", "save_svg": ".svg", "save_scene": ".json"}
@@ -46,13 +48,23 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
 
     check_apart(options, bundled=bundled)
     # Frames in .webm have an alpha channel whatever the illustration is, unless something else is said.
-    usual = Background("parts" if suffix_of(options.output) == ".webm" else "picture")
+    by_model = draws_all(options)
+    usual = Background("parts" if suffix_of(options.output) == ".webm" and not by_model else "picture")
     said = background_of(options.background) if options.background and not in_layers(options) else usual
     if in_layers(options) and not is_folder_name(options.output):
         raise InvalidInputError(f"--background layers needs --output to end in '/'. Got: {options.output}")
     _check_clips(options, alpha=said.has_alpha)
-    with named_as("--interpolate", "every"):
-        check_drawing(transparent=said.has_alpha, every=options.interpolate, pixel_art=options.pixel_art)
+    keyframes = keyframes_of(options)
+    with named_as("--renderer"):
+        transparent = said.has_alpha or in_layers(options)
+        check_drawing(transparent=transparent, pixel_art=options.pixel_art, by_model=by_model)
+    with named_as("--keyframes-at" if keyframes else "--interpolate", "every"):
+        check_drawing(
+            transparent=said.has_alpha,
+            every=options.interpolate,
+            pixel_art=options.pixel_art,
+            in_betweens=bool(keyframes),
+        )
     if options.fps is not None:
         check_scene_rate(options.fps)
     _check_texts(options)
@@ -64,6 +76,11 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     for option, name, number in zip(_TRACKED, ("points", "static_points", "frames"), tracked, strict=True):
         with named_as(option, name):
             check_track_options(**{name: number})
+
+
+def draws_all(options: argparse.Namespace) -> bool:
+    """Whether a video model draws whole opaque frames."""
+    return getattr(options, "renderer", None) == "svd"
 
 
 def in_layers(options: argparse.Namespace) -> bool:
@@ -91,6 +108,7 @@ def check_layers(options: argparse.Namespace, image: Any) -> None:
     if isinstance(image, np.ndarray):
         raise InvalidInputError("--background layers needs layered artwork as IMAGE. Got: a flat picture")
     require("--interpolate", options.interpolate, options.interpolate == 1, "1 with --background layers")
+    require("--keyframes-at", options.keyframes_at, not options.keyframes_at, "left out with --background layers")
     with named_as("--output", "output", "folder"):
         check_layer_sequences(image, options.output)
 
@@ -151,6 +169,7 @@ def write_outputs(options: argparse.Namespace, animation: Animation, progress: S
                 every=options.interpolate,
                 width=options.width,
                 progress=progress,
+                keyframes_at=keyframes_of(options),
             )
         else:
             animation.write(drawn[name](progress=progress), path, width=options.width)
@@ -174,6 +193,10 @@ def report(animation: Animation) -> None:
         )
     for stage, seconds in animation.seconds.items():
         warn(f"{stage:<10}{seconds:8.2f} s")
+    if animation.networks.uses_networks:
+        from ..neural.devices import most_memory
+
+        warn(f"networks on {' with at most '.join(most_memory(animation.networks))} of memory")
 
 
 def _way(animation: Animation, planned: SimulationPlan) -> str:
@@ -217,11 +240,14 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
         return "transparent"
     if options.background is not None:
         return str(options.background)
+    if draws_all(options):
+        return "picture"
     usual = usual_background(
         transparent_picture=is_transparent(image),
         file_has_alpha=holds_alpha(options.output),
         parts=suffix_of(options.output) == ".webm",
     )
-    with named_as("--interpolate", "every"):
-        check_drawing(transparent=usual.has_alpha, every=options.interpolate)
+    keyframes = keyframes_of(options)
+    with named_as("--keyframes-at" if keyframes else "--interpolate", "every"):
+        check_drawing(transparent=usual.has_alpha, every=options.interpolate, in_betweens=bool(keyframes))
     return usual.kind

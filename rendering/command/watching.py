@@ -8,8 +8,9 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..animation import StageProgress
+    from ...physics.scene import Scene
     from ..options import Watch
+    from ..stages import StageProgress
 
 __all__ = ["progress_of", "watch_of"]
 
@@ -20,16 +21,20 @@ def watch_of(options: argparse.Namespace, progress: StageProgress, points: Seque
     from ..options import Watch
     from ..segmentation import judge_points
     from .messages import warn
+    from .networks import check_keyframes
 
     def tell(sentences: Sequence[str]) -> None:
         for sentence in sentences:
             warn(f"physanimator: warning: {sentence}")
 
-    named = bool(getattr(options, "mask", None))
+    def on_scene(scene: Scene) -> None:
+        check_keyframes(options, scene)
+        tell(advice(scene, masks=not getattr(options, "mask", None)))
+
     return Watch(
         progress=progress,
         on_cut=lambda cut: tell(judge_points(cut, points)),
-        on_scene=lambda scene: tell(advice(scene, masks=not named)),
+        on_scene=on_scene,
         on_note=lambda sentence: tell([sentence]),
     )
 

@@ -60,12 +60,13 @@ BACKENDS: dict[str, Interpolator] = {
 
 
 def keyframe_indices(count: int, every: int = DEFAULT_GAP, *, at: Sequence[int] = ()) -> list[int]:
-    """Frames 0, n, 2n, ... of a clip, or the listed ones, and always its first and last frame.
+    """Frames 0, n, 2n, ... of a clip and its last one, or the listed ones.
 
     Args:
         count: number of frames of the clip.
         every: frames from one keyframe to the next.
-        at: frame numbers of the keyframes, instead.
+        at: frame numbers of the keyframes, instead; frames before the first and after the last of them are no
+            in-betweens.
 
     Examples:
         >>> from physanimator.rendering.inbetweens import keyframe_indices
@@ -76,7 +77,7 @@ def keyframe_indices(count: int, every: int = DEFAULT_GAP, *, at: Sequence[int] 
     require("every", every, every >= 1, "at least 1 frame")
     require("keyframes", list(at), all(0 <= index < count for index in at), f"frame numbers from 0 to {count - 1}")
     if at:
-        return sorted({0, *at, count - 1})
+        return sorted({*at})
     return sorted({*range(0, count, every), count - 1})
 
 
@@ -90,6 +91,8 @@ def interpolate(
     sketches: Sequence[NDArray[Any]] = (),
     find_file: FileFinder | None = None,
     progress: Progress | None = None,
+    before: Sequence[NDArray[Any]] = (),
+    after: Sequence[NDArray[Any]] = (),
 ) -> Iterator[NDArray[Any]]:
     """All frames from the first keyframe to the last; keyframes come out unchanged.
 
@@ -106,9 +109,12 @@ def interpolate(
             the keyframes' size, shape [h, w] or [h, w, 3].
         find_file: tells where a file lies that the backend requires, or None where it is missing.
         progress: called after each frame.
+        before: frames that come out ahead of the first keyframe as they are, in the keyframes' size and type.
+        after: frames that follow the last keyframe in the same way.
 
     Returns:
-        An iterator over indices[-1] - indices[0] + 1 frames. Bad input raises here, not at the first frame.
+        An iterator over ``before``, indices[-1] - indices[0] + 1 frames, and ``after``. Bad input raises here, not at
+        the first frame.
 
     Raises:
         InvalidInputError: keyframes and indices do not belong together, the backend is unknown, or its files are
@@ -122,8 +128,8 @@ def interpolate(
         [0, 50, 100, 150, 200]
     """
     require("keyframes", f"{len(keyframes)}", len(keyframes) >= 1, "at least one")
-    keyframes = [as_picture(keyframe, name=f"keyframes[{k}]", alpha=True) for k, keyframe in enumerate(keyframes)]
-    _check(keyframes, indices)
+    keyframes, around = _pictures(keyframes, "keyframes"), (_pictures(before, "before"), _pictures(after, "after"))
+    _check(keyframes, indices, around)
     chosen = _chosen("flow" if backend == "motion" and motion is None else backend)
     if motion is not None:
         expected = f"within the motion's frames 0 to {len(motion) - 1}"
@@ -136,32 +142,36 @@ def interpolate(
     mixable = [premultiplied(each) for each in keyframes] if is_transparent(keyframes[0]) else keyframes
     files = _files(chosen, find_file)
     clip = Clip(mixable, tuple(indices), motion, tuple(map(coverage_of, masks)), files, sketches)
-    return _frames(chosen, clip, keyframes, progress)
+    total = clip.indices[-1] - clip.indices[0] + 1 + sum(map(len, around))
+    frames = itertools.chain(around[0], _frames(chosen, clip, keyframes), around[1])
+    return _counted(frames, total, progress)
 
 
-def _frames(
-    backend: Interpolator, clip: Clip, keyframes: Sequence[NDArray[Any]], progress: Progress | None
-) -> Iterator[NDArray[Any]]:
-    total, done = clip.indices[-1] - clip.indices[0] + 1, 0
+def _frames(backend: Interpolator, clip: Clip, keyframes: Sequence[NDArray[Any]]) -> Iterator[NDArray[Any]]:
     for number, keyframe in enumerate(keyframes):
         between: Iterable[NDArray[Any]] = ()
         if number + 1 < len(keyframes):
             between = backend.in_betweens(clip, number)
         if is_transparent(keyframe):
             between = (as_dtype(straight(each), keyframe.dtype) for each in between)
-        for frame in _chain(keyframe, between):
-            done += 1
-            yield frame
-            if progress is not None:
-                progress(done, total)
+        yield keyframe
+        yield from between
 
 
-def _chain(first: NDArray[Any], rest: Any) -> Iterator[NDArray[Any]]:
-    yield first
-    yield from rest
+def _counted(frames: Iterable[NDArray[Any]], total: int, progress: Progress | None) -> Iterator[NDArray[Any]]:
+    for done, frame in enumerate(frames, start=1):
+        yield frame
+        if progress is not None:
+            progress(done, total)
 
 
-def _check(keyframes: Sequence[NDArray[Any]], indices: Sequence[int]) -> None:
+def _pictures(given: Sequence[NDArray[Any]], name: str) -> list[NDArray[Any]]:
+    return [as_picture(each, name=f"{name}[{number}]", alpha=True) for number, each in enumerate(given)]
+
+
+def _check(
+    keyframes: Sequence[NDArray[Any]], indices: Sequence[int], around: tuple[Sequence[NDArray[Any]], ...]
+) -> None:
     same = len(indices) == len(keyframes)
     require("indices", f"{len(indices)}", same, f"one per keyframe ({len(keyframes)})")
     rising = all(a < b for a, b in itertools.pairwise(indices))
@@ -169,6 +179,9 @@ def _check(keyframes: Sequence[NDArray[Any]], indices: Sequence[int]) -> None:
     require("indices", list(indices), whole and rising, "increasing frame numbers from 0")
     kinds = {(keyframe.shape, keyframe.dtype) for keyframe in keyframes}
     require("keyframes", sorted(map(str, kinds)), len(kinds) == 1, "of one size and type")
+    for name, others in zip(("before", "after"), around, strict=True):
+        unlike = {(each.shape, each.dtype) for each in others} - kinds
+        require(name, sorted(map(str, unlike)), not unlike, "of the keyframes' size and type")
 
 
 def _check_sketches(sketches: Sequence[NDArray[Any]], last: int, size: tuple[int, ...]) -> None:

@@ -131,7 +131,8 @@ def network_of(
     network = build_without_storage(build)
     tensors = below({name: torch.as_tensor(value) for name, value in state_dict.items()}, prefix)
     assign(network, tensors, file=file, wanted=wanted)
-    return network if dtype is None else network.to(dtype)
+    # Not the network's own way: that of diffusers warns of what is right here.
+    return network if dtype is None else nn.Module.to(network, dtype)
 
 
 def check_names(

@@ -58,14 +58,14 @@ class SVDModels:
 
 
 def load_models(
-    svd: Path, lvcd: Path, *, dtype: torch.dtype = torch.float32, sizes: ModelSizes | None = None
+    svd: Path, lvcd: Path, *, dtype: torch.dtype | None = torch.float32, sizes: ModelSizes | None = None
 ) -> SVDModels:
     """Load all networks. Tensors already in the wanted precision stay mapped from their files.
 
     Args:
         svd: Stable Video Diffusion: its single file or its diffusers folder.
         lvcd: LVCD's file, .ckpt or .safetensors.
-        dtype: in which all but the autoencoder compute.
+        dtype: in which all but the autoencoder compute; None leaves weights as their files have them.
         sizes: of the networks in a single file; the public ones by default.
 
     Raises:
@@ -83,7 +83,7 @@ def load_models(
 
 
 def _loaded(
-    build: Callable[[], Network], tensors: Mapping[str, Tensor], weights: SVDWeights, dtype: torch.dtype
+    build: Callable[[], Network], tensors: Mapping[str, Tensor], weights: SVDWeights, dtype: torch.dtype | None
 ) -> Network:
     return network_of(build, tensors, dtype=dtype, file=f"{weights.source}", wanted=WANTED_SVD)
 

@@ -10,6 +10,8 @@ from typing import Any
 
 from torch import Tensor
 
+from ...physics.checks import check_whole, require_kind
+from ...physics.errors import InvalidInputError, require
 from ..networks.checkpoints import CheckpointError, below, read_checkpoint
 from ..networks.image_encoder import ImageEncoderConfiguration
 from ..networks.image_encoder_names import from_open_clip
@@ -29,6 +31,10 @@ _AUTOENCODER = "first_stage_model."
 _CONDITION_ENCODER = "conditioner.embedders.3.encoder."
 _IMAGE_ENCODER = "conditioner.embedders.0.open_clip.model.visual."
 _PARTS = ("unet", "vae", "image_encoder")
+
+_LARGEST_DOCUMENT = 1 << 20
+_MOST_CHANNELS, _MOST_LEVELS, _MOST_LAYERS = 16384, 8, 100
+"""A folder's documents are read without trust: nothing larger than this is built."""
 
 
 @dataclass(frozen=True)
@@ -102,11 +108,7 @@ def _from_folder(path: Path) -> SVDWeights:
     if lacking:
         missing = ", ".join(f"{part}/config.json" for part in lacking)
         raise CheckpointError(f"{path} does not fit: it lacks {missing}. Wanted: {WANTED_SVD}")
-    unet, vae, encoder = (json.loads((path / part / "config.json").read_text(encoding="utf-8")) for part in _PARTS)
-    try:
-        sizes = ModelSizes(_network_sizes(unet), tuple(vae["block_out_channels"]), _encoder_sizes(encoder))
-    except KeyError as error:
-        raise CheckpointError(f"{path} does not fit: a config.json lacks {error}. Wanted: {WANTED_SVD}") from error
+    sizes = _sizes_told(path)
     image_encoder = _tensors(path / "image_encoder", "model", "pytorch_model")
     return SVDWeights(
         from_diffusers_unet(_tensors(path / "unet", "diffusion_pytorch_model"), sizes.network),
@@ -115,6 +117,38 @@ def _from_folder(path: Path) -> SVDWeights:
         sizes,
         path,
     )
+
+
+def _sizes_told(folder: Path) -> ModelSizes:
+    """The sizes that a folder's documents tell; whatever else stands in them builds nothing."""
+    try:
+        unet, vae, encoder = (_document(folder / part / "config.json") for part in _PARTS)
+        return ModelSizes(_network_sizes(unet), _channels(vae["block_out_channels"]), _encoder_sizes(encoder))
+    except KeyError as error:
+        raise CheckpointError(f"{folder} does not fit: a config.json lacks {error}. Wanted: {WANTED_SVD}") from error
+    except (IndexError, InvalidInputError, OSError, RecursionError, TypeError, ValueError) as error:
+        raise CheckpointError(
+            f"{folder} does not fit: a config.json does not tell the sizes of such a network. Wanted: {WANTED_SVD}"
+        ) from error
+
+
+def _document(path: Path) -> Mapping[str, Any]:
+    with path.open("rb") as file:
+        found = json.loads(file.read(_LARGEST_DOCUMENT))
+    require_kind(path.name, found, dict, "values by name")
+    return dict(found)
+
+
+def _whole(config: Mapping[str, Any], name: str, most: int) -> int:
+    check_whole(name, config[name], 1, most)
+    return int(config[name])
+
+
+def _channels(given: Any) -> tuple[int, ...]:
+    require("block_out_channels", f"{len(given)} levels", 1 <= len(given) <= _MOST_LEVELS, f"1 to {_MOST_LEVELS}")
+    for each in given:
+        check_whole("block_out_channels", each, 1, _MOST_CHANNELS)
+    return tuple(given)
 
 
 def _tensors(folder: Path, *stems: str) -> dict[str, Tensor]:
@@ -135,31 +169,33 @@ def _tensors(folder: Path, *stems: str) -> dict[str, Tensor]:
 
 
 def _network_sizes(config: Mapping[str, Any]) -> NetworkConfiguration:
-    channels, heads = config["block_out_channels"], config["num_attention_heads"]
+    channels, heads = _channels(config["block_out_channels"]), config["num_attention_heads"]
+    first = heads[0] if isinstance(heads, list) else heads
+    check_whole("num_attention_heads", first, 1, channels[0])
     return replace(
         NetworkConfiguration(),
-        in_channels=config["in_channels"],
-        out_channels=config["out_channels"],
+        in_channels=_whole(config, "in_channels", _MOST_CHANNELS),
+        out_channels=_whole(config, "out_channels", _MOST_CHANNELS),
         model_channels=channels[0],
         channel_mult=tuple(each // channels[0] for each in channels),
-        num_res_blocks=config["layers_per_block"],
+        num_res_blocks=_whole(config, "layers_per_block", _MOST_LAYERS),
         attention_at_levels=tuple(
-            level for level, kind in enumerate(config["down_block_types"]) if kind.startswith("CrossAttn")
+            level for level, kind in enumerate(config["down_block_types"]) if str(kind).startswith("CrossAttn")
         ),
-        num_head_channels=channels[0] // (heads if isinstance(heads, int) else heads[0]),
-        context_dim=config["cross_attention_dim"],
-        adm_in_channels=config["projection_class_embeddings_input_dim"],
-        ids_embed_dim=config["addition_time_embed_dim"],
+        num_head_channels=channels[0] // int(first),
+        context_dim=_whole(config, "cross_attention_dim", _MOST_CHANNELS),
+        adm_in_channels=_whole(config, "projection_class_embeddings_input_dim", _MOST_CHANNELS),
+        ids_embed_dim=_whole(config, "addition_time_embed_dim", _MOST_CHANNELS),
     )
 
 
 def _encoder_sizes(config: Mapping[str, Any]) -> ImageEncoderConfiguration:
     return ImageEncoderConfiguration(
-        width=config["hidden_size"],
-        layers=config["num_hidden_layers"],
-        heads=config["num_attention_heads"],
-        hidden=config["intermediate_size"],
-        patch=config["patch_size"],
-        picture=config["image_size"],
-        projection=config["projection_dim"],
+        width=_whole(config, "hidden_size", _MOST_CHANNELS),
+        layers=_whole(config, "num_hidden_layers", _MOST_LAYERS),
+        heads=_whole(config, "num_attention_heads", _MOST_CHANNELS),
+        hidden=_whole(config, "intermediate_size", _MOST_CHANNELS),
+        patch=_whole(config, "patch_size", _MOST_CHANNELS),
+        picture=_whole(config, "image_size", _MOST_CHANNELS),
+        projection=_whole(config, "projection_dim", _MOST_CHANNELS),
     )

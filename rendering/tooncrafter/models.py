@@ -22,7 +22,7 @@ from .sketch_encoder import SketchEncoder
 from .text_encoder import TextEncoder, TextEncoderConfiguration, empty_prompt, text_weights
 from .unet import InterpolationUNet
 
-__all__ = ["ModelSizes", "ToonCrafterModels", "load_models"]
+__all__ = ["WANTED_IMAGE_ENCODER", "WANTED_TEXT_ENCODER", "ModelSizes", "ToonCrafterModels", "load_models"]
 
 WANTED_MODEL = (
     "ToonCrafter's model.ckpt from https://huggingface.co/Doubiiu/ToonCrafter, or its pruned fp16 safetensors from"
@@ -75,7 +75,7 @@ def load_models(
     sketch: Path | None = None,
     image_encoder: Path | None = None,
     text_encoder: Path | None = None,
-    dtype: torch.dtype = torch.float32,
+    dtype: torch.dtype | None = torch.float32,
     sizes: ModelSizes | None = None,
 ) -> ToonCrafterModels:
     """Load all networks. Tensors already in the wanted precision stay mapped from their files.
@@ -86,7 +86,7 @@ def load_models(
         image_encoder: the picture encoder, where the model's file holds none.
         text_encoder: the text encoder, where the model's file holds none; only the empty prompt's embedding is kept,
             beside the model's file, so that the next time none is needed.
-        dtype: in which all but the autoencoder compute.
+        dtype: in which all but the autoencoder compute; None leaves weights as their files have them.
         sizes: of the networks; by default what a document beside each file tells, else the public ones.
 
     Raises:
@@ -100,7 +100,7 @@ def load_models(
                 f"{model} does not fit: nothing in it is called {network.prefix}*. Wanted: {WANTED_MODEL}"
             )
 
-    def part(build: Callable[[], Network], prefix: str, kept: torch.dtype) -> Network:
+    def part(build: Callable[[], Network], prefix: str, kept: torch.dtype | None) -> Network:
         return network_of(build, tensors, prefix=prefix, dtype=kept, file=str(model), wanted=WANTED_MODEL)
 
     return ToonCrafterModels(
@@ -113,7 +113,7 @@ def load_models(
     )
 
 
-def _sketch_encoder(file: Path, config: SketchEncoderConfiguration, dtype: torch.dtype) -> SketchEncoder:
+def _sketch_encoder(file: Path, config: SketchEncoderConfiguration, dtype: torch.dtype | None) -> SketchEncoder:
     tensors = read_checkpoint(file, wanted=WANTED_SKETCH)
     prefix = next(each for each in _SKETCH_PREFIXES if any(name.startswith(each) for name in tensors))
     return network_of(
@@ -122,7 +122,11 @@ def _sketch_encoder(file: Path, config: SketchEncoderConfiguration, dtype: torch
 
 
 def _image_encoder(
-    tensors: Mapping[str, Tensor], model: Path, file: Path | None, config: ImageEncoderConfiguration, dtype: torch.dtype
+    tensors: Mapping[str, Tensor],
+    model: Path,
+    file: Path | None,
+    config: ImageEncoderConfiguration,
+    dtype: torch.dtype | None,
 ) -> ImageEncoder | None:
     """From the model's own file, or else from a separate one, by OpenCLIP's names or those of transformers."""
     own = below(tensors, _PICTURE)
@@ -143,12 +147,16 @@ def _image_encoder(
 
 
 def _empty_prompt(
-    tensors: Mapping[str, Tensor], model: Path, file: Path | None, config: TextEncoderConfiguration, dtype: torch.dtype
+    tensors: Mapping[str, Tensor],
+    model: Path,
+    file: Path | None,
+    config: TextEncoderConfiguration,
+    dtype: torch.dtype | None,
 ) -> Tensor | None:
     """Computed once in full precision and kept beside the model's file; the text encoder itself is not kept."""
     kept = kept_prompt(model, (1, config.tokens, config.width)) if file is None else None
     if kept is not None:
-        return kept.to(dtype)
+        return kept if dtype is None else kept.to(dtype)
     given, source = below(tensors, _TEXT), model
     if not given:
         if file is None:
@@ -161,4 +169,4 @@ def _empty_prompt(
     with torch.no_grad():
         embedding = encoder(empty_prompt(config.tokens))
     keep_prompt(model, embedding)
-    return embedding.to(dtype)
+    return embedding if dtype is None else embedding.to(dtype)

@@ -78,12 +78,35 @@ def test_advice_is_in_the_history_of_a_run_without_a_browser(host: Any) -> None:
     assert f"PhysAnimator, Simulate: {sentence}" in host.log
 
 
-@pytest.mark.parametrize(
-    ("at", "sentence"), [("3, 9", "0 for the first keyframe"), ("0, 9, 5", "increasing"), ("-1, 4", "from 0")]
-)
+@pytest.mark.parametrize(("at", "sentence"), [("0, 9, 5", "increasing"), ("3, 3", "increasing"), ("-1, 4", "from 0")])
 def test_keyframes_that_no_clip_has_are_refused_before_any_work(host: Any, at: str, sentence: str) -> None:
     filled = ours("Interpolate", images=["keys", 0], images_are="keyframes", every=5, backend="blend", keyframes_at=at)
     keys = core("EmptyImage", width=64, height=32, batch_size=2, color=0)
     status, answer = host.post("/prompt", {"prompt": {"filled": filled, "keys": keys} | seen_picture("filled", 0)})
     assert status == 400
     assert sentence in json.dumps(answer)
+
+
+@pytest.mark.parametrize("backend", ["motion", "flow", "blend"])
+def test_frames_before_the_first_keyframe_and_after_the_last_are_kept(host: Any, backend: str) -> None:
+    """All frames: 11 of them, each of another grey; keyframes alone: the first is shown until its turn."""
+    greys = {f"grey_{t}": core("SolidMask", value=t / 10, width=64, height=32) for t in range(11)}
+    shades = {f"picture_{t}": core("MaskToImage", mask=[f"grey_{t}", 0]) for t in range(11)}
+    batches = {"batch_0": core("ImageBatch", image1=["picture_0", 0], image2=["picture_1", 0])} | {
+        f"batch_{t - 1}": core("ImageBatch", image1=[f"batch_{t - 2}", 0], image2=[f"picture_{t}", 0])
+        for t in range(2, 11)
+    }
+    every = ours("Interpolate", images=["batch_9", 0], images_are="all frames", every=5, backend=backend,
+                 keyframes_at="3, 6")  # fmt: skip
+    alone = ours("Interpolate", images=["batch_0", 0], images_are="keyframes", every=5, backend=backend,
+                 keyframes_at="3, 6")  # fmt: skip
+    graph = greys | shades | batches | {"every": every, "alone": alone}
+    outputs = host.run(graph | {"seen": core("PreviewImage", images=["every", 0]),
+                                "held": core("PreviewImage", images=["alone", 0])})  # fmt: skip
+
+    def shown(key: str) -> list[int]:
+        return [round(picture.mean() / 25.5) for picture in pictures(host, outputs[key]["images"])]
+
+    assert shown("seen") == list(range(11))
+    assert shown("held")[:4] == [0, 0, 0, 0]
+    assert len(shown("held")) == 7

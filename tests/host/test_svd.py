@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from small_graphs import core
 
 ROOT = Path(__file__).resolve().parents[2]
 FRAMES = 9
@@ -87,3 +88,53 @@ def test_too_few_sketches_are_named(host: Any, chosen: dict[str, str]) -> None:
     render = _node(graph, "Render")["inputs"]
     render["renderer.sketches"] = _node(graph, "WarpSketch")["inputs"]["sketch"]
     assert "sketches must be one for each of the motion's 3 frames. Got: 1" in host.error_of(graph)
+
+
+def alone(sketches: int = 3, **values: Any) -> dict[str, Any]:
+    """Render with nothing but the illustration and some sketches of it, which are all the same."""
+    given = {name: value for name, value in _node(prompt(), "Render")["inputs"].items() if not isinstance(value, list)}
+    quick = {"steps": 2, "working_size": "448 x 256", "precision": "fp32", "keep_still_parts": False, **values}
+    given |= {f"renderer.{name}": value for name, value in quick.items()}
+    given |= {"image": ["small", 0], "renderer.sketches": ["sketches", 0]}
+    return {
+        "example": {"class_type": "PhysAnimator_ExampleIllustration", "inputs": {}},
+        "small": core("ImageScale", image=["example", 0], upscale_method="area", width=160, height=96, crop="disabled"),
+        "sketches": core("RepeatImageBatch", image=["small", 0], amount=sketches),
+        "render": {"class_type": "PhysAnimator_Render", "inputs": given},
+        "seen": core("PreviewImage", images=["render", 0]),
+    }
+
+
+def test_an_illustration_and_sketches_are_enough(host: Any, chosen: dict[str, str]) -> None:
+    assert len(host.run(alone(**chosen))["seen"]["images"]) == 3
+    assert "sketches must be 2 or more" in host.error_of(alone(1, **chosen))
+
+
+def test_a_clean_plate_goes_through_without_a_motion(host: Any, chosen: dict[str, str]) -> None:
+    graph = alone(**chosen) | {"plate": core("PreviewImage", images=["render", 2])}
+    graph["render"]["inputs"]["clean_plate"] = ["small", 0]
+    outputs = host.run(graph)
+    assert len(outputs["plate"]["images"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("values", "taken", "sentence"),
+    [
+        ({"keep_still_parts": True}, None, "motion must be connected or keep_still_parts switched off"),
+        ({}, 1, "motion must be connected where alpha is"),
+        ({}, 2, "motion must be connected where the output clean_plate is"),
+        (None, None, "motion must be connected for the renderer composite"),
+    ],
+)
+def test_what_only_a_motion_tells_is_refused_before_the_work(
+    host: Any, chosen: dict[str, str], values: dict[str, Any] | None, taken: int | None, sentence: str
+) -> None:
+    graph = alone(**chosen, **(values or {}))
+    if values is None:
+        graph["render"]["inputs"] = {"image": ["small", 0], "renderer": "composite", "background": "picture"}
+    if taken is not None:
+        shown = "PreviewImage" if taken == 2 else "MaskPreview"
+        graph["also"] = core(shown, **{"images" if taken == 2 else "mask": ["render", taken]})
+    status, answer = host.post("/prompt", {"prompt": graph, "client_id": host.client})
+    assert sentence in json.dumps(answer), answer
+    assert status == 400 or answer["node_errors"]

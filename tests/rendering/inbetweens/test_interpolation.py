@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -75,7 +75,7 @@ def psnr(a: NDArray[Any], b: NDArray[Any]) -> float:
 
 
 def test_keyframes_may_be_listed() -> None:
-    assert keyframe_indices(31, at=[12, 5]) == [0, 5, 12, 30]
+    assert keyframe_indices(31, at=[12, 5, 12]) == [5, 12]
     with pytest.raises(InvalidInputError, match="frame numbers from 0 to 30"):
         keyframe_indices(31, at=[31])
 
@@ -350,4 +350,41 @@ def test_in_betweens_of_transparent_keyframes_mix_no_hidden_colours(motion: Moti
 def test_a_clip_may_begin_with_a_later_keyframe() -> None:
     dark, light = np.zeros((8, 8, 3), np.uint8), np.full((8, 8, 3), 200, np.uint8)
     frames = list(interpolate([dark, light], [3, 7], backend="blend"))
-    assert [int(frame[0, 0, 0]) for frame in frames] == [0, 50, 100, 150, 200]
+    assert levels(frames) == [0, 50, 100, 150, 200]
+
+
+def levels(frames: Iterable[NDArray[Any]]) -> list[int]:
+    return [int(frame[0, 0, 0]) for frame in frames]
+
+
+@pytest.mark.parametrize("channels", [3, 4])
+@pytest.mark.parametrize("backend", list(BACKENDS))
+def test_frames_around_the_keyframes_stay_as_given(motion: Motion, backend: str, channels: int) -> None:
+    random = np.random.default_rng(8)
+    given = list(random.integers(0, 256, (FRAMES, HEIGHT, WIDTH, channels), dtype=np.uint8))
+    seen: list[tuple[int, int]] = []
+    drawn = list(
+        interpolate(
+            [given[3], given[6]],
+            [3, 6],
+            backend=backend,
+            motion=motion,
+            before=given[:3],
+            after=given[7:],
+            progress=lambda *now: seen.append(now),
+        )
+    )
+    assert seen == [(done, FRAMES) for done in range(1, FRAMES + 1)]
+    for number in (0, 1, 2, 3, 6, 7, 8, 9, 10):
+        np.testing.assert_array_equal(drawn[number], given[number])
+    for number in (4, 5):
+        assert (drawn[number] != given[number]).any()
+
+
+def test_frames_around_the_keyframes_must_be_like_them() -> None:
+    dark = np.zeros((8, 8, 3), np.uint8)
+    assert levels(interpolate([dark, dark + 200], [3, 5], before=[dark + 9], after=[dark + 7])) == [9, 0, 100, 200, 7]
+    with pytest.raises(InvalidInputError, match="before must be of the keyframes' size and type"):
+        interpolate([dark], [1], before=[np.zeros((8, 9, 3), np.uint8)])
+    with pytest.raises(InvalidInputError, match="after must be of the keyframes' size and type"):
+        interpolate([dark], [1], after=[np.zeros((8, 8, 3), np.float32)])

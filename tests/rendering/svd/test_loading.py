@@ -128,3 +128,29 @@ def test_a_config_of_something_else_is_named(folder: Path, lvcd: Path, tmp_path:
 def test_a_missing_file_is_named(folder: Path, tmp_path: Path) -> None:
     with pytest.raises(CheckpointError, match=r"nowhere\.ckpt does not exist"):
         load_models(folder, tmp_path / "nowhere.ckpt")
+
+
+@pytest.mark.parametrize("value", [0, -1, 1.5, 10**9, "32", None, [], [0], ["a"], {}, [32] * 99, float("nan")])
+@pytest.mark.parametrize("part", ["unet", "vae", "image_encoder"])
+def test_sizes_are_not_trusted(folder: Path, lvcd: Path, tmp_path: Path, part: str, value: object) -> None:
+    """Whatever a document says, a sentence comes of it, and no network of that size."""
+    copy = tmp_path / "svd"
+    shutil.copytree(folder, copy)
+    file = copy / part / "config.json"
+    config = json.loads(file.read_text())
+    for name, usual in config.items():
+        fits = name == "num_attention_heads" and value == [32] * 99  # heads of one channel each
+        if name == "down_block_types" or fits or value == usual:
+            continue
+        file.write_text(json.dumps({**config, name: value}))
+        with pytest.raises(CheckpointError, match="svd.* does not fit"):
+            load_models(copy, lvcd)
+
+
+@pytest.mark.parametrize("text", ["", "[1]", "{", "null", "[" * 100_000, "\x00", '{"a": 1}'])
+def test_documents_that_tell_nothing_are_named(folder: Path, lvcd: Path, tmp_path: Path, text: str) -> None:
+    copy = tmp_path / "svd"
+    shutil.copytree(folder, copy)
+    (copy / "vae" / "config.json").write_text(text)
+    with pytest.raises(CheckpointError, match="svd does not fit: a config.json"):
+        load_models(copy, lvcd)

@@ -1,0 +1,114 @@
+"""The options of the command line that choose networks."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import fields
+from typing import Any
+
+from .names import option_of
+
+__all__ = ["add_networks"]
+
+_MEMORY = (
+    "Weights are files that you have: nothing is downloaded, and nothing in them is run. All of them are opened before"
+    " the work. With fp16, SVD at 576 x 320 and ToonCrafter at 512 x 320 fit a GPU of 6 GB, and SVD takes 5.7 GiB of"
+    " main memory; a smaller area or decoded_together needs less, fp32 twice as much. On a CPU a clip takes hours, and"
+    " ToonCrafter 17 GB. Ctrl+C ends it after the step at work."
+)
+
+
+def add_networks(parser: argparse.ArgumentParser, *, points: bool, in_betweens: bool) -> None:
+    """The options of networks.
+
+    Args:
+        parser: of a command.
+        points: it cuts parts out at points.
+        in_betweens: it fills frames in.
+    """
+    from ..neural import CHOICES
+    from ..neural.options import DTYPES
+    from ..svd import SVDOptions
+
+    group = parser.add_argument_group("networks in place of what needs none", _MEMORY)
+
+    def choice(name: str, text: str) -> None:
+        group.add_argument(option_of(name), choices=CHOICES[name], help=f"{text} (default: {CHOICES[name][0]})")
+
+    def file(name: str, text: str) -> None:
+        group.add_argument(option_of(name), metavar="FILE", help=text)
+
+    choice(
+        "renderer", "who draws frames. svd: sketch-guided Stable Video Diffusion, the paper's way, on opaque pictures"
+    )
+    file(
+        "svd",
+        "svd.safetensors (image to video, 14 frames), or the folder of its diffusers version, from"
+        " huggingface.co/stabilityai/stable-video-diffusion-img2vid",
+    )
+    file(
+        "lvcd",
+        "lvcd.ckpt from huggingface.co/luckyhzt/lvcd_pretrained_models, or lvcd-fp16.safetensors from"
+        " huggingface.co/Kijai/LVCD-pruned",
+    )
+    _add_settings(group, "--svd-options", SVDOptions())
+    group.add_argument(
+        "--still-parts",
+        action=argparse.BooleanOptionalAction,
+        help="with svd: take what no part ever covers from the illustration, to which the model would change a little"
+        " (default: yes)",
+    )
+    group.add_argument(
+        "--soft-edge", metavar="PX", type=float, help="width of the transition to still parts (default: 24)"
+    )
+    if in_betweens:
+        _add_in_betweens(group, choice, file)
+    choice("extractor", "who draws the lines of sketches. informative: a network that draws them")
+    file(
+        "lines",
+        "sk_model.pth, sk_model2.pth (informative drawings) or netG.pth (Anime2Sketch), from"
+        " huggingface.co/lllyasviel/Annotators",
+    )
+    group.add_argument(
+        "--lines-size",
+        metavar="PX",
+        type=int,
+        help="longer side of the picture that the line network looks at; smaller gives fewer and bolder lines (default:"
+        " the picture's)",
+    )
+    if points:
+        choice("segmenter", "who cuts out the parts of --points. sam: a Segment Anything network")
+        file("sam", "folder with config.json and .safetensors (SAM, SAM-HQ, SAM 2, EdgeTAM, SAM 3), or SAM's own .pth")
+    group.add_argument(
+        "--device", metavar="NAME", help="where networks compute: auto, cpu, cuda, cuda:1, mps (default: auto, a GPU)"
+    )
+    group.add_argument(
+        "--dtype",
+        choices=DTYPES,
+        help="of weights and computing (default: auto, which is fp16 with cuda and fp32 elsewhere;"
+        " for Segment Anything always fp32)",
+    )
+
+
+def _add_in_betweens(group: argparse._ArgumentGroup, choice: Any, file: Any) -> None:
+    from ..tooncrafter import ToonCrafterOptions
+
+    choice("interpolate_with", "who fills frames in. tooncrafter: a video model, the paper's way")
+    file(
+        "tooncrafter",
+        "model.ckpt from huggingface.co/Doubiiu/ToonCrafter, or its pruned fp16 safetensors from"
+        " huggingface.co/Kijai/DynamiCrafter_pruned",
+    )
+    file("sketch_encoder", "ToonCrafter's sketch_encoder.ckpt, with which sketches lead the in-betweens")
+    file("image_encoder", "CLIP-ViT-H-14's picture encoder, which the pruned file lacks")
+    file("text_encoder", "Stable Diffusion 2.1's text encoder, which the pruned file lacks; needed once")
+    _add_settings(group, "--tooncrafter-options", ToonCrafterOptions())
+
+
+def _add_settings(group: argparse._ArgumentGroup, option: str, usual: Any) -> None:
+    known = ", ".join(f"{each.name}={getattr(usual, each.name)}" for each in fields(usual))
+    group.add_argument(
+        option,
+        metavar="NAME=VALUE,...",
+        help=f"settings, such as steps=12,seed=7; an area also as 576x320 [px] (default: {known})",
+    )

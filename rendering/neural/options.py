@@ -1,0 +1,130 @@
+"""Which networks stand in for what needs none, and the files of their weights."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+from ...physics.checks import check_number, check_whole, require_kind
+from ...physics.errors import InvalidInputError, require
+from ..svd import SVDOptions
+from ..tooncrafter import ToonCrafterOptions
+
+__all__ = ["CHOICES", "DTYPES", "FILES", "NetworkOptions", "StrPath"]
+
+CHOICES = {
+    "renderer": ("composite", "svd"),
+    "interpolate_with": ("motion", "flow", "blend", "tooncrafter"),
+    "extractor": ("gaussians", "informative"),
+    "segmenter": ("grabcut", "sam"),
+}
+"""What can be chosen, first what is usual; the last of each is a network."""
+
+FILES = {
+    "svd": ("renderer", True),
+    "lvcd": ("renderer", True),
+    "tooncrafter": ("interpolate_with", True),
+    "sketch_encoder": ("interpolate_with", False),
+    "image_encoder": ("interpolate_with", False),
+    "text_encoder": ("interpolate_with", False),
+    "lines": ("extractor", True),
+    "sam": ("segmenter", True),
+}
+"""For each file the choice whose network it belongs to, and whether that cannot do without it."""
+
+DTYPES = ("auto", "fp32", "fp16", "bf16")
+
+StrPath = str | os.PathLike[str]
+
+_USUAL_SVD, _USUAL_TOONCRAFTER = SVDOptions(), ToonCrafterOptions()
+
+
+@dataclass(frozen=True, kw_only=True)
+class NetworkOptions:
+    """Networks, each beside what is used without it. Weights are files that the user has; nothing is fetched.
+
+    Attributes:
+        renderer: "composite" moves the illustration's own pixels; "svd" has sketch-guided Stable Video Diffusion draw
+            every frame, the paper's way.
+        svd: Stable Video Diffusion, image to video, 14 frames: svd.safetensors, or the folder of its diffusers version.
+        lvcd: lvcd.ckpt or lvcd-fp16.safetensors.
+        svd_options: settings of the renderer.
+        still_parts: take what no part ever covers from the illustration, as video models repaint all of it.
+        soft_edge: width of the transition to it [px].
+        interpolate_with: who draws in-betweens: "motion", "flow", "blend", or "tooncrafter", the paper's way.
+        tooncrafter: model.ckpt, or its pruned fp16 safetensors.
+        sketch_encoder: sketch_encoder.ckpt, with which sketches lead the in-betweens; without it nothing does.
+        image_encoder: CLIP-ViT-H-14's picture encoder; needed with the pruned file, which has none.
+        text_encoder: Stable Diffusion 2.1's text encoder; needed once with the pruned file, beside which the embedding
+            of no words is then kept.
+        tooncrafter_options: settings of the in-betweens.
+        extractor: "gaussians" finds lines without a network; "informative" is a network that draws them, informative
+            drawings or Anime2Sketch.
+        lines: sk_model.pth, sk_model2.pth or netG.pth.
+        lines_size: longer side of the picture that the line network looks at [px]; 0: as the picture is.
+        segmenter: "grabcut" cuts parts out at points by colours and lines; "sam" is a Segment Anything network.
+        sam: folder with config.json and .safetensors (SAM, SAM-HQ, SAM 2, EdgeTAM, SAM 3), or SAM's own .pth file.
+        device: "auto", or what torch calls it, such as "cpu", "cuda", "cuda:1" or "mps".
+        dtype: of weights and computing: "fp32", "fp16", "bf16"; "auto" takes fp16 on a GPU of NVIDIA or AMD and fp32
+            elsewhere, and fp32 for Segment Anything everywhere.
+
+    Raises:
+        InvalidInputError: there is no such choice, a file is missing for it, or one is given that nothing would read.
+
+    Examples:
+        >>> from physanimator.rendering.neural import NetworkOptions
+        >>> from physanimator.rendering.svd import SVDOptions
+        >>> options = NetworkOptions(
+        ...     renderer="svd", svd="svd.safetensors", lvcd="lvcd.ckpt", svd_options=SVDOptions(steps=12)
+        ... )
+        >>> options.draws_all, options.svd_options.seed
+        (True, 0)
+    """
+
+    renderer: str = "composite"
+    svd: StrPath | None = None
+    lvcd: StrPath | None = None
+    svd_options: SVDOptions = _USUAL_SVD
+    still_parts: bool = True
+    soft_edge: float = 24.0
+    interpolate_with: str = "motion"
+    tooncrafter: StrPath | None = None
+    sketch_encoder: StrPath | None = None
+    image_encoder: StrPath | None = None
+    text_encoder: StrPath | None = None
+    tooncrafter_options: ToonCrafterOptions = _USUAL_TOONCRAFTER
+    extractor: str = "gaussians"
+    lines: StrPath | None = None
+    lines_size: int = 0
+    segmenter: str = "grabcut"
+    sam: StrPath | None = None
+    device: str = "auto"
+    dtype: str = "auto"
+
+    def __post_init__(self) -> None:
+        for name, choices in CHOICES.items():
+            require(name, repr(getattr(self, name)), getattr(self, name) in choices, f"one of {', '.join(choices)}")
+        for name, (choice, needed) in FILES.items():
+            network, file = CHOICES[choice][-1], getattr(self, name)
+            require_kind(name, file, (str, os.PathLike, type(None)), "the path of a file")
+            chosen = getattr(self, choice) == network
+            if file is None and chosen and needed:
+                raise InvalidInputError(f"{name} must be a file where {choice} is {network}. Got: none")
+            if file is not None and not chosen:
+                raise InvalidInputError(
+                    f"{name} must be left out unless {choice} is {network}. Got: {os.fspath(file)[:80]}"
+                )
+        require("dtype", repr(self.dtype), self.dtype in DTYPES, f"one of {', '.join(DTYPES)}")
+        check_number("soft_edge", self.soft_edge, 0, 10_000, unit=" px")
+        if self.lines_size:
+            check_whole("lines_size", self.lines_size, 16, 16384, unit=" px")
+
+    @property
+    def draws_all(self) -> bool:
+        """Whether a video model draws whole opaque frames."""
+        return self.renderer == "svd"
+
+    @property
+    def uses_networks(self) -> bool:
+        """Whether any network is chosen."""
+        return any(getattr(self, name) == choices[-1] for name, choices in CHOICES.items())
