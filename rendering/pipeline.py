@@ -139,20 +139,19 @@ def animate(
     if watch.on_note is not None:
         for note in parts.notes:
             watch.on_note(note)
-    bars_strands = "pixel_art" if pixel_art else "contact" if touching.contact or _has_contact(scene) else ""
     with timed(seconds, "scene"):
         if scene is None:
             suiting = [each or "hair" for each in parts.presets]
             materials = materials_of(preset or suiting, sway, len(parts.meshes))
             sides = parts.attachments if attach == "auto" else (attach,) * len(parts.meshes)
-            split = _split(strands, [each.name in OF_STRANDS for each in materials], bars_strands)
+            split = _split(strands, [each.name in OF_STRANDS for each in materials], pixel_art)
             parts = parts.in_strands(split, sides)
             whole = _automatic(parts.bodies(materials, split), wind, timing, attach=sides, sway_by_size=sway is None)
         else:
             absent: tuple[str, ...] = ()
             if not isinstance(scene, Scene):
                 scene, absent = arranged_for(scene, parts.names)
-            split = _split(strands, _split_by(scene, len(parts.meshes)), bars_strands)
+            split = _split(strands, _split_by(scene, len(parts.meshes)), pixel_art)
             parts = parts.in_strands(split, parts.attachments)
             given = list(parts.meshes)
             whole = given_scene(
@@ -179,22 +178,13 @@ def animate(
     return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds, parts.own)
 
 
-def _split(asked: bool | None, suiting: list[bool], barring: str) -> list[bool]:
-    """Which parts are slit: as asked, or else those that it suits; none with what bars it.
-
-    The sides of a slit lie on each other, which contact would drive apart, and go through blocks of pixel art.
-    """
-    if asked and barring:
-        raise InvalidInputError(f"strands must be left out, or off, with {barring}. Got: both")
-    if barring:
+def _split(asked: bool | None, suiting: list[bool], pixel_art: bool) -> list[bool]:
+    """Which parts are slit: as asked, or else those that it suits; none in pixel art, through whose blocks slits go."""
+    if asked and pixel_art:
+        raise InvalidInputError("strands must be left out, or off, with pixel_art. Got: both")
+    if pixel_art:
         return [False] * len(suiting)
     return suiting if asked is None else [asked] * len(suiting)
-
-
-def _has_contact(scene: Scene | Mapping[str, Any] | None) -> bool:
-    if scene is None or isinstance(scene, Scene):
-        return scene is not None and scene.contact is not None
-    return scene.get("contact") is not None
 
 
 def _split_by(scene: Scene | Mapping[str, Any], count: int) -> list[bool]:
