@@ -124,6 +124,17 @@ def test_parts_that_touch_are_split_and_pixel_art_is_not() -> None:
         animate(picture, [mask], strands=True, pixel_art=True, **options)
 
 
+def test_slits_in_hair_behind_a_head_stay_near_the_tips() -> None:
+    picture, mask = hair()
+    body = Body(mesh_from_mask(mask, spacing=14), preset("hair"))
+    lengths = {}
+    for attach in ("crown", "covered"):
+        after = Body(split_into_strands(picture, body, attach=attach), body.material)
+        lengths[attach] = float(np.ptp(slit_edges(body, after)[..., 1]))
+    assert lengths["crown"] > 120
+    assert 40 < lengths["covered"] < 0.8 * lengths["crown"]
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_any_drawing_is_borne(seed: int) -> None:
     """Random blobs under random scribbles: the mesh keeps its parts, its area and its outline."""
