@@ -70,7 +70,7 @@ class ArtworkToBodies(io.ComfyNode):
                     "strands",
                     default=True,
                     tooltip="Slit hair and ribbons along the lines that are drawn between their strands, so that these"
-                    " swing apart. Switch it off where the scene has Contact.",
+                    " swing apart.",
                 ),
                 BodiesWire.Input(
                     "bodies",

@@ -218,9 +218,6 @@ def scene_output(scene: PhysicalScene, bodies: tuple[MaskedBody, ...], *, ui: An
     """What the nodes of this file give: the scene with the bodies' masks, and its document."""
     from ..physics.document import dumps
 
-    if scene.contact is not None and any(item.source is not None and item.body.strands for item in bodies):
-        # The sides of a slit lie on each other, which contact would drive apart.
-        raise InvalidInputError("contact needs whole parts: switch strands off in Artwork to Bodies. Got: slit ones")
     return io.NodeOutput(MaskedScene.of(scene, bodies), dumps(scene, meshes=False), ui=ui)
 
 

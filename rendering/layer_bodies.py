@@ -43,14 +43,12 @@ def bodies_of_document(artwork: Artwork, document: Mapping[str, Any]) -> dict[in
     for note in parts.notes:
         require("layer", note, not any(f"layer {name}:" in note for name in wanted), "one that gives a mesh")
     materials = [preset(each or "hair") for each in parts.presets]
-    # The sides of a slit lie on each other, which contact would drive apart.
     said = {entry.get("name"): entry.get("strands") for entry in document.get("bodies", [])}
     suits = [
         made.name in OF_STRANDS if said.get(name) is None else said[name]
         for name, made in zip(parts.names, materials, strict=True)
     ]
-    chosen = [bool(each) and document.get("contact") is None for each in suits]
-    whole, parts = parts.meshes, parts.in_strands(chosen, parts.attachments)
+    whole, parts = parts.meshes, parts.in_strands([bool(each) for each in suits], parts.attachments)
     slit = [mesh is not before for mesh, before in zip(parts.meshes, whole, strict=True)]
     bodies = zip(parts.names, parts.bodies(materials, slit), parts.masks, strict=True)
     return {artwork.names.index(name): (body, mask) for name, body, mask in bodies}

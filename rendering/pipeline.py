@@ -140,9 +140,8 @@ def animate(
     if watch.on_note is not None:
         for note in parts.notes:
             watch.on_note(note)
-    barring = "pixel_art" if pixel_art else "contact" if touching.contact or _has_contact(scene) else ""
     with timed(seconds, "scene"):
-        how = _Movement(preset, sway, attach, wind, timing, strands, barring)
+        how = _Movement(preset, sway, attach, wind, timing, strands, pixel_art)
         parts, whole = how.automatic(parts) if scene is None else how.given(parts, scene)
         whole = replace(whole, still=parts.still) if parts.still else whole
         whole = physics.applied(whole, sway=sway)
@@ -204,7 +203,7 @@ class _Flat:
 
 @dataclass(frozen=True, eq=False)
 class _Movement:
-    """What was said of how parts move, and what bars slits between strands."""
+    """What was said of how parts move, and whether it moves as pixel art, which has no slits."""
 
     preset: str | Sequence[str] | None
     sway: float | None
@@ -212,14 +211,14 @@ class _Movement:
     wind: AutomaticWind
     timing: Timing
     strands: bool | None
-    barring: str
+    pixel_art: bool
 
     def automatic(self, parts: Parts) -> tuple[Parts, Scene]:
         """The parts, slit where that suits them, and the scene where none is given."""
         suiting = [each or "hair" for each in parts.presets]
         materials = materials_of(self.preset or suiting, self.sway, len(parts.meshes))
         sides = parts.attachments if self.attach == "auto" else (self.attach,) * len(parts.meshes)
-        split = _split(self.strands, [each.name in OF_STRANDS for each in materials], self.barring)
+        split = _split(self.strands, [each.name in OF_STRANDS for each in materials], self.pixel_art)
         parts = parts.in_strands(split, sides)
         rate = self.timing.frame_rate
         return parts, automatic_scene(
@@ -237,7 +236,7 @@ class _Movement:
         absent: tuple[str, ...] = ()
         if not isinstance(scene, Scene):
             scene, absent = arranged_for(scene, parts.names)
-        split = _split(self.strands, _split_by(scene, len(parts.meshes)), self.barring)
+        split = _split(self.strands, _split_by(scene, len(parts.meshes)), self.pixel_art)
         parts = parts.in_strands(split, parts.attachments)
         whole = given_scene(
             scene,
@@ -251,22 +250,13 @@ class _Movement:
         return parts, replace(whole, absent=absent)
 
 
-def _split(asked: bool | None, suiting: list[bool], barring: str) -> list[bool]:
-    """Which parts are slit: as asked, or else those that it suits; none with what bars it.
-
-    The sides of a slit lie on each other, which contact would drive apart, and go through blocks of pixel art.
-    """
-    if asked and barring:
-        raise InvalidInputError(f"strands must be left out, or off, with {barring}. Got: both")
-    if barring:
+def _split(asked: bool | None, suiting: list[bool], pixel_art: bool) -> list[bool]:
+    """Which parts are slit: as asked, or else those that it suits; none in pixel art, through whose blocks slits go."""
+    if asked and pixel_art:
+        raise InvalidInputError("strands must be left out, or off, with pixel_art. Got: both")
+    if pixel_art:
         return [False] * len(suiting)
     return suiting if asked is None else [asked] * len(suiting)
-
-
-def _has_contact(scene: Scene | Mapping[str, Any] | None) -> bool:
-    if scene is None or isinstance(scene, Scene):
-        return scene is not None and scene.contact is not None
-    return scene.get("contact") is not None
 
 
 def _split_by(scene: Scene | Mapping[str, Any], count: int) -> list[bool]:

@@ -25,7 +25,9 @@ IndexArray = NDArray[np.int64]
 
 _ACROSS = 640  # cells along the longer side of a part
 _TIP = 0.05  # how far a tip sticks out beyond the notches beside it, as a share of the longest way from the root
-_ROOT = 1 / 3  # share of the way from the root to the tips beside a slit that stays whole
+# Share of the way from the root to the tips beside a slit that stays whole: slits in front hair open onto the face or
+# more hair, those in hair behind a head onto the backdrop, which shows through hair that should be full.
+_ROOT, _ROOT_BEHIND = 1 / 3, 0.6
 _SHORTEST = 3  # edges of a slit at least
 _KEPT = 0.35  # of the least height of the triangles around a vertex that is moved onto a line
 _ASTRAY = 4.0  # how dear it is for a slit to leave its line by an edge's length
@@ -46,7 +48,7 @@ def split_into_strands(
     mesh = body.mesh
     held = np.logical_or.reduce([vertices_of(pin, mesh) for pin in pins(body, 0, attach=attach)])
     ways = ways_from(mesh, held)
-    notches, until, tips = _notches(mesh, ways)
+    notches, until, tips = _notches(mesh, ways, whole=_ROOT_BEHIND if attach == "covered" else _ROOT)
     if not len(notches):
         return mesh
     whole = mesh
@@ -71,7 +73,7 @@ def _strand_by_strand(mesh: TriangleMesh, tips: IndexArray) -> TriangleMesh:
     return TriangleMesh(mesh.vertices, mesh.triangles[order], mesh.width, mesh.height)
 
 
-def _notches(mesh: TriangleMesh, ways: FloatArray) -> tuple[IndexArray, FloatArray, IndexArray]:
+def _notches(mesh: TriangleMesh, ways: FloatArray, *, whole: float) -> tuple[IndexArray, FloatArray, IndexArray]:
     """Vertices at which two tips part, how near the root a slit from each may come [px], and the tips, in order."""
     from scipy.signal import find_peaks
 
@@ -86,7 +88,7 @@ def _notches(mesh: TriangleMesh, ways: FloatArray) -> tuple[IndexArray, FloatArr
         ends.extend(loop[tips % len(loop)])
         for one, other in pairwise(tips):
             notch = one + int(np.argmin(along[one:other]))
-            limit = _ROOT * min(along[one], along[other])
+            limit = whole * min(along[one], along[other])
             if along[notch] > limit:
                 found.append(loop[notch])
                 until.append(limit)

@@ -145,7 +145,7 @@ def resolve_contacts(
         done = 0
         for c in range(count):
             pair = surface.contacts[c]
-            own, part = surface.point_parts[pair[0]], surface.edge_parts[pair[1]]
+            own, part = surface.point_parts[pair[0]], surface.edge_parts[pair[1]][0]
             one, other = activity[own][STEPS], activity[part][STEPS]
             more, fewer = ti.max(one, other), ti.min(one, other)
             if fewer == 0:  # a collider

@@ -9,8 +9,9 @@ Edges go into a spatial hash by their middles; vertices outside the bounding box
 import taichi as ti
 
 from ..solver.kernel_types import any_value, int2, vec2, vec4
+from .closeness import FACING
 from .edge_hash import bucket, cell_of, fill_hash, middle
-from .functions import edge_ends, offset_from_edge, rest_position
+from .functions import edge_ends, offset_from_edge
 from .surface import FAR, LONGEST, MARGIN, RADIUS, SPACING
 
 __all__ = [
@@ -31,17 +32,48 @@ _INSIDE_RADIUS = 2.0  # [mean edges] within which edges are searched for a point
 
 
 @ti.func
-def may_touch(surface: any_value, solid: any_value, i: ti.i32, own: ti.i32, e: ti.i32, options: any_value):
-    """Whether a vertex may collide with an edge: not with its own edges, nor with those near it at rest."""
-    part, edge = surface.edge_parts[e], surface.edges[e]
-    a, b = surface.points[edge[0]], surface.points[edge[1]]
-    allowed = surface.bodies[part] != surface.bodies[own]
-    if (not allowed) and options.self_contact == 1 and surface.bodies[own] >= 0 and a != i and b != i:
-        allowed = True
+def may_touch(surface: any_value, n: ti.i32, e: ti.i32, options: any_value):
+    """Whether a point may collide with an edge: with its own body in self contact, but not with edges that end at it.
+
+    The sides of a slit touch each other; other parts meet the outline as it is without slits.
+    """
+    own, part, slit = surface.point_parts[n], surface.edge_parts[e][0], surface.edge_parts[e][1]
+    body, edge = surface.bodies[own], surface.edges[e]
+    allowed = surface.bodies[part] != body and slit < 0
+    if surface.bodies[part] == body and body >= 0 and options.self_contact == 1:
+        allowed = slit < 0
         if part == own:
-            apart = offset_from_edge(rest_position(solid, i), rest_position(solid, a), rest_position(solid, b)).norm()
-            allowed = apart > 2.0 * ti.max(surface.measures[part][SPACING], options.thickness)
+            allowed = edge[0] != n and edge[1] != n and own_edge_may_touch(surface, n, e, options)
     return allowed
+
+
+@ti.func
+def own_edge_may_touch(surface: any_value, n: ti.i32, e: ti.i32, options: any_value):
+    """Whether a point may collide with an edge of its own part: one that is far away as drawn, or faces it.
+
+    Those along its own side of the outline, and behind it in a thin part, are always near.
+    """
+    a, b, p = (
+        drawn_place(surface, surface.edges[e][0]),
+        drawn_place(surface, surface.edges[e][1]),
+        drawn_place(surface, n),
+    )
+    away = offset_from_edge(p, a, b)
+    apart = away.norm()
+    allowed = apart > 2.0 * ti.max(surface.measures[surface.point_parts[n]][SPACING], options.thickness)
+    if not allowed:
+        normal = vec2(a[1] - b[1], b[0] - a[0]) / ti.max((b - a).norm(), 1e-12)
+        slit = surface.edge_parts[e][1]
+        across = slit >= 0 and slit == ti.cast(surface.own_sides[n][1], ti.i32)
+        facing = normal.dot(vec2(surface.drawn[n][2], surface.drawn[n][3])) < 0.0 - FACING
+        allowed = facing and (across or (apart > 0.0 and away.dot(normal) >= FACING * apart))
+    return allowed
+
+
+@ti.func
+def drawn_place(surface: any_value, n: ti.i32):
+    """Position of a point as drawn."""
+    return vec2(surface.drawn[n][0], surface.drawn[n][1])
 
 
 @ti.func
@@ -122,7 +154,7 @@ def build_hash(surface: any_value, options: any_value):
         a, b = edge_ends(surface, e)
         length, between = (b - a).norm(), 0.5 * (a + b)
         longest = ti.max(longest, length)
-        body = ti.cast(surface.bodies[surface.edge_parts[e]], ti.f32)
+        body = ti.cast(surface.bodies[surface.edge_parts[e][0]], ti.f32)
         surface.middles[e] = vec4(between[0], between[1], 0.5 * length, body)
     surface.memory[LONGEST] = longest
     inner, outer = search_radii(surface, options)
@@ -158,32 +190,27 @@ def add_edges_around(surface: any_value, options: any_value, n: ti.i32, reach: t
 
 
 @ti.func
-def keep_within_reach(
-    surface: any_value, solid: any_value, options: any_value, n: ti.i32, reach: ti.f32, first: ti.i32, end: ti.i32
-):
+def keep_within_reach(surface: any_value, options: any_value, n: ti.i32, reach: ti.f32, first: ti.i32, end: ti.i32):
     """Of a point's candidates from the first one on, keep those within reach that it may touch.
 
     Returns where they end now, and the square of the distance to the nearest.
     """
     candidates = ti.static(surface.candidates)
     nearest_square, kept = FAR, first
-    i, own, p = surface.points[n], surface.point_parts[n], surface.positions[n]
+    p = surface.positions[n]
     for c in range(first, end):
         e = candidates[c]
         candidates[kept] = e
         a, b = edge_ends(surface, e)
         square = offset_from_edge(p, a, b).norm_sqr()
-        near = square < reach * reach
-        if near and options.self_contact == 1:
-            near = may_touch(surface, solid, i, own, e, options)
-        if near:
+        if square < reach * reach and may_touch(surface, n, e, options):
             nearest_square = ti.min(nearest_square, square)
             kept = kept + 1
     return kept, nearest_square
 
 
 @ti.func
-def list_candidates(surface: any_value, solid: any_value, options: any_value):
+def list_candidates(surface: any_value, options: any_value):
     """List for each point the edges within its search radius and the margin."""
     inner, outer = search_radii(surface, options)
     count = 0
@@ -192,6 +219,6 @@ def list_candidates(surface: any_value, solid: any_value, options: any_value):
         reach = ti.select(known_outside(surface, n), outer, inner) + surface.memory[MARGIN]
         if near_a_box(surface, options, n, reach):
             count = add_edges_around(surface, options, n, reach, first)
-            count, nearest_square = keep_within_reach(surface, solid, options, n, reach, first, count)
+            count, nearest_square = keep_within_reach(surface, options, n, reach, first, count)
         surface.candidate_ranges[n] = int2(first, count)
         surface.listed[n] = vec4(p[0], p[1], ti.sqrt(nearest_square), surface.listed[n][3])

@@ -7,6 +7,7 @@ import taichi as ti
 
 from ..solver import TICK
 from ..solver.kernel_types import any_value, int2, vec4
+from .closeness import NEVER
 from .functions import edge_ends, edge_parameter, normal_of, offset_from_edge
 from .listing import INSIDE_DEPTH, TOLERANCE, known_outside, listed_position, overlaps_nothing, search_radii
 from .surface import (
@@ -34,7 +35,7 @@ _slots_of_parts, _slots_of_distances = ti.types.vector(LIST_LENGTH, ti.i32), ti.
 @ti.func
 def clearly_apart(surface: any_value, options: any_value, n: ti.i32, e: ti.i32, time: ti.f32):
     """Whether a point is in front of an edge, too far to touch it within a tick, and overlaps nothing at rest."""
-    own, part = surface.point_parts[n], surface.edge_parts[e]
+    own, part = surface.point_parts[n], surface.edge_parts[e][0]
     a, b = edge_ends(surface, e)
     way, along_edge = surface.positions[n] - a, b - a
     t, cross = way.dot(along_edge), way[1] * along_edge[0] - way[0] * along_edge[1]
@@ -56,7 +57,7 @@ def add_contact(surface: any_value, options: any_value, n: ti.i32, e: ti.i32, ti
 
     Returns the signed distance, negative behind the edge.
     """
-    own, part = surface.point_parts[n], surface.edge_parts[e]
+    own, part = surface.point_parts[n], surface.edge_parts[e][0]
     approach, slack = (
         surface.measures[own][SPEED] + surface.measures[part][SPEED],
         TOLERANCE * surface.measures[part][SPACING],
@@ -67,20 +68,22 @@ def add_contact(surface: any_value, options: any_value, n: ti.i32, e: ti.i32, ti
     away, normal = offset_from_edge(p, a, b), normal_of(surface, e)
     outward = normal
     if t <= 0.0:
-        outward = normal + normal_of(surface, surface.neighbours[e][0])
+        outward = normal + normal_of(surface, surface.edges[e][2])
     if t >= 1.0:
-        outward = normal + normal_of(surface, surface.neighbours[e][1])
+        outward = normal + normal_of(surface, surface.edges[e][3])
     signed = away.norm()
     if away.dot(outward) < 0.0:
         signed = 0.0 - signed
     if ti.abs(signed) > 1e-6 and (t <= 0.0 or t >= 1.0):
         normal = away / signed
     wanted = options.thickness
+    if part == own:
+        wanted = surface.own_sides[n][0]
     for o in range(surface.first_overlaps[n], surface.first_overlaps[n + 1]):
-        if surface.overlap_parts[o] == part:
-            if signed > options.thickness:
-                surface.overlaps[o] = options.thickness
-            wanted = surface.overlaps[o]
+        if ti.cast(surface.overlaps[o][0], ti.i32) == part:
+            if signed > options.thickness and surface.overlaps[o][1] > NEVER:
+                surface.overlaps[o][1] = options.thickness
+            wanted = surface.overlaps[o][1]
     deepest = _DEEPEST * surface.measures[part][SPACING]
     if part == own:
         deepest = _DEEPEST_SELF * surface.measures[own][SPACING]
@@ -109,7 +112,7 @@ def nearest_edges(surface: any_value, n: ti.i32, reach: ti.f32):
         distance = offset_from_edge(p, a, b).norm_sqr()
         nearest_square = ti.min(nearest_square, distance)
         if distance < reach * reach:
-            part, taken = surface.edge_parts[e], False
+            part, taken = surface.edge_parts[e][0], False
             for j in ti.static(range(LIST_LENGTH)):
                 if (not taken) and (parts[j] == part or parts[j] < 0):
                     taken = True

@@ -127,7 +127,7 @@ def find_contacts(surface: any_value, solid: any_value, state: any_value, option
     memory = ti.static(surface.memory)
     begin_search(surface, solid, state, options, time)
     if memory[SEARCH] == _CANDIDATES_TOO:
-        list_candidates(surface, solid, options)
+        list_candidates(surface, options)
     if memory[SEARCH] > _NOTHING:
         memory[NEAREST_SQUARE] = list_contacts(surface, options)
     end_search(surface, options)

@@ -1,4 +1,4 @@
-"""Boundaries of bodies and colliders in the form of the contact kernel, and how they overlap at rest."""
+"""Boundaries of bodies and colliders in the form of the contact kernel, and what is close in the drawing."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..assembly import System, outline_spacing
-from ..interruption import checkpoint
-from ..mesh import boundary_edges, within_reach
+from ..mesh import boundary_edges
 from ..scene import Contact, Scene, outlines, window_of
+from .closeness import Outline, neighbours_of, outward_of, overlaps_of, own_gaps, slits_at, slits_of
 
 __all__ = [
     "CANDIDATES",
@@ -82,18 +82,21 @@ class ContactSurface(NamedTuple):
     Attributes:
         points: vertices on a boundary, ascending, int32, shape [n].
         point_parts: connected part of each, colliders counted after all parts, int32, shape [n].
-        edges: boundary edges in the winding of their triangles by the numbers of their ends among the points, int32,
-            shape [e, 2].
-        neighbours: boundary edge before each, which ends where it begins, and the one after it, int32, shape [e, 2].
-        edge_parts: connected part of each, int32, shape [e].
+        edges: boundary edges in the winding of their triangles: their ends by their numbers among the points, the edge
+            before, which ends where it begins, and the one after it, int32, shape [e, 4].
+        edge_parts: connected part of each, and the slit that it is a side of, -1 for none, int32, shape [e, 2].
+        drawn: place of each point as drawn [side], and the sum of the outward unit normals of its edges, float32, shape
+            [n, 4].
+        own_sides: distance that each point keeps from its own part [side], and the slit that it is on a side of, -1 for
+            none, float32, shape [n, 2].
         bodies: body of each part, -1 for colliders, int32, shape [p].
         measures: mean length of each part's boundary edges at rest [side] and the speed of its fastest boundary vertex
             [side/s], float32, shape [p, 2].
         boxes: low and high corner of the box around each part when candidates were listed [side], float32, shape
             [p, 4].
-        first_overlaps: where each point's entries of the following two begin, int32, shape [n + 1].
-        overlap_parts: parts that a point is in or near at rest, int32, shape [o].
-        overlaps: distance that it keeps from each, negative inside [side], float32, shape [o].
+        first_overlaps: where each point's entries of the following begin, int32, shape [n + 1].
+        overlaps: parts that a point is in or near as drawn, and the distance that it keeps from each, negative inside
+            [side], NEVER if it does not touch it, float32, shape [o, 2].
         heads, order: the spatial hash: where each bucket begins in order, and the edges by bucket, beside which stands
             the bucket of each edge by its number, int32, shapes [k + 1], [e, 2].
         middles: the middle of each edge when candidates were listed, half its length [side], and its body, float32,
@@ -115,13 +118,13 @@ class ContactSurface(NamedTuple):
     points: Int32Array
     point_parts: Int32Array
     edges: Int32Array
-    neighbours: Int32Array
     edge_parts: Int32Array
+    drawn: Float32Array
+    own_sides: Float32Array
     bodies: Int32Array
     measures: Float32Array
     boxes: Float32Array
     first_overlaps: Int32Array
-    overlap_parts: Int32Array
     overlaps: Float32Array
     heads: Int32Array
     order: Int32Array
@@ -152,7 +155,8 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
             positions.append(loop / side)
             count += len(loop)
     still = np.concatenate(positions) if positions else np.zeros((0, 2))
-    rest = np.concatenate([system.rest.positions, still])
+    drawn = np.concatenate([body.mesh.vertices / side for body in scene.bodies])[system.order]
+    rest = np.concatenate([drawn, still])
     every, part_of_edge = np.concatenate(edges), np.concatenate(edge_parts)
     points, first = np.unique(every[:, 0], return_index=True)
     point_parts = part_of_edge[first]
@@ -161,21 +165,26 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
     own = np.linalg.norm(np.diff(rest[every], axis=1)[:, 0], axis=1)
     numbers = np.bincount(part_of_edge, minlength=len(bodies))
     mean = np.bincount(part_of_edge, weights=own, minlength=len(bodies)) / np.maximum(numbers, 1)
-    overlaps = _overlaps(rest, points, point_parts, every, part_of_edge, len(bodies), contact.thickness / side)
+    outline = Outline(rest, every, part_of_edge, slits_of(rest, every, part_of_edge))
+    thickness, on_slits = contact.thickness / side, slits_at(outline, points)
+    gaps = np.zeros(len(points), np.float32)
+    if contact.self_contact:
+        gaps = own_gaps(outline, points, point_parts, on_slits.max(axis=1), thickness)
+    overlaps = overlaps_of(outline, points, point_parts, on_slits.min(axis=1), parts=len(bodies), reach=thickness)
     room = LIST_LENGTH * len(points)
     buckets = 1 << max(4, int(np.ceil(np.log2(2 * len(every)))))
     surface = ContactSurface(
         points=points,
         point_parts=point_parts,
-        edges=np.searchsorted(points, every).astype(np.int32),
-        neighbours=_neighbours(every),
-        edge_parts=part_of_edge,
+        edges=np.column_stack([np.searchsorted(points, every), neighbours_of(outline)]).astype(np.int32),
+        edge_parts=np.column_stack([part_of_edge, outline.slits]).astype(np.int32),
+        drawn=np.column_stack([rest[points], outward_of(outline, points)]).astype(np.float32),
+        own_sides=np.column_stack([gaps, on_slits.max(axis=1)]).astype(np.float32),
         bodies=bodies,
         measures=np.column_stack([mean, np.zeros_like(mean)]).astype(np.float32),
         boxes=np.zeros((len(bodies), 4), np.float32),
         first_overlaps=overlaps[0],
-        overlap_parts=overlaps[1],
-        overlaps=overlaps[2],
+        overlaps=overlaps[1],
         heads=np.zeros(buckets + 1, np.int32),
         order=np.zeros((len(every), 2), np.int32),
         middles=np.zeros((len(every), 4), np.float32),
@@ -190,45 +199,3 @@ def contact_surface(scene: Scene, system: System, contact: Contact) -> tuple[Con
         memory=np.array([0.0, -1.0, *[0.0] * 12], np.float32),
     )
     return surface, still
-
-
-def _neighbours(edges: Int32Array) -> Int32Array:
-    """For each edge of closed outlines one that ends where it begins, and one that begins where it ends."""
-    size = int(edges.max()) + 1
-    ending, beginning = np.zeros(size, np.int32), np.zeros(size, np.int32)
-    numbers = np.arange(len(edges), dtype=np.int32)
-    ending[edges[:, 1]], beginning[edges[:, 0]] = numbers, numbers
-    return np.column_stack([ending[edges[:, 0]], beginning[edges[:, 1]]])
-
-
-def _overlaps(
-    rest: FloatArray,
-    points: Int32Array,
-    point_parts: Int32Array,
-    edges: Int32Array,
-    edge_parts: Int32Array,
-    parts: int,
-    thickness: float,
-) -> tuple[Int32Array, Int32Array, Float32Array]:
-    """Which points are inside or nearly touch which other part at rest, and the distance that they keep from it."""
-    numbers, others, distances = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)], [np.zeros(0)]
-    for part in range(parts):
-        checkpoint()
-        own = edges[edge_parts == part]
-        if not len(own):
-            continue
-        corners = rest[own[:, 0]]
-        low, high = corners.min(axis=0) - thickness, corners.max(axis=0) + thickness
-        around = ((rest[points] > low) & (rest[points] < high)).all(axis=1) & (point_parts != part)
-        near = np.flatnonzero(around)
-        if len(near):
-            found, distance = within_reach(rest[points[near]], corners, rest[own[:, 1]], thickness)
-            numbers.append(near[found])
-            others.append(np.full(len(found), part))
-            distances.append(distance)
-    number, other, distance = np.concatenate(numbers), np.concatenate(others), np.concatenate(distances)
-    first = np.concatenate([[0], np.cumsum(np.bincount(number, minlength=len(points)))]).astype(np.int32)
-    if not len(number):  # the kernel wants an entry
-        return first, np.array([-1], np.int32), np.zeros(1, np.float32)
-    order = np.lexsort((other, number))
-    return first, other[order].astype(np.int32), distance[order].astype(np.float32)

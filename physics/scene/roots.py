@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from .part_raster import PartRaster
 
-__all__ = ["covered_root", "crown", "end_in_contact", "head"]
+__all__ = ["covered_root", "crown", "end_in_contact", "head", "on_face"]
 
 BoolArray = NDArray[np.bool_]
 
@@ -19,6 +19,7 @@ _SPIKE = 0.15  # rows on top narrower than this share of the widest are a spike,
 # Hair of which a head would be more than this share is blown aside or cut short, and is held by a share of its height.
 _LARGEST_HEAD, _SHORT = 0.5, 0.22
 _FOREHEAD = 0.6  # where hair leaves the forehead, in radii of the head from its top
+_TO_CHIN, _FAR_BELOW = 2.5, 4.0  # hair that ends at the chin, and such that most of it hangs below [radii of the head]
 _MOST = 0.5  # of hair before a face: share of its height that is held at most
 _STRAND, _OF_STRAND = 0.12, 0.2  # hair of which a head would be less than this share is a strand; what is held of it
 _AROUND = 1.8  # how far hair lies around a head that covers it [radii of the head]
@@ -41,6 +42,13 @@ def crown(part: PartRaster) -> BoolArray:
     return _down_to(
         part, top + (_OF_STRAND * rows if radius < _STRAND * rows else min(_FOREHEAD * radius, _MOST * rows))
     )
+
+
+def on_face(part: PartRaster) -> float:
+    """How much hair that hangs from a crown lies on the face: 1 if it ends at the chin, 0 far below or in a strand."""
+    top, radius = _head(part.inside)
+    reach = (len(part.inside) - top) / radius
+    return float(np.clip((_FAR_BELOW - reach) / (_FAR_BELOW - _TO_CHIN), 0, 1))
 
 
 def covered_root(part: PartRaster) -> BoolArray:

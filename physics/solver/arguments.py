@@ -29,6 +29,7 @@ def array_types(ti: Any) -> SimpleNamespace:
         vectors2=array(dtype=vector(2, ti.f32), ndim=2),
         vectors4=array(dtype=vector(4, ti.f32), ndim=1),
         pairs=array(dtype=vector(2, ti.i32), ndim=1),
+        quads=array(dtype=vector(4, ti.i32), ndim=1),
         index_blocks=array(dtype=vector(LANES, ti.i32), ndim=2),
         blocks=array(dtype=vector(LANES, ti.f32), ndim=2),
         pair_blocks=array(dtype=vector(2 * LANES, ti.f32), ndim=2),

@@ -216,19 +216,13 @@ def test_layers_of_one_artwork_can_be_bodies_in_two_nodes(host: Any, file: str) 
     assert "move must be of layers that are no bodies yet" in failure(host, again)
 
 
-def test_slit_strands_and_contact_are_refused(host: Any, file: str) -> None:
-    moved = moved_layers("PhysAnimator example.psd", spacing=0.0)
-    prompt = {key: moved[key] for key in ("load", "bodies", "scene")} | {
-        "json": core("PreviewAny", source=["scene", 1])
-    }
-    prompt["contact"] = ours("Contact", friction=0.0, thickness=1.0, self_contact=False)
+def test_slit_strands_and_contact_go_together(host: Any, file: str) -> None:
+    prompt = moved_layers("PhysAnimator example.psd", spacing=0.0, frames=2)
+    prompt["contact"] = ours("Contact", friction=0.0, thickness=1.0, self_contact=True)
     prompt["scene"]["inputs"]["contact"] = ["contact", 0]
-    assert "switch strands off in Artwork to Bodies" in failure(host, prompt)
-    prompt["bodies"]["inputs"]["strands"] = False
-    assert '"contact"' in host.run(prompt)["json"]["text"][0]
-    whole = moved_layers(file, frames=2) | {"contact": prompt["contact"]}
-    whole["scene"]["inputs"]["contact"] = ["contact", 0]
-    assert len(pictures(host, host.run(whole), "seen")) == 2, "hair without lines stays whole"
+    frames = pictures(host, host.run(prompt), "seen")
+    assert len(frames) == 2
+    assert np.abs(frames[0] - frames[1]).max() > 1
 
 
 @pytest.mark.parametrize(

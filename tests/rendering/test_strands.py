@@ -110,18 +110,29 @@ def test_cloth_is_not_split_unless_asked_and_a_scene_is_as_it_says() -> None:
     assert count(scene={**document, "bodies": [{}]}, strands=True) > whole
 
 
-def test_parts_that_touch_and_pixel_art_stay_whole() -> None:
+def test_parts_that_touch_are_split_and_pixel_art_is_not() -> None:
     picture, mask = hair()
     options = {"timing": Timing(frames=2), "spacing": 14}
     whole = len(animate(picture, [mask], strands=False, **options).scene.bodies[0].mesh.vertices)
     touching = Touching(contact=Contact())
     document = {"version": 2, "width": 400, "height": 420, "bodies": [{"strands": True}], "contact": {}}
     for more in ({"touching": touching}, {"scene": document}):
-        assert len(animate(picture, [mask], **options, **more).scene.bodies[0].mesh.vertices) == whole
-    with pytest.raises(InvalidInputError, match=r"strands must be left out, or off, with contact\. Got: both"):
-        animate(picture, [mask], strands=True, touching=touching, **options)
+        assert len(animate(picture, [mask], **options, **more).scene.bodies[0].mesh.vertices) > whole
+    drawn = animate(picture, [mask], pixel_art=True, **options).scene.bodies[0]
+    assert not drawn.strands
     with pytest.raises(InvalidInputError, match=r"strands must be left out, or off, with pixel_art\. Got: both"):
         animate(picture, [mask], strands=True, pixel_art=True, **options)
+
+
+def test_slits_in_hair_behind_a_head_stay_near_the_tips() -> None:
+    picture, mask = hair()
+    body = Body(mesh_from_mask(mask, spacing=14), preset("hair"))
+    lengths = {}
+    for attach in ("crown", "covered"):
+        after = Body(split_into_strands(picture, body, attach=attach), body.material)
+        lengths[attach] = float(np.ptp(slit_edges(body, after)[..., 1]))
+    assert lengths["crown"] > 120
+    assert 40 < lengths["covered"] < 0.8 * lengths["crown"]
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -297,7 +297,7 @@ def test_colliders_from_polygons_wind_as_bodies_do() -> None:
         scene = Scene((Body(disc(*CENTRES[1])),), contact=Contact(), colliders=(Collider(Polygon(points)),))
         surface, still = contact_surface(scene, assemble(scene), Contact())
         a, b = still[
-            surface.points[surface.edges[surface.edge_parts == 1]] - len(scene.bodies[0].mesh.vertices)
+            surface.points[surface.edges[surface.edge_parts[:, 0] == 1, :2]] - len(scene.bodies[0].mesh.vertices)
         ].transpose(1, 0, 2)
         outward = np.column_stack([a[:, 1] - b[:, 1], b[:, 0] - a[:, 0]])
         assert (outward * ((a + b) / 2 - still.mean(axis=0))).sum(axis=1).min() > 0

@@ -128,3 +128,22 @@ def test_wind_beyond_what_acts_is_refused_by_its_own_name(strength: float, turbu
     ):
         automatic_scene([body], wind_strength=strength, turbulence=turbulence)
     assert automatic_scene([body], wind_strength=1e5, turbulence=turbulence).bodies
+
+
+@pytest.mark.parametrize(("bottom", "calmer"), [(240, True), (700, False)])
+def test_hair_on_the_face_answers_the_wind_less(bottom: float, calmer: bool) -> None:
+    """A fringe that ends above the chin of a head 200 px wide, and hair that hangs far below it."""
+    body = body_of(grid(300, 50, 500, bottom, columns=12, rows=24))
+    behind = body_of(grid(280, 50, 520, 750, columns=12, rows=24))
+    bodies = automatic_scene([behind, body], attach=["head", "crown"]).bodies
+    same = automatic_scene([behind, body], attach=["head", "head"]).bodies
+    material, usual = bodies[1].material, same[1].material
+    assert bodies[0].material.wind_response == same[0].material.wind_response
+    assert material.sway_frequency is not None
+    if calmer:
+        assert material.wind_response < 0.7 * usual.wind_response
+    else:
+        assert material.wind_response == usual.wind_response
+    steady = automatic_scene([behind, body], attach=["head", "crown"], sway_by_size=False).bodies[1].material
+    assert steady.sway_frequency == body.material.sway_frequency
+    assert steady.wind_response == material.wind_response
