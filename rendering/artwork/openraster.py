@@ -114,7 +114,7 @@ class _Reader:
     def _layer(self, element: Element, left: int, top: int) -> ArtLayer:
         name = element.get("name") or PurePosixPath(element.get("src", "layer")).stem
         with self._opened(element.get("src", ""), name) as file:
-            pixels = picture_of(cast("IO[bytes]", file), f"{self._name}: layer {name}")
+            pixels = picture_of(cast("IO[bytes]", file), f"{self._name}: layer {name}", self.remarks)
         layer = ArtLayer(
             name=name,
             pixels=pixels,
