@@ -19,7 +19,7 @@ from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
 from ..physics.process_end import working
 from ..physics.progress import Progress
-from ..physics.scene import Attachment, Body, Collider, Contact, Scene, automatic_scene
+from ..physics.scene import Attachment, Body, Collider, Contact, Held, Scene, automatic_scene, held_where_said
 from ..physics.simulation import loop_frames, simulate
 from .animation import Animation, StageProgress, timed
 from .options import DEFAULT_FRAME_RATE, DEFAULT_FRAMES, AutomaticWind, LayerChoice, Timing, Touching, Watch
@@ -166,7 +166,7 @@ def animate(
             )
             whole = replace(whole, absent=absent)
         whole = replace(whole, still=parts.still) if parts.still else whole
-        whole = parts.covered(whole if timing.loop is None else replace(whole, loop=timing.loop))
+        whole = held_where_said(parts.covered(whole if timing.loop is None else replace(whole, loop=timing.loop)))
         timing = _settled(timing, whole)
         whole = _touching(whole, touching.contact, _colliders(touching.colliders, parts.image, parts.layer_mask))
     if watch.on_scene is not None:
@@ -211,7 +211,7 @@ def _automatic(
     wind: AutomaticWind,
     timing: Timing,
     *,
-    attach: Attachment | Sequence[Attachment],
+    attach: Held | Sequence[Held],
     sway_by_size: bool,
 ) -> Scene:
     """The scene where none is given."""

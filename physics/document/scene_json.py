@@ -141,7 +141,7 @@ def scene_from_checked(
         }
         fields = {name: each and _rescaled(each, scale, name) for name, each in fields.items()}
     options: dict[str, Any] = {
-        name: document[name] for name in ("gravity", "frame_rate", "loop", "sag", "still") if name in document
+        name: document[name] for name in ("gravity", "frame_rate", "loop", "sag", "still", "order") if name in document
     }
     with _located(""):
         return Scene(tuple(bodies), **lists, **fields, **_floats(options))

@@ -96,7 +96,7 @@ def _document() -> dict[str, Schema]:
         "wind": defined("wind"),
         **{name: own[name] for name in ("gravity", "sag", "bodies", "strokes", "rig_points")},
         "contact": {**defined("contact"), "type": ["object", "null"], "description": own["contact"]["description"]},
-        **{name: own[name] for name in ("colliders", "paint", "query_points", "still")},
+        **{name: own[name] for name in ("colliders", "paint", "query_points", "still", "order")},
     }
 
 
@@ -106,6 +106,7 @@ def _body() -> dict[str, Schema]:
         "name": own["name"],
         "layer": own["layer"],
         "strands": own["strands"],
+        "attach": own["attach"],
         "material": {"$ref": "#/$defs/material"},
         "mesh": {"$ref": "#/$defs/mesh"},
     }

@@ -17,9 +17,10 @@ from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
 from ...physics.errors import InvalidInputError
+from ...physics.limits import MAX_LAYERS
 from .artwork import ArtLayer, Artwork, Blend
 from .groups import carried_down, merged
-from .limits import MAX_LAYERS, MAX_OFFSET, MemoryCount, check_canvas
+from .limits import MAX_OFFSET, MemoryCount, check_canvas
 from .png_layers import as_one_dtype, picture_of, trimmed
 from .reading import reading
 
