@@ -12,7 +12,7 @@ from ..physics.material import Material as PhysicalMaterial
 from ..rendering.moving_layers import moving_layers_of
 from .host import all_told, batch_of_pictures, checked_document, refusal, tell_user
 from .host.wires import BodiesWire, LayersWire, MaskedBody, MaskedMotion, MaterialWire, MotionWire
-from .layer_lists import listed_layers, masked_bodies, tell_layers
+from .layer_lists import listed_layers, masked_bodies, tell_layers, told_list
 from .layer_nodes import artwork_of
 from .mesh_inputs import mesh_inputs
 
@@ -115,7 +115,7 @@ class ArtworkToBodies(io.ComfyNode):
         usual = {plan.name: _made_of(plan, one) for plan in planned_layers(artwork, **chosen) if plan.moves}
         plans = plans_of_layers(artwork, **chosen, before=before, document=document)
         if not any(plan.moves for plan in plans):
-            tell_layers(listed_layers(plans, usual, {}))
+            tell_layers(artwork, listed_layers(plans, usual, {}))
         made = bodies_of_layers(
             artwork,
             **chosen,
@@ -131,7 +131,8 @@ class ArtworkToBodies(io.ComfyNode):
         report = told_layers(made.plans)
         left_out = [f"{plan.name}: {plan.why}." for plan in made.plans if plan.why.startswith("left out")]
         told = all_told(told, tell_user(cls, [*left_out, *made.parts.notes]))
-        shown = {"text": [report], "physanimator_layers": listed_layers(made.plans, usual, held), **told}
+        listed = told_list(artwork, listed_layers(made.plans, usual, held))
+        shown = {"text": [report], "physanimator_layers": [listed], **told}
         return io.NodeOutput(chain, batch_of_pictures([made.parts.image], 1), report, ui=shown)
 
 

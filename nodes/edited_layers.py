@@ -114,7 +114,7 @@ def edited_layers(
     plans = [_settled(plan, before, document) for plan in planned_layers(ordered, document=document)]
     moving = [plan.name for plan in plans if plan.moves]
     if not moving:
-        tell_layers(listed_layers(plans, before, {}))
+        tell_layers(ordered, listed_layers(plans, before, {}))
         raise InvalidInputError(nothing_moves([names[plan.index] for plan in plans if plan.shown]))
     if set(moving) == set(known) and ordered is shown:
         return EditedLayers(shown, bodies, before, plans)

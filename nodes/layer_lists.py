@@ -11,13 +11,18 @@ from .host.wires import MaskedBody
 
 if TYPE_CHECKING:
     from ..physics.scene import Held
-    from ..rendering.artwork import LayerPlan
+    from ..rendering.artwork import Artwork, LayerPlan
     from ..rendering.layer_bodies import LayerBodies
 
-__all__ = ["LAYERS_EVENT", "listed_layers", "masked_bodies", "tell_layers"]
+__all__ = ["LAYERS_EVENT", "listed_layers", "masked_bodies", "tell_layers", "told_list"]
 
 LAYERS_EVENT = "physanimator.layers"
-"""Name of the message by which a list of layers appears in a node that has refused to go on: see attach_layers.js."""
+"""Name of the message by which a list of layers appears in a node that has refused to go on: see nodes/web/js/host."""
+
+
+def told_list(artwork: Artwork, layers: list[dict[str, Any]]) -> dict[str, Any]:
+    """What a list of layers in a node shows: see :func:`listed_layers`."""
+    return {"width": artwork.width, "height": artwork.height, "layers": layers}
 
 
 def listed_layers(
@@ -55,9 +60,9 @@ def _suiting(plan: LayerPlan, preset: str | None, attach: Held | None) -> dict[s
     return {"preset": preset, "attach": attach or attachment_of_layer(replace(plan, preset=preset, held=rule.held))}
 
 
-def tell_layers(layers: list[dict[str, Any]]) -> None:
+def tell_layers(artwork: Artwork, layers: list[dict[str, Any]]) -> None:
     """Show a list of layers in the node that is being executed, whatever becomes of it: see :func:`listed_layers`."""
-    send_to_page(LAYERS_EVENT, {"layers": layers})
+    send_to_page(LAYERS_EVENT, told_list(artwork, layers))
 
 
 def masked_bodies(made: LayerBodies) -> tuple[MaskedBody, ...]:
