@@ -113,9 +113,10 @@ class ArtworkToBodies(io.ComfyNode):
         chosen = {"move": _names(move), "still": _names(still)}
         one = material or (None if preset == _BY_NAME else preset)
         usual = {plan.name: _made_of(plan, one) for plan in planned_layers(artwork, **chosen) if plan.moves}
+        held = {item.body.name: item.attach for item in bodies}
         plans = plans_of_layers(artwork, **chosen, before=before, document=document)
         if not any(plan.moves for plan in plans):
-            tell_layers(artwork, listed_layers(plans, usual, {}))
+            tell_layers(artwork, listed_layers(plans, usual, held))
         made = bodies_of_layers(
             artwork,
             **chosen,
@@ -127,11 +128,10 @@ class ArtworkToBodies(io.ComfyNode):
             document=document,
         )
         chain = masked_bodies(made)
-        held = {item.source.index: item.attach for item in chain}
         report = told_layers(made.plans)
         left_out = [f"{plan.name}: {plan.why}." for plan in made.plans if plan.why.startswith("left out")]
         told = all_told(told, tell_user(cls, [*left_out, *made.parts.notes]))
-        listed = told_list(artwork, listed_layers(made.plans, usual, held))
+        listed = told_list(artwork, listed_layers(made.plans, usual, held, [item.source.index for item in chain]))
         shown = {"text": [report], "physanimator_layers": [listed], **told}
         return io.NodeOutput(chain, batch_of_pictures([made.parts.image], 1), report, ui=shown)
 

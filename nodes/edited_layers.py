@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from ..physics.errors import InvalidInputError
 from .host.wires import MaskedBody
-from .layer_lists import listed_layers, masked_bodies, tell_layers
+from .layer_lists import listed_layers, masked_bodies, tell_layers, usual_attachment
 
 if TYPE_CHECKING:
     from ..physics.document import LayerMasks
+    from ..physics.scene import Held
     from ..rendering.artwork import Artwork, LayerPlan
     from ..rendering.layer_pictures import LayerPicture
 
@@ -26,34 +27,44 @@ class EditedLayers:
         pictures: of the visible layers, from back to front.
         masks: gives the mask of a still layer by its name.
         memory: of the artwork [bytes].
+        attachments: where each body is held unless the document says otherwise.
     """
 
     def __init__(
-        self, artwork: Artwork, bodies: tuple[MaskedBody, ...], before: Mapping[str, str], plans: Sequence[LayerPlan]
+        self,
+        artwork: Artwork,
+        bodies: tuple[MaskedBody, ...],
+        before: Mapping[str, str],
+        held: Mapping[str, Held],
+        plans: Sequence[LayerPlan],
     ) -> None:
         """
         Args:
             artwork: the layers, those visible that are drawn.
             bodies: what moves, from back to front.
             before: the preset of each layer that moves unless the document says otherwise, by its name.
+            held: where layers are held that came as bodies, by their names.
             plans: what becomes of every layer.
         """
         from ..rendering.layer_pictures import layer_pictures
         from ..rendering.layers_of_scenes import masks_of_still_layers
 
         self.bodies = bodies
-        self._before, self._plans = before, plans
+        self._before, self._held, self._plans = before, held, plans
         self._moving = [item.source.index for item in bodies if item.source is not None]
         self.pictures: tuple[LayerPicture, ...] = layer_pictures(artwork, self._moving)
         self.masks: LayerMasks = masks_of_still_layers(artwork, self._moving)
         self.memory = sum(layer.pixels.nbytes for layer in artwork.layers)
+        self.attachments = tuple(
+            held.get(item.body.name) or usual_attachment(plans[index])
+            for item, index in zip(bodies, self._moving, strict=True)
+        )
 
     def told(self) -> dict[str, Any]:
         """What the page is told: the layers from front to back, and what to draw from back to front."""
         from ..physics.motion import layer_order
 
         order = [self._moving[number] for number in layer_order([item.body for item in self.bodies])]
-        held = {item.source.index: item.attach for item in self.bodies if item.source is not None}
         drawn = [
             {
                 "layer": each.layer,
@@ -63,7 +74,7 @@ class EditedLayers:
             }
             for each in self.pictures
         ]
-        return {"layers": listed_layers(self._plans, self._before, held), "drawn": drawn}
+        return {"layers": listed_layers(self._plans, self._before, self._held, self._moving), "drawn": drawn}
 
     def held_unless_said(self, document: Mapping[str, Any]) -> list[MaskedBody]:
         """The bodies, of which those say where they are held that the document has no word of.
@@ -107,24 +118,24 @@ def edited_layers(
     shown = given.artwork if given is not None else arranged(artwork)
     ordered = in_order(shown, order_of_layers(document))
     names = ordered.names
-    known = [item.body.name for item in bodies]
+    held = {item.body.name: item.attach for item in bodies}
     before = {item.body.name: item.body.material.name for item in bodies}
-    if not known:
+    if not bodies:
         before = {plan.name: plan.preset or "hair" for plan in planned_layers(shown) if plan.moves}
     plans = [_settled(plan, before, document) for plan in planned_layers(ordered, document=document)]
     moving = [plan.name for plan in plans if plan.moves]
     if not moving:
-        tell_layers(ordered, listed_layers(plans, before, {}))
+        tell_layers(ordered, listed_layers(plans, before, held))
         raise InvalidInputError(nothing_moves([names[plan.index] for plan in plans if plan.shown]))
-    if set(moving) == set(known) and ordered is shown:
-        return EditedLayers(shown, bodies, before, plans)
+    if set(moving) == held.keys() and ordered is shown:
+        return EditedLayers(shown, bodies, before, held, plans)
     earlier = bodies_before(shown, [(item.source, item.body, item.attach) for item in bodies])
     made = bodies_of_layers(shown, before=earlier, document=document, plans=plans)
     chain = masked_bodies(made)
     # What would move by its name, but gives no mesh, stands still.
     gone = set(moving) - {item.body.name for item in chain}
     before = {name: material for name, material in before.items() if name not in gone}
-    return EditedLayers(chain[0].source.artwork, chain, before, plans)
+    return EditedLayers(chain[0].source.artwork, chain, before, held, plans)
 
 
 def _settled(plan: LayerPlan, before: Mapping[str, str], document: Mapping[str, Any]) -> LayerPlan:

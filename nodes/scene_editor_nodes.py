@@ -122,7 +122,7 @@ def _shown(image: torch.Tensor, width: int, height: int, name: str, alpha: torch
 
 def _kept(bodies: tuple[MaskedBody, ...], picture: np.ndarray | None, found: EditedLayers | None) -> PreviewBodies:
     physical = tuple(item.body for item in bodies)
-    held: dict[str, Any] = {"attachments": tuple(item.attach for item in bodies)}
+    held: dict[str, Any] = {"attachments": found.attachments if found else tuple(item.attach for item in bodies)}
     if found is not None:
         layered = {"layers": found.pictures, "layer_masks": found.masks, "layer_bytes": found.memory}
         return PreviewBodies(physical, **layered, **held)

@@ -18,7 +18,8 @@
  * @property {any} eye
  * @property {any} name
  * @property {any} moves
- * @property {any} more
+ * @property {any} said  what it is made of and where it is held, in words
+ * @property {any} more  the same to choose, of the layer that is selected
  * @property {any} preset
  * @property {any} attach
  */
@@ -73,10 +74,13 @@ export class LayerList {
       row.moves.checked = moves;
       // A scene needs something that moves.
       row.moves.disabled = !layer.shown || Boolean(layer.fixed) || (moves && moving === 1);
-      row.more.hidden = !moves;
+      row.said.hidden = !moves || layer === chosen;
+      row.more.hidden = !moves || layer !== chosen;
       if (!moves) continue;
-      choose(row.preset, presetIn(document, layer));
-      choose(row.attach, attachIn(document, layer));
+      const [made, held] = [presetIn(document, layer), attachIn(document, layer)];
+      row.said.textContent = `${made} · ${SIDES[/** @type {"auto"} */ (held)] ?? held}`;
+      choose(row.preset, made);
+      choose(row.attach, held);
     }
   }
 
@@ -119,10 +123,11 @@ export class LayerList {
     const attach = this.#select(`Where ${name} is held`, "data-attach", name, Object.entries(SIDES), (value) => listener.attach(layer, value));
     const step = (/** @type {number} */ places, /** @type {string} */ sign, /** @type {string} */ where) =>
       element("button", { type: "button", className: "physanimator-place", title: `One further to the ${where}`, "aria-label": `${name} further to the ${where}`, "data-place": `${where} ${name}`, onclick: () => listener.place(layer, places) }, [sign]);
+    const said = element("span", { className: "physanimator-layer-said", title: "What it is made of, and where it is held; click to change it", onclick: () => listener.choose(layer) });
     const more = element("div", { className: "physanimator-layer-more", hidden: true }, [preset, attach]);
-    const line = element("div", { className: "physanimator-layer-line" }, [...(eye ? [eye] : []), title, step(1, "▴", "front"), step(-1, "▾", "back"), moves]);
+    const line = element("div", { className: "physanimator-layer-line" }, [...(eye ? [eye] : []), title, said, step(1, "▴", "front"), step(-1, "▾", "back"), moves]);
     const root = element("li", { className: "physanimator-layer", "data-shown": String(layer.shown) }, [line, more]);
-    return { layer, root, eye, name: title, moves, more, preset, attach };
+    return { layer, root, eye, name: title, moves, said, more, preset, attach };
   }
 
   /**

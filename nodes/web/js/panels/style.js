@@ -47,6 +47,8 @@ export const STYLE = `
 .physanimator-layer-list { flex: 1; min-height: 0; margin: 0; padding: 0; overflow: auto; list-style: none; scrollbar-width: thin; }
 .physanimator-layer { padding-right: 4px; border-radius: 4px; }
 .physanimator-layer-line { display: flex; align-items: center; gap: 3px; height: 24px; }
+.physanimator-layer-said { flex: 0 1 auto; min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; color: var(--physanimator-dim); font-size: 11px; cursor: pointer; }
+.physanimator-layer-said[hidden], .physanimator-editor .physanimator-layer:not([data-chosen="true"]) button.physanimator-place { display: none; }
 .physanimator-layer-more { display: flex; gap: 4px; height: 23px; padding: 0 0 3px 6px; }
 .physanimator-layer-more[hidden] { display: none; }
 .physanimator-layer[data-target="above"] { box-shadow: 0 -2px var(--physanimator-accent); }
@@ -56,9 +58,8 @@ export const STYLE = `
 .physanimator-editor .physanimator-layer button { height: 22px; padding: 0 2px; }
 .physanimator-editor .physanimator-layer button.physanimator-eye[aria-pressed] { min-width: 22px; color: var(--physanimator-text); background: transparent; }
 .physanimator-editor .physanimator-layer button.physanimator-eye[aria-pressed="false"] { opacity: 0.3; }
-.physanimator-editor .physanimator-layer button.physanimator-layer-name[aria-pressed] { flex: 1; min-width: 0; display: block; text-align: left; color: var(--physanimator-text); background: transparent; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
-.physanimator-editor .physanimator-layer button.physanimator-place { flex: none; min-width: 16px; opacity: 0; }
-.physanimator-layer:is(:hover, :focus-within, [data-chosen="true"]) button.physanimator-place { opacity: 0.8; }
+.physanimator-editor .physanimator-layer button.physanimator-layer-name[aria-pressed] { flex: 1 0 30%; touch-action: none; min-width: 0; display: block; text-align: left; color: var(--physanimator-text); background: transparent; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+.physanimator-editor .physanimator-layer button.physanimator-place { flex: none; min-width: 18px; }
 .physanimator-editor .physanimator-layer select { flex: 1 1 0; min-width: 0; height: 20px; padding: 0; appearance: auto; }
 .physanimator-list-only { display: flex; flex-direction: column; min-height: 120px; border: 1px solid var(--physanimator-rim); border-radius: 6px; background: var(--physanimator-back); overflow: hidden; }
 .physanimator-list-only .physanimator-layers { flex: 1; max-height: none; border-bottom: 0; }
