@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
 from ..physics.errors import InvalidInputError, require
 from ..physics.material import PRESETS
 from ..physics.material import Material as PhysicalMaterial
-from .host import all_told, batch_of_pictures, default_of, tell_user
+from ..rendering.moving_layers import moving_layers_of
+from .host import all_told, batch_of_pictures, checked_document, refusal, tell_user
 from .host.wires import BodiesWire, LayersWire, MaskedBody, MaskedMotion, MaterialWire, MotionWire
+from .layer_lists import listed_layers, masked_bodies, tell_layers, told_list
 from .layer_nodes import artwork_of
+from .mesh_inputs import mesh_inputs
+
+if TYPE_CHECKING:
+    from ..rendering.artwork import Artwork, LayerPlan
 
 __all__ = ["ArtworkToBodies", "FrameAsLayers"]
 
@@ -21,8 +27,6 @@ _BY_NAME = "by name"
 class ArtworkToBodies(io.ComfyNode):
     @classmethod
     def define_schema(cls) -> io.Schema:
-        from ..physics.mesh import mesh_from_mask
-
         return io.Schema(
             node_id="PhysAnimator_ArtworkToBodies",
             display_name="Artwork to Bodies",
@@ -50,22 +54,7 @@ class ArtworkToBodies(io.ComfyNode):
                     default=_BY_NAME,
                     tooltip="What all of them are made of. by name: each of what its name says.",
                 ),
-                io.Float.Input(
-                    "spacing",
-                    default=0.0,
-                    min=0.0,
-                    max=512.0,
-                    step=0.5,
-                    tooltip="Length of the triangles' edges [px]; 0 chooses one that suits each layer. Smaller bends"
-                    " more finely and takes longer.",
-                ),
-                io.Int.Input(
-                    "elements_across",
-                    default=default_of(mesh_from_mask, "elements_across"),
-                    min=1,
-                    max=20,
-                    tooltip="How many triangles thin strands get across, where the spacing alone would give fewer.",
-                ),
+                *mesh_inputs("each layer"),
                 io.Boolean.Input(
                     "strands",
                     default=True,
@@ -78,6 +67,15 @@ class ArtworkToBodies(io.ComfyNode):
                     tooltip="Bodies of other layers of the same artwork, from another such node with other settings.",
                 ),
                 MaterialWire.Input("material", optional=True, tooltip="Used instead of the presets when connected."),
+                io.String.Input(
+                    "scene",
+                    default="",
+                    multiline=True,
+                    optional=True,
+                    tooltip="What the list of layers in this node says, as a scene document [JSON]: of each layer by"
+                    " its name whether it moves, of what, where it is held, and in which order. Other nodes write it as"
+                    " scene_json.",
+                ),
             ],
             outputs=[
                 BodiesWire.Output(display_name="bodies", tooltip="One for each layer that moves: for a scene."),
@@ -85,6 +83,10 @@ class ArtworkToBodies(io.ComfyNode):
                 io.String.Output(display_name="report", tooltip="What becomes of each layer and why, a line each."),
             ],
         )
+
+    @classmethod
+    def validate_inputs(cls, scene: str | None = None) -> bool | str:
+        return not scene or refusal(lambda: checked_document(scene))
 
     @classmethod
     def execute(
@@ -98,30 +100,40 @@ class ArtworkToBodies(io.ComfyNode):
         strands: bool,
         bodies: tuple[MaskedBody, ...] = (),
         material: PhysicalMaterial | None = None,
+        scene: str = "",
     ) -> io.NodeOutput:
-        from ..rendering.moving_layers import bodies_before, bodies_of_layers, told_layers
+        from ..rendering.layer_bodies import bodies_before, bodies_of_layers, plans_of_layers
+        from ..rendering.layers_of_scenes import planned_layers
+        from ..rendering.moving_layers import told_layers
 
         artwork, told = artwork_of(cls, layers)
+        artwork = _ordered_as(bodies, artwork)
+        document = checked_document(scene) if scene.strip() else {}
+        before = bodies_before(artwork, [(item.source, item.body, item.attach) for item in bodies])
+        chosen = {"move": _names(move), "still": _names(still)}
+        one = material or (None if preset == _BY_NAME else preset)
+        usual = {plan.name: _made_of(plan, one) for plan in planned_layers(artwork, **chosen) if plan.moves}
+        held = {item.body.name: item.attach for item in bodies}
+        plans = plans_of_layers(artwork, **chosen, before=before, document=document)
+        if not any(plan.moves for plan in plans):
+            tell_layers(artwork, listed_layers(plans, usual, held))
         made = bodies_of_layers(
             artwork,
-            move=_names(move),
-            still=_names(still),
-            material=material or (None if preset == _BY_NAME else preset),
+            **chosen,
+            material=one,
             spacing=spacing or None,
             elements_across=elements_across,
             strands=strands,
-            before=bodies_before(artwork, [(item.source, item.body) for item in bodies]),
+            before=before,
+            document=document,
         )
-        chain = tuple(
-            MaskedBody(body, mask, attach, source)
-            for body, mask, attach, source in zip(
-                made.bodies, made.parts.masks, made.parts.attachments, made.sources, strict=True
-            )
-        )
+        chain = masked_bodies(made)
         report = told_layers(made.plans)
         left_out = [f"{plan.name}: {plan.why}." for plan in made.plans if plan.why.startswith("left out")]
         told = all_told(told, tell_user(cls, [*left_out, *made.parts.notes]))
-        return io.NodeOutput(chain, batch_of_pictures([made.parts.image], 1), report, ui={"text": [report], **told})
+        listed = told_list(artwork, listed_layers(made.plans, usual, held, [item.source.index for item in chain]))
+        shown = {"text": [report], "physanimator_layers": [listed], **told}
+        return io.NodeOutput(chain, batch_of_pictures([made.parts.image], 1), report, ui=shown)
 
 
 class FrameAsLayers(io.ComfyNode):
@@ -162,3 +174,15 @@ class FrameAsLayers(io.ComfyNode):
 
 def _names(text: str) -> list[str]:
     return [line.strip() for line in text.splitlines() if line.strip()]
+
+
+def _made_of(plan: LayerPlan, one: PhysicalMaterial | str | None) -> str:
+    return one.name if isinstance(one, PhysicalMaterial) else one or plan.preset or "hair"
+
+
+def _ordered_as(bodies: tuple[MaskedBody, ...], artwork: Artwork) -> Artwork:
+    """The artwork with its layers in the order in which an earlier node has put them."""
+    from ..rendering.artwork import in_order
+
+    earlier = moving_layers_of([item.source for item in bodies])
+    return artwork if earlier is None else in_order(artwork, earlier.artwork.names)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from ..physics.errors import InvalidInputError, printable
+from ..physics.errors import InvalidInputError
 from .host.wires import MaskedBody
+from .layer_lists import listed_layers, masked_bodies, tell_layers, usual_attachment
 
 if TYPE_CHECKING:
     from ..physics.document import LayerMasks
+    from ..physics.scene import Held
     from ..rendering.artwork import Artwork, LayerPlan
     from ..rendering.layer_pictures import LayerPicture
 
@@ -24,44 +27,44 @@ class EditedLayers:
         pictures: of the visible layers, from back to front.
         masks: gives the mask of a still layer by its name.
         memory: of the artwork [bytes].
+        attachments: where each body is held unless the document says otherwise.
     """
 
     def __init__(
-        self, artwork: Artwork, bodies: tuple[MaskedBody, ...], before: Mapping[int, str], plans: Sequence[LayerPlan]
+        self,
+        artwork: Artwork,
+        bodies: tuple[MaskedBody, ...],
+        before: Mapping[str, str],
+        held: Mapping[str, Held],
+        plans: Sequence[LayerPlan],
     ) -> None:
         """
         Args:
             artwork: the layers, those visible that are drawn.
             bodies: what moves, from back to front.
-            before: the preset of each layer that moves unless the document says otherwise, by its index.
+            before: the preset of each layer that moves unless the document says otherwise, by its name.
+            held: where layers are held that came as bodies, by their names.
             plans: what becomes of every layer.
         """
         from ..rendering.layer_pictures import layer_pictures
         from ..rendering.layers_of_scenes import masks_of_still_layers
 
         self.bodies = bodies
-        self._artwork, self._before, self._plans = artwork, before, plans
+        self._before, self._held, self._plans = before, held, plans
         self._moving = [item.source.index for item in bodies if item.source is not None]
         self.pictures: tuple[LayerPicture, ...] = layer_pictures(artwork, self._moving)
         self.masks: LayerMasks = masks_of_still_layers(artwork, self._moving)
         self.memory = sum(layer.pixels.nbytes for layer in artwork.layers)
+        self.attachments = tuple(
+            held.get(item.body.name) or usual_attachment(plans[index])
+            for item, index in zip(bodies, self._moving, strict=True)
+        )
 
     def told(self) -> dict[str, Any]:
         """What the page is told: the layers from front to back, and what to draw from back to front."""
         from ..physics.motion import layer_order
 
         order = [self._moving[number] for number in layer_order([item.body for item in self.bodies])]
-        layers = [
-            {
-                "index": plan.index,
-                "name": plan.name,
-                "shown": plan.shown,
-                "moves": plan.index in self._before,
-                "moving": plan.index in self._moving,
-                "preset": self._before.get(plan.index) or plan.preset or "hair",
-            }
-            for plan in reversed(self._plans)
-        ]
         drawn = [
             {
                 "layer": each.layer,
@@ -71,7 +74,22 @@ class EditedLayers:
             }
             for each in self.pictures
         ]
-        return {"layers": layers, "drawn": drawn}
+        return {"layers": listed_layers(self._plans, self._before, self._held, self._moving), "drawn": drawn}
+
+    def held_unless_said(self, document: Mapping[str, Any]) -> list[MaskedBody]:
+        """The bodies, of which those say where they are held that the document has no word of.
+
+        So a picture is held from the start, and so is a layer that comes later. Whoever has drawn rig points has his
+        word on the layers that the document names.
+        """
+        entries = {entry["name"]: entry for entry in document.get("bodies", []) if entry.get("name")}
+
+        def held(item: MaskedBody) -> MaskedBody:
+            entry = entries.get(item.body.name)
+            said = entry is not None and ("attach" in entry or "rig_points" in document)
+            return item if said else replace(item, body=replace(item.body, attach=item.attach))
+
+        return [held(item) for item in self.bodies]
 
 
 def edited_layers(
@@ -87,44 +105,45 @@ def edited_layers(
     Raises:
         InvalidInputError: nothing moves, or bodies and layers do not belong together.
     """
-    from ..rendering.layer_bodies import bodies_of_document, bodies_of_moving
-    from ..rendering.layers_of_scenes import planned_layers
-    from ..rendering.moving_layers import LayerSource, moving_layers_of
+    from ..physics.document import order_of_layers
+    from ..rendering.artwork import in_order
+    from ..rendering.layer_bodies import bodies_before, bodies_of_layers
+    from ..rendering.layers_of_scenes import nothing_moves, planned_layers
+    from ..rendering.moving_layers import moving_layers_of
     from ..rendering.parts import arranged
 
     given = moving_layers_of([item.source for item in bodies])
     if given is None and (bodies or artwork is None):
         return None
     shown = given.artwork if given is not None else arranged(artwork)
-    known = {} if given is None else dict(zip(given.indices, bodies, strict=True))
-    before = {index: item.body.material.name for index, item in known.items()}
-    if not known:
-        before = {plan.index: plan.preset or "hair" for plan in planned_layers(shown) if plan.moves}
-    plans = planned_layers(shown, document=document)
-    moving = [plan for plan in plans if _moves(plan, before, document)]
+    ordered = in_order(shown, order_of_layers(document))
+    names = ordered.names
+    held = {item.body.name: item.attach for item in bodies}
+    before = {item.body.name: item.body.material.name for item in bodies}
+    if not bodies:
+        before = {plan.name: plan.preset or "hair" for plan in planned_layers(shown) if plan.moves}
+    plans = [_settled(plan, before, document) for plan in planned_layers(ordered, document=document)]
+    moving = [plan.name for plan in plans if plan.moves]
     if not moving:
-        listed = ", ".join(printable(name[:60]) for name in shown.names[:20])
-        raise InvalidInputError(
-            "no layer moves: switch on what moves in the list of layers, or give a layer a name such as hair or ribbon."
-            f" Got: {listed}"
-        )
-    if {plan.index for plan in moving} == known.keys():
-        return EditedLayers(shown, bodies, before, plans)
-    if known:
-        made = bodies_of_moving(shown, moving, {index: (item.body, item.mask) for index, item in known.items()})
-    else:
-        made = bodies_of_document(shown, document)
-    chain = tuple(MaskedBody(body, mask, source=LayerSource(shown, index)) for index, (body, mask) in made.items())
+        tell_layers(ordered, listed_layers(plans, before, held))
+        raise InvalidInputError(nothing_moves([names[plan.index] for plan in plans if plan.shown]))
+    if set(moving) == held.keys() and ordered is shown:
+        return EditedLayers(shown, bodies, before, held, plans)
+    earlier = bodies_before(shown, [(item.source, item.body, item.attach) for item in bodies])
+    made = bodies_of_layers(shown, before=earlier, document=document, plans=plans)
+    chain = masked_bodies(made)
     # What would move by its name, but gives no mesh, stands still.
-    gone = {plan.index for plan in moving} - made.keys()
-    before = {index: name for index, name in before.items() if index not in gone}
-    return EditedLayers(shown, chain, before, plans)
+    gone = set(moving) - {item.body.name for item in chain}
+    before = {name: material for name, material in before.items() if name not in gone}
+    return EditedLayers(chain[0].source.artwork, chain, before, held, plans)
 
 
-def _moves(plan: LayerPlan, before: Mapping[int, str], document: Mapping[str, Any]) -> bool:
-    """Whether a layer moves: as the document says, otherwise as it came."""
+def _settled(plan: LayerPlan, before: Mapping[str, str], document: Mapping[str, Any]) -> LayerPlan:
+    """The plan of a layer that moves as the document says, otherwise as it came."""
     from ..physics.document import bodies_named, still_layers
 
-    if plan.shown and plan.name in bodies_named(document):
-        return True
-    return plan.index in before and plan.name not in still_layers(document)
+    named = plan.shown and plan.name in bodies_named(document)
+    moves = named or (plan.name in before and plan.name not in still_layers(document))
+    if moves == plan.moves:
+        return plan
+    return replace(plan, moves=moves, preset=(plan.preset or "hair") if moves else None)

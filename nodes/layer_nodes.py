@@ -25,6 +25,7 @@ from .host import (
 )
 from .host.choices import OPEN
 from .host.wires import LayersWire, SeeThroughWire
+from .saving_inputs import place_inputs
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -170,17 +171,10 @@ class SaveLayers(io.ComfyNode):
             is_output_node=True,
             inputs=[
                 LayersWire.Input("layers", tooltip="From Load Layers, Frame as Layers or any other node with layers."),
-                io.String.Input(
-                    "filename_prefix",
-                    default="layers/PhysAnimator",
-                    tooltip="Name in the output folder, with folders if you like; a number is added, nothing is"
-                    " overwritten. %width%, %height%, %year%, %month%, %day% and so on are filled in.",
-                ),
-                io.Combo.Input(
-                    "file_type",
-                    options=list(_FILE_TYPES),
-                    default=_FILE_TYPES[0],
-                    tooltip="psd: for every painting program, files of up to 2 GB. psb: for larger ones.",
+                *place_inputs(
+                    "layers/PhysAnimator",
+                    _FILE_TYPES,
+                    "psd: for every painting program, files of up to 2 GB. psb: for larger ones.",
                 ),
             ],
             outputs=[io.String.Output(display_name="path", tooltip="The file.")],

@@ -18,7 +18,6 @@ from .host import (
     batch_of_pictures,
     boxes_of,
     chosen,
-    default_of,
     mask_of,
     picture_of,
     picture_with_alpha,
@@ -29,6 +28,7 @@ from .host import (
 )
 from .host.field_inputs import ADVANCED
 from .host.wires import MaskedMesh, MeshWire
+from .mesh_inputs import mesh_inputs
 from .models import segmenter_advice
 from .models.sam_backend import missing_sam_files, sam_inputs, sam_network
 
@@ -168,8 +168,6 @@ def _points_of(text: str, width: int, height: int, *, needed: bool) -> list[Quer
 class MaskToMesh(io.ComfyNode):
     @classmethod
     def define_schema(cls) -> io.Schema:
-        from ..physics.mesh import mesh_from_mask
-
         return io.Schema(
             node_id="PhysAnimator_MaskToMesh",
             display_name="Mask to Mesh",
@@ -177,22 +175,7 @@ class MaskToMesh(io.ComfyNode):
             description="Fills a mask with triangles: the shape that the physics bends.",
             inputs=[
                 io.Mask.Input("mask", tooltip="White where the part is. A soft edge is kept for rendering."),
-                io.Float.Input(
-                    "spacing",
-                    default=0.0,
-                    min=0.0,
-                    max=512.0,
-                    step=0.5,
-                    tooltip="Length of the triangles' edges [px]; 0 chooses one that suits the mask."
-                    " Smaller bends more finely and takes longer.",
-                ),
-                io.Int.Input(
-                    "elements_across",
-                    default=default_of(mesh_from_mask, "elements_across"),
-                    min=1,
-                    max=20,
-                    tooltip="How many triangles thin strands get across, where the spacing alone would give fewer.",
-                ),
+                *mesh_inputs("the mask"),
                 io.Int.Input(
                     "mask_index",
                     default=0,

@@ -26,6 +26,7 @@ from .host import (
     shown_with,
 )
 from .host.wires import MaskedMotion, MotionWire
+from .saving_inputs import place_inputs
 
 if TYPE_CHECKING:
     import torch
@@ -51,18 +52,11 @@ class SaveAnimation(io.ComfyNode):
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 MotionWire.Input("motion", tooltip="From Simulate; it carries the masks and the frame rate along."),
-                io.String.Input(
-                    "filename_prefix",
-                    default="animation/PhysAnimator",
-                    tooltip="Name in the output folder, with folders if you like; a number is added, nothing is"
-                    " overwritten. %width%, %height%, %year%, %month%, %day% and so on are filled in.",
-                ),
-                io.Combo.Input(
-                    "file_type",
-                    options=list(FILE_TYPES),
-                    default=FILE_TYPES[0],
-                    tooltip=f"mp4: H.264, plays everywhere. webm: VP9. gif, webp, apng: animated pictures. {FRAMES}: a"
-                    " folder of numbered pictures. All but mp4 can be transparent.",
+                *place_inputs(
+                    "animation/PhysAnimator",
+                    FILE_TYPES,
+                    f"mp4: H.264, plays everywhere. webm: VP9. gif, webp, apng: animated pictures. {FRAMES}: a folder"
+                    " of numbered pictures. All but mp4 can be transparent.",
                 ),
                 io.Int.Input(
                     "width",

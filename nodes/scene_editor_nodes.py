@@ -17,7 +17,7 @@ from .edited_layers import EditedLayers, edited_layers
 from .host import all_told, batch_of_pictures, checked_document, picture_with_alpha, refusal, tell_user
 from .host.wires import BodiesWire, LayersWire, MaskedBody
 from .layer_nodes import artwork_of
-from .preview import STORE, PreviewBodies
+from .preview import STORE, PreviewBodies, holds_of_bodies
 from .preview.server import start_warm_up
 from .scene_nodes import scene_output, scene_outputs
 from .told_materials import told_materials
@@ -83,7 +83,7 @@ class SceneEditor(io.ComfyNode):
         layers: dict[str, Any] | None = None,
     ) -> io.NodeOutput:
         from ..physics.document import checked_scene_over
-        from ..physics.scene import absent_bodies
+        from ..physics.scene import absent_bodies, held_where_said
 
         if not bodies and layers is None:
             raise InvalidInputError("bodies or layers must be connected, to know what moves. Got: neither")
@@ -91,7 +91,9 @@ class SceneEditor(io.ComfyNode):
         artwork, told = (None, {}) if layers is None else artwork_of(cls, layers)
         found = edited_layers(document, bodies, artwork)
         bodies = bodies if found is None else found.bodies
-        drawn = checked_scene_over(document, [item.body for item in bodies], layers=found and found.masks)
+        acting = [item.body for item in (bodies if found is None else found.held_unless_said(document))]
+        unheld = checked_scene_over(document, acting, layers=found and found.masks)
+        drawn = held_where_said(unheld)
         told = all_told(told, tell_user(cls, absent_bodies(drawn)))
         shown = None if image is None else _shown(image, drawn.width, drawn.height, "image", image_alpha)
         behind = None if plate is None else _shown(plate, drawn.width, drawn.height, "plate")
@@ -103,6 +105,7 @@ class SceneEditor(io.ComfyNode):
             "plate": _saved(behind),
             "layers": None if found is None else found.told(),
             "materials": told_materials([item.body for item in bodies]),
+            "holds": holds_of_bodies(drawn, len(drawn.rig_points) - len(unheld.rig_points)),
         }
         # Where several bodies are drawn on, contact may be switched on at any moment.
         start_warm_up(contact=len(bodies) > 1 or drawn.contact is not None)
@@ -121,14 +124,16 @@ def _shown(image: torch.Tensor, width: int, height: int, name: str, alpha: torch
 
 def _kept(bodies: tuple[MaskedBody, ...], picture: np.ndarray | None, found: EditedLayers | None) -> PreviewBodies:
     physical = tuple(item.body for item in bodies)
+    held: dict[str, Any] = {"attachments": found.attachments if found else tuple(item.attach for item in bodies)}
     if found is not None:
-        return PreviewBodies(physical, layers=found.pictures, layer_masks=found.masks, layer_bytes=found.memory)
+        layered = {"layers": found.pictures, "layer_masks": found.masks, "layer_bytes": found.memory}
+        return PreviewBodies(physical, **layered, **held)
     if picture is None:
-        return PreviewBodies(physical)
+        return PreviewBodies(physical, **held)
     from ..rendering.pictures import as_uint8
 
     hole = np.max([item.mask for item in bodies], axis=0)
-    return PreviewBodies(physical, picture, as_uint8(hole))
+    return PreviewBodies(physical, picture, as_uint8(hole), **held)
 
 
 def _saved(picture: np.ndarray | None) -> dict[str, Any] | None:

@@ -11,7 +11,7 @@ from ..physics.errors import InvalidInputError
 from ..physics.forces import EnergyStroke, Wind
 from ..physics.rig import RigPoint
 from ..physics.scene import Scene as PhysicalScene
-from ..physics.scene import automatic_scene
+from ..physics.scene import automatic_scene, held_where_said
 from .host import checked_document, refusal
 from .host.field_inputs import input_of
 from .host.wires import (
@@ -188,7 +188,8 @@ class SceneFromJSON(io.ComfyNode):
         from ..physics.document import checked_scene_over
 
         layers = layer_masks_of(bodies)
-        return scene_output(checked_scene_over(checked_document(scene), _physical(bodies), layers=layers), bodies)
+        drawn = checked_scene_over(checked_document(scene), _physical(bodies), layers=layers)
+        return scene_output(held_where_said(drawn), bodies)
 
 
 def layer_masks_of(bodies: tuple[MaskedBody, ...]) -> LayerMasks | None:

@@ -9,6 +9,7 @@ __all__ = [
     "MAX_BODIES",
     "MAX_COLLIDERS",
     "MAX_DOCUMENT_BYTES",
+    "MAX_LAYERS",
     "MAX_LOOP",
     "MAX_MASK_PIXELS",
     "MAX_OUTLINE_POINTS",
@@ -65,6 +66,9 @@ MAX_STROKES = 1_000
 MAX_RIG_POINTS = 1_000
 MAX_PAINT = 200
 MAX_QUERY_POINTS = 1_000
+MAX_LAYERS = 1_000
+"""Layers of one artwork, groups not counted."""
+
 MAX_PARTS = 100
 
 MAX_POINTS = 10_000

@@ -1,90 +1,213 @@
-"""Layers that somebody chose as bodies, beside those that are bodies already."""
+"""Layers of an artwork as bodies: by their names, by what somebody says, and by what a scene document says."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..physics.document import bodies_named
+from ..physics.document import bodies_named, checked_scene_over, order_of_layers
 from ..physics.errors import InvalidInputError, require
-from ..physics.material import preset
-from ..physics.mesh import mesh_from_mask
-from ..physics.scene import Body
-from .composite import hidden_by, mask_of_layer
-from .layers_of_scenes import SCENE_SAYS
-from .parts import OF_STRANDS, about, parts_of_artwork
+from ..physics.material import Material, preset
+from ..physics.scene import Body, Held
+from .layers_of_scenes import attachments_in, planned_layers
+from .moving_layers import MIXED, LayerSource, moving_layers_of
+from .parts import OF_STRANDS, Parts, parts_of_artwork, with_shown
 
 if TYPE_CHECKING:
     from .artwork import Artwork, LayerPlan
 
-__all__ = ["bodies_of_document", "bodies_of_moving"]
+__all__ = ["LayerBodies", "bodies_before", "bodies_of_layers", "plans_of_layers"]
 
-LayerBody = tuple[Body, NDArray[np.float32]]
+_KEPT = ("mesh", "material", "strands")
+"""Of bodies that layers are already."""
 
 
-def bodies_of_document(artwork: Artwork, document: Mapping[str, Any]) -> dict[int, LayerBody]:
-    """The layers that move by a scene document and by their names, as bodies with their masks, by their index.
+@dataclass(frozen=True, eq=False)
+class LayerBodies:
+    """Layers as bodies.
 
-    Hair and ribbons are slit between the strands that are drawn on them, as in ``animate``.
+    Attributes:
+        parts: the layers.
+        bodies: of the parts, from back to front.
+        sources: the layer that each body is.
+        attachments: where each is held.
+        plans: what becomes of every layer of the artwork, moving or not.
+    """
+
+    parts: Parts
+    bodies: tuple[Body, ...]
+    sources: tuple[LayerSource, ...]
+    attachments: tuple[Held, ...]
+    plans: tuple[LayerPlan, ...]
+
+
+def bodies_of_layers(
+    artwork: Artwork,
+    *,
+    move: Sequence[str] = (),
+    still: Sequence[str] = (),
+    material: Material | str | None = None,
+    spacing: float | None = None,
+    elements_across: int | None = None,
+    strands: bool = True,
+    before: Mapping[int, tuple[Body, Held]] | None = None,
+    document: Mapping[str, Any] | None = None,
+    plans: Sequence[LayerPlan] | None = None,
+) -> LayerBodies:
+    """The layers that move as bodies.
 
     Args:
         artwork: the layers.
-        document: a checked scene document.
+        move: names of layers that move, whatever the table of names says; ``NAME=PRESET`` also says how.
+        still: names of layers that stand still.
+        material: of all that move, or the name of its preset, instead of what suits each; ``NAME=PRESET`` and the
+            document stand above.
+        spacing: distance of the meshes' vertices [px]; None chooses it.
+        elements_across: triangles across thin strands; None for the usual number.
+        strands: slit hair and ribbons along the lines that are drawn between their strands, so that these swing apart.
+        before: bodies that layers of this artwork are already, and where they are held, by the layers' index.
+        document: a checked scene document, which says of layers by name whether they move, what they are made of, where
+            they are held, whether they are slit, and in which order they lie.
+        plans: what becomes of every layer, in the order that the document says; None to follow from all that.
 
     Raises:
-        InvalidInputError: none moves, or one that the document names gives no mesh.
+        InvalidInputError: there is no such layer, none moves, or one gives no mesh.
     """
-    parts = parts_of_artwork(artwork, document=document)
-    wanted = [name for name in bodies_named(document) if name in artwork.names and name not in parts.names]
+    from .artwork import in_order
+
+    document = document or {}
+    known = {artwork.names[index]: each for index, each in (before or {}).items()}
+    for plan in _asked(artwork, move):
+        require("move", plan.name, plan.name not in known, "of layers that are no bodies yet")
+    chosen = {plan.name for plan in _asked(artwork, [each for each in move if _has_preset(each, artwork)])}
+    if plans is None:
+        plans = plans_of_layers(artwork, move=move, still=still, before=before, document=document)
+    artwork = in_order(artwork, order_of_layers(document))
+    parts = parts_of_artwork(
+        artwork, spacing=spacing, elements_across=elements_across, document=document, plans=tuple(plans)
+    )
+    _require_meshes(parts, document)
+    moving = [plan for plan in plans if plan.moves and plan.name in parts.names]
+    said = attachments_in(document)
+    attachments = [
+        known[plan.name][1] if plan.name in known and plan.name not in said else held
+        for plan, held in zip(moving, parts.attachments, strict=True)
+    ]
+    materials = [_material(plan, None if plan.name in chosen else material) for plan in moving]
+    worded = _over(document, parts.bodies(materials), without=known)
+    slit_ones = _strands_in(document) if strands else {}
+    split = [
+        strands and body.name not in known and slit_ones.get(body.name, body.material.name in OF_STRANDS)
+        for body in worded
+    ]
+    whole, parts = parts.meshes, parts.in_strands(split, attachments)
+    slit = [mesh is not uncut for mesh, uncut in zip(parts.meshes, whole, strict=True)]
+    bodies = [
+        replace(body, **{name: getattr(known[body.name][0], name) for name in _KEPT}) if body.name in known else body
+        for body in parts.bodies([body.material for body in worded], slit)
+    ]
+    shown = with_shown(artwork, plans)
+    sources = tuple(LayerSource(shown, plan.index) for plan in moving)
+    return LayerBodies(parts, tuple(bodies), sources, tuple(attachments), tuple(plans))
+
+
+def plans_of_layers(
+    artwork: Artwork,
+    *,
+    move: Sequence[str] = (),
+    still: Sequence[str] = (),
+    before: Mapping[int, tuple[Body, Held]] | None = None,
+    document: Mapping[str, Any] | None = None,
+) -> list[LayerPlan]:
+    """What becomes of every layer, in the order that the document says; arguments as of :func:`bodies_of_layers`."""
+    from .artwork import in_order
+
+    known = {artwork.names[index] for index in before or {}}
+    ordered = in_order(artwork, order_of_layers(document or {}))
+    return [_as_before(plan, known) for plan in planned_layers(ordered, move, still, document=document)]
+
+
+def bodies_before(
+    artwork: Artwork, before: Sequence[tuple[LayerSource | None, Body, Held]]
+) -> dict[int, tuple[Body, Held]]:
+    """Bodies that layers of an artwork are already, and where they are held, by the layers' index.
+
+    Args:
+        artwork: the layers, in any order.
+        before: bodies, the layers that they are, and where they are held.
+
+    Raises:
+        InvalidInputError: a body is cut out by a mask, or a layer of another artwork.
+    """
+    from .artwork import in_order
+
+    layers = moving_layers_of([source for source, *_ in before])
+    require("bodies", "bodies of masks", layers is not None or not before, MIXED)
+    if layers is None:
+        return {}
+    if not _alike(in_order(layers.artwork, artwork.names), artwork):
+        raise InvalidInputError("bodies must be of layers of the same artwork. Got: those of another")
+    names = layers.artwork.names
+    return {artwork.names.index(names[source.index]): (body, held) for source, body, held in before if source}
+
+
+def _alike(one: Artwork, other: Artwork) -> bool:
+    """Whether two artworks hold the same layers in the same places; which are shown does not count."""
+    if (one.width, one.height, one.names) != (other.width, other.height, other.names):
+        return False
+    pairs = zip(one.layers, other.layers, strict=True)
+    return all(a.box == b.box and np.array_equal(a.pixels, b.pixels) for a, b in pairs)
+
+
+def _asked(artwork: Artwork, move: Sequence[str]) -> list[LayerPlan]:
+    """The layers that somebody named."""
+    from .artwork import moving_layers
+
+    return [plan for plan in moving_layers(artwork, move) if plan.moves and plan.asked]
+
+
+def _has_preset(entry: str, artwork: Artwork) -> bool:
+    return "=" in entry and entry not in artwork.names
+
+
+def _material(plan: LayerPlan, chosen: Material | str | None) -> Material:
+    return chosen if isinstance(chosen, Material) else preset(chosen or plan.preset or "hair")
+
+
+def _require_meshes(parts: Parts, document: Mapping[str, Any]) -> None:
+    """Refuse a layer that gives no mesh where the document says that it moves."""
+    wanted = [name for name in bodies_named(document) if name not in parts.names]
     for note in parts.notes:
         require("layer", note, not any(f"layer {name}:" in note for name in wanted), "one that gives a mesh")
-    materials = [preset(each or "hair") for each in parts.presets]
-    said = {entry.get("name"): entry.get("strands") for entry in document.get("bodies", [])}
-    suits = [
-        made.name in OF_STRANDS if said.get(name) is None else said[name]
-        for name, made in zip(parts.names, materials, strict=True)
+
+
+def _over(document: Mapping[str, Any], bodies: list[Body], *, without: Collection[str]) -> Sequence[Body]:
+    """Bodies of the materials that a scene document says."""
+    names = {body.name for body in bodies} - set(without)
+    entries = [
+        {key: entry[key] for key in ("name", "material") if key in entry}
+        for entry in document.get("bodies", [])
+        if entry.get("name") in names
     ]
-    whole, parts = parts.meshes, parts.in_strands([bool(each) for each in suits], parts.attachments)
-    slit = [mesh is not before for mesh, before in zip(parts.meshes, whole, strict=True)]
-    bodies = zip(parts.names, parts.bodies(materials, slit), parts.masks, strict=True)
-    return {artwork.names.index(name): (body, mask) for name, body, mask in bodies}
+    if not entries:
+        return bodies
+    size = {"width": bodies[0].mesh.width, "height": bodies[0].mesh.height}
+    return checked_scene_over({"version": 2, **size, "bodies": entries}, bodies).bodies
 
 
-def bodies_of_moving(
-    artwork: Artwork, plans: Sequence[LayerPlan], known: Mapping[int, LayerBody]
-) -> dict[int, LayerBody]:
-    """The layers that move as bodies with their masks, by their index, from back to front.
-
-    Layers that are bodies already stay what they are. One that moves by its name alone, but gives no mesh, is left out.
-
-    Args:
-        artwork: the layers.
-        plans: of the layers that move, in the artwork's order.
-        known: body and mask of layers that are bodies, by the layer's index.
-
-    Raises:
-        InvalidInputError: a layer that somebody chose gives no mesh.
-    """
-    made = {}
-    for plan in plans:
-        try:
-            made[plan.index] = known.get(plan.index) or _body(artwork, plan)
-        except InvalidInputError:
-            if plan.asked or plan.why == SCENE_SAYS:
-                raise
-    names = artwork.names
-    for rank, (index, (body, mask)) in enumerate(made.items()):
-        cover = hidden_by(artwork, index, moving=made.keys())
-        made[index] = replace(body, layer=rank, name=names[index], cover=cover), mask
-    return made
+def _strands_in(document: Mapping[str, Any]) -> dict[str, bool]:
+    """Of which bodies a scene document says whether they are slit, by name."""
+    entries = document.get("bodies", [])
+    return {entry["name"]: entry["strands"] for entry in entries if "strands" in entry and "name" in entry}
 
 
-def _body(artwork: Artwork, plan: LayerPlan) -> LayerBody:
-    mask = mask_of_layer(artwork, plan.index)
-    with about(f"layer {plan.name}"):
-        mesh = mesh_from_mask(mask)
-    return Body(mesh, preset(plan.preset or "hair")), mask
+def _as_before(plan: LayerPlan, known: Collection[str]) -> LayerPlan:
+    """The plan of a layer that is a body already."""
+    if plan.name not in known or plan.moves:
+        return plan
+    if plan.asked:
+        raise InvalidInputError(f"layer {plan.name} must either move or stand still. Got: both")
+    return replace(plan, moves=True, preset="hair", shown=True, why="it is a body already", asked=True)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..physics.material import preset
 from ..physics.mesh import TriangleMesh
 from ..physics.rig import Polygon
-from ..physics.scene import Attachment, Body, pins
+from ..physics.scene import Attachment, Body, Held, pins
 
 if TYPE_CHECKING:
     from .artwork import LayerPlan
@@ -27,7 +27,7 @@ def resting_on_held(
     masks: Sequence[NDArray[np.floating]],
     meshes: Sequence[TriangleMesh],
     covers: Sequence[NDArray[np.bool_] | None],
-    attachments: Sequence[Attachment],
+    attachments: Sequence[Held],
 ) -> tuple[NDArray[np.bool_] | None, ...]:
     """Where parts held by an end rest on what is still, and on what is held of parts that move, as a ribbon on hair."""
     if "end" not in attachments:

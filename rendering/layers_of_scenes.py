@@ -13,9 +13,10 @@ from ..physics.document import bodies_named, still_layers
 from ..physics.errors import InvalidInputError, printable
 
 if TYPE_CHECKING:
+    from ..physics.scene import Held
     from .artwork import Artwork, LayerPlan
 
-__all__ = ["SCENE_SAYS", "masks_of_still_layers", "planned_layers"]
+__all__ = ["SCENE_SAYS", "attachments_in", "masks_of_still_layers", "nothing_moves", "planned_layers"]
 
 SCENE_SAYS = "the scene says so"
 """Why a layer moves or stands still, in a plan of it."""
@@ -61,6 +62,12 @@ def planned_layers(
     return tuple(map(settled, plans))
 
 
+def attachments_in(document: Mapping[str, Any]) -> dict[str, Held]:
+    """Where a checked scene document holds layers, by their names."""
+    entries = document.get("bodies", [])
+    return {entry["name"]: entry["attach"] for entry in entries if entry.get("name") and "attach" in entry}
+
+
 def masks_of_still_layers(artwork: Artwork, moving: Collection[int]) -> Callable[[str], NDArray[np.bool_]]:
     """What gives the mask of a still layer by its name, bool, shape [h, w], for colliders.
 
@@ -89,3 +96,19 @@ def masks_of_still_layers(artwork: Artwork, moving: Collection[int]) -> Callable
         return mask
 
     return mask_of
+
+
+def nothing_moves(names: Sequence[str]) -> str:
+    """The sentence that says that no layer moves by its name, and what to do about it.
+
+    Args:
+        names: of the layers that are seen.
+    """
+    listed = ", ".join(f'"{printable(name[:60])}"' for name in names[:_SHOWN]) or "none that is seen"
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    example = printable(names[-1][:60]) if names else "NAME"
+    return (
+        "no layer moves by its name: switch on those that do in the node's list of layers, or type their names into the"
+        f' node\'s input move, one on each line, or give them on the command line as --move "{example}". Got the'
+        f" layers, from back to front: {listed}{more}"
+    )

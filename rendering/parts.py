@@ -11,12 +11,12 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.document import LayerMasks
+from ..physics.document import LayerMasks, order_of_layers
 from ..physics.errors import InvalidInputError
 from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
-from ..physics.scene import Attachment, Body, Scene
+from ..physics.scene import Body, Held, Scene
 from .composite import (
     LayeredRenderer,
     PixelArtRenderer,
@@ -43,6 +43,7 @@ __all__ = [
     "parts_of_artwork",
     "parts_of_picture",
     "picture_of",
+    "with_shown",
 ]
 
 Image = NDArray[Any]
@@ -70,6 +71,7 @@ class Parts:
         still: names of layers that stand still by somebody's word.
         layer_mask: gives the mask of the still layer of a name, or refuses it; None where there are no layers.
         notes: a sentence for each layer that stands still against its name.
+        order: names of layers that somebody put in another order than the file's, from back to front.
     """
 
     image: Image
@@ -79,19 +81,21 @@ class Parts:
     presets: tuple[str | None, ...]
     covers: tuple[NDArray[np.bool_] | None, ...]
     rests: tuple[NDArray[np.bool_] | None, ...]
-    attachments: tuple[Attachment, ...]
+    attachments: tuple[Held, ...]
     renderer: Callable[[Motion], LayeredRenderer | PixelArtRenderer]
     own: Sequence[Image] = ()
     still: tuple[str, ...] = ()
     layer_mask: LayerMasks | None = None
     notes: tuple[str, ...] = ()
+    order: tuple[str, ...] = ()
 
     def covered(self, scene: Scene) -> Scene:
-        """The scene with what is in front of its bodies, in the order of the parts."""
-        if all(cover is None for cover in self.covers):
+        """The scene with what is in front of its bodies and behind them, in the order of the parts."""
+        if all(each is None for each in (*self.covers, *self.rests)):
             return scene
-        bodies = zip(scene.bodies, self.covers, strict=True)
-        return replace(scene, bodies=tuple(replace(body, cover=cover) for body, cover in bodies))
+        bodies = zip(scene.bodies, self.covers, self.rests, strict=True)
+        known = tuple(replace(body, cover=cover, rests_on=rest) for body, cover, rest in bodies)
+        return replace(scene, bodies=known)
 
     def bodies(self, materials: Sequence[Material], strands: Sequence[bool] | None = None) -> list[Body]:
         """The parts as bodies of these materials, each in front of the one before.
@@ -104,13 +108,14 @@ class Parts:
         parts = zip(self.meshes, materials, self.names, strands, self.covers, self.rests, strict=True)
         return [Body(*(mesh, made, layer, *rest)) for layer, (mesh, made, *rest) in enumerate(parts)]
 
-    def in_strands(self, chosen: Sequence[bool], attachments: Sequence[Attachment]) -> Parts:
+    def in_strands(self, chosen: Sequence[bool], attachments: Sequence[Held]) -> Parts:
         """The parts with those chosen slit between the strands that are drawn on them.
 
         Args:
-            chosen: whether each is.
+            chosen: whether each is; what is held nowhere is not.
             attachments: where each is held.
         """
+        chosen = [each and attach != "none" for each, attach in zip(chosen, attachments, strict=True)]
         if not any(chosen):
             return self
         from .strands import split_into_strands
@@ -158,7 +163,7 @@ def parts_of_picture(
     seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
     meshes = tuple(_meshed(mask, spacing, name, seen) for mask, name in zip(masks, names, strict=True))
     count = len(masks)
-    nothing, guessed = (None,) * count, tuple[Attachment, ...](["auto"] * count)
+    nothing, guessed = (None,) * count, tuple[Held, ...](["auto"] * count)
     return Parts(image, tuple(masks), meshes, ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer)
 
 
@@ -170,6 +175,7 @@ def parts_of_artwork(
     spacing: float | None = None,
     document: Mapping[str, Any] | None = None,
     elements_across: int | None = None,
+    plans: Sequence[LayerPlan] | None = None,
 ) -> Parts:
     """Parts that are layers of their own.
 
@@ -178,28 +184,31 @@ def parts_of_artwork(
         move: names of layers that move, whatever the table of names says.
         still: names of layers that stand still.
         spacing: distance of the meshes' vertices [px]; None chooses it.
-        document: a checked scene document, which says what moves where the user does not.
+        document: a checked scene document, which says what moves where the user does not, and which layers lie in
+            another order.
         elements_across: triangles across thin strands; None for the usual number.
+        plans: what becomes of every layer, in that order, instead of what follows from names and document.
 
     Raises:
         InvalidInputError: there is no such layer, none moves, or one gives no mesh.
     """
-    from .layers_of_scenes import SCENE_SAYS, masks_of_still_layers, planned_layers
+    from .artwork import in_order
+    from .layers_of_scenes import SCENE_SAYS, attachments_in, masks_of_still_layers, nothing_moves, planned_layers
 
-    planned = planned_layers(artwork, move, still, document=document)
+    order = order_of_layers(document or {})
+    artwork = in_order(artwork, order)
+    planned = planned_layers(artwork, move, still, document=document) if plans is None else plans
     plans, meshed, notes = _meshed_layers(artwork, planned, spacing, elements_across)
-    artwork = arranged(artwork, move, still)
+    artwork = with_shown(artwork, planned)
     if not plans and notes:
         raise InvalidInputError(f"no layer can move: {'; '.join(notes)[:600]}")
     if not plans:
         seen = [name for name, layer in zip(artwork.names, artwork.layers, strict=True) if layer.visible]
-        raise InvalidInputError(
-            "no layer that is seen has a name that says it moves; name those that do with --move, or the node's input"
-            f" move. Got: {', '.join(seen)[:300] or 'none that is seen'}"
-        )
+        raise InvalidInputError(nothing_moves(seen))
     image = picture_of(artwork)
     indices = [plan.index for plan in plans]
-    attachments = tuple(attachment_of_layer(plan) for plan in plans)
+    said = attachments_in(document or {})
+    attachments = tuple(said.get(plan.name) or attachment_of_layer(plan) for plan in plans)
     masks, covers, rests = [], [], []
     for index, attach in zip(indices, attachments, strict=True):
         masks.append(mask_of_layer(artwork, index))
@@ -219,6 +228,7 @@ def parts_of_artwork(
         tuple(plan.name for plan in planned if not plan.moves and (plan.asked or plan.why == SCENE_SAYS)),
         masks_of_still_layers(artwork, indices),
         tuple(notes),
+        tuple(order),
     )
 
 
@@ -254,12 +264,15 @@ def arranged(artwork: Artwork, move: Sequence[str] = (), still: Sequence[str] = 
     """
     from .artwork import moving_layers
 
-    shown = [plan.shown for plan in moving_layers(artwork, move, still)]
-    layers = zip(artwork.layers, shown, strict=True)
-    if all(layer.visible == seen for layer, seen in layers):
+    return with_shown(artwork, moving_layers(artwork, move, still))
+
+
+def with_shown(artwork: Artwork, plans: Sequence[LayerPlan]) -> Artwork:
+    """The artwork with the layers visible that plans show; the same one where nothing changes."""
+    layers = list(zip(artwork.layers, plans, strict=True))
+    if all(layer.visible == plan.shown for layer, plan in layers):
         return artwork
-    layers = zip(artwork.layers, shown, strict=True)
-    return replace(artwork, layers=tuple(replace(layer, visible=seen) for layer, seen in layers))
+    return replace(artwork, layers=tuple(replace(layer, visible=plan.shown) for layer, plan in layers))
 
 
 def picture_of(artwork: Artwork) -> Image:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..physics.mesh import PixelBox, TriangleMesh, bounding_box, cut_along, interpolate, ways_along, ways_from
 from ..physics.rig import vertices_of
-from ..physics.scene import Attachment, Body, pins
+from ..physics.scene import Body, Held, pins
 from .pictures import as_float, is_transparent
 from .strand_lines import Field, darkness, lines_from
 
@@ -33,9 +33,7 @@ _KEPT = 0.35  # of the least height of the triangles around a vertex that is mov
 _ASTRAY = 4.0  # how dear it is for a slit to leave its line by an edge's length
 
 
-def split_into_strands(
-    image: NDArray[Any], body: Body, *, attach: Attachment = "auto", alone: bool = False
-) -> TriangleMesh:
+def split_into_strands(image: NDArray[Any], body: Body, *, attach: Held = "auto", alone: bool = False) -> TriangleMesh:
     """The mesh of a body slit between its strands; as it is where nothing is drawn between them.
 
     Args:

@@ -9,7 +9,7 @@ from .defaults import default_of
 from .documents import checked_document
 from .input_files import contents_of, layered_files, place_of
 from .literals import PATH_FORMS, boxes_of, chosen, keys_of, numbers_of, refusal, times_of, whole_numbers_of
-from .messages import all_told, hint_of_pixel_art, shown_with, tell_user
+from .messages import all_told, hint_of_pixel_art, send_to_page, shown_with, tell_user
 from .progress import host_check, host_progress, watched_sampling
 from .running import is_wanted, not_made, sent_inputs, server, watch_prompts
 from .saving import FILE_TYPES, FRAMES, Place, check_prefix, free_place
@@ -63,6 +63,7 @@ __all__ = [
     "pictures_of",
     "place_of",
     "refusal",
+    "send_to_page",
     "sent_inputs",
     "server",
     "shown_with",

@@ -8,7 +8,7 @@ from typing import Any
 
 from .running import context, server
 
-__all__ = ["EVENT", "all_told", "hint_of_pixel_art", "shown_with", "tell_user"]
+__all__ = ["EVENT", "all_told", "hint_of_pixel_art", "send_to_page", "shown_with", "tell_user"]
 
 EVENT = "physanimator.advice"
 """Name of the message that nodes/web/js/host/advice.js shows as a toast."""
@@ -33,11 +33,21 @@ def tell_user(node: Any, sentences: Iterable[str]) -> dict[str, list[str]]:
     title = node.define_schema().display_name  # GET_SCHEMA would write to the class, which is locked by now
     for sentence in told:
         logging.warning("PhysAnimator, %s: %s", title, sentence)
+    send_to_page(EVENT, {"title": title, "sentences": told})
+    return {"advice": told}
+
+
+def send_to_page(event: str, data: dict[str, Any]) -> None:
+    """Let the browser that has queued the prompt know something of the node that is being executed, at once.
+
+    Args:
+        event: name of the message.
+        data: what it holds; the node's id is added as "node".
+    """
     host, running = server(), context()
     client = getattr(host, "client_id", None)
     if running is not None and client is not None:  # without a client it would reach every browser
-        host.send_sync(EVENT, {"node": str(running.node_id), "title": title, "sentences": told}, client)
-    return {"advice": told}
+        host.send_sync(event, {**data, "node": str(running.node_id)}, client)
 
 
 def hint_of_pixel_art(node: Any, picture: Any) -> dict[str, list[str]]:

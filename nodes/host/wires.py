@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ...physics.mesh import TriangleMesh
 from ...physics.motion import FlowSequence, Motion
-from ...physics.scene import Attachment, Body, Collider, Contact, Scene
+from ...physics.scene import Body, Collider, Contact, Held, Scene
 from ...rendering.moving_layers import LayerSource, MovingLayers, moving_layers_of
 
 __all__ = [
@@ -98,7 +98,7 @@ class MaskedBody:
 
     body: Body
     mask: Mask
-    attach: Attachment = "auto"
+    attach: Held = "auto"
     source: LayerSource | None = None
     in_front: Mask | None = None
 

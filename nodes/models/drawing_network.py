@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 from comfy_api.latest import io
 
 from ...rendering.sketch.drawings import DRAWING_FILES
-from ..host import PRECISIONS, dtype_of
+from ..host import dtype_of
 from .networks import kept_networks
+from .option_inputs import precision_input
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -41,12 +42,7 @@ def drawing_network_inputs() -> list[Any]:
             tooltip="Longer side of the picture that the network looks at [px]; smaller gives fewer and bolder lines."
             " 0: as the picture is.",
         ),
-        io.Combo.Input(
-            "precision",
-            options=list(PRECISIONS),
-            default=PRECISIONS[0],
-            tooltip="auto: 16 bits where the device computes faster with them.",
-        ),
+        precision_input(),
     ]
 
 

@@ -7,8 +7,8 @@ from typing import Any
 from comfy_api.latest import io
 
 from ...rendering.svd import CLIP_FRAMES, SVDOptions
-from ..host import PRECISIONS
 from .model_files import lvcd_choices, svd_choices
+from .option_inputs import area_input, count_input, precision_input, seed_input
 
 __all__ = ["AREAS", "svd_inputs"]
 
@@ -31,46 +31,35 @@ def svd_inputs() -> list[Any]:
             options=lvcd_choices(),
             tooltip="LVCD: lvcd.ckpt or lvcd-fp16.safetensors in models/controlnet, models/checkpoints or models/lvcd.",
         ),
-        io.Int.Input(
-            "noise_from",
-            default=_USUAL.seed,
-            min=0,
-            max=2**32 - 1,
-            tooltip="Seed of the noise: another number gives another clip, the same one the same clip.",
-        ),
-        io.Int.Input(
+        seed_input(_USUAL, "another clip, the same one the same clip"),
+        count_input(
             "steps",
-            default=_USUAL.steps,
-            min=2,
-            max=100,
-            tooltip="Sampling steps of each segment; time grows with them. 25 is usual, 12 makes drafts.",
+            _USUAL,
+            2,
+            100,
+            "Sampling steps of each segment; time grows with them. 25 is usual, 12 makes drafts.",
         ),
-        io.Int.Input(
+        count_input(
             "motion_bucket",
-            default=_USUAL.motion_bucket,
-            min=1,
-            max=255,
-            tooltip="How much motion the model expects [1 to 255]. Lower keeps the picture calmer.",
+            _USUAL,
+            1,
+            255,
+            "How much motion the model expects [1 to 255]. Lower keeps the picture calmer.",
         ),
-        io.Int.Input(
+        count_input(
             "overlap",
-            default=_USUAL.overlap,
-            min=3,
-            max=CLIP_FRAMES // 2,
-            tooltip="Frames that neighbouring segments of a long clip share; more hides seams and takes longer.",
+            _USUAL,
+            3,
+            CLIP_FRAMES // 2,
+            "Frames that neighbouring segments of a long clip share; more hides seams and takes longer.",
         ),
-        io.Combo.Input(
-            "working_size",
-            options=list(AREAS),
-            default="576 x 320",
-            tooltip="Area that the model works on [px], in the illustration's proportions; trained at 576 x 320.",
-        ),
-        io.Int.Input(
+        area_input(list(AREAS), "576 x 320", "the illustration's", "576 x 320"),
+        count_input(
             "frames_per_second",
-            default=_USUAL.frames_per_second,
-            min=1,
-            max=60,
-            tooltip="What the model is told of the frame rate; 6 is what it was trained with. The video's own stays.",
+            _USUAL,
+            1,
+            60,
+            "What the model is told of the frame rate; 6 is what it was trained with. The video's own stays.",
         ),
         io.Float.Input(
             "picture_noise",
@@ -80,19 +69,8 @@ def svd_inputs() -> list[Any]:
             step=0.01,
             tooltip="Noise on the illustration [0 to 1]: more lets frames leave it further.",
         ),
-        io.Int.Input(
-            "decoded_together",
-            default=_USUAL.decoded_together,
-            min=5,
-            max=64,
-            tooltip="Frames that are decoded at once; fewer need less memory.",
-        ),
-        io.Combo.Input(
-            "precision",
-            options=list(PRECISIONS),
-            default=PRECISIONS[0],
-            tooltip="auto: 16 bits where the device computes faster with them.",
-        ),
+        count_input("decoded_together", _USUAL, 5, 64, "Frames that are decoded at once; fewer need less memory."),
+        precision_input(),
         io.Boolean.Input(
             "keep_still_parts",
             default=True,

@@ -7,7 +7,7 @@ from typing import Any
 from comfy_api.latest import io
 
 from ...rendering.tooncrafter import SOLVERS, ToonCrafterOptions
-from ..host import PRECISIONS
+from .option_inputs import area_input, count_input, precision_input, seed_input
 from .tooncrafter_files import model_choices, sketch_model_choices
 
 __all__ = ["AREAS", "tooncrafter_inputs"]
@@ -44,19 +44,9 @@ def tooncrafter_inputs() -> list[Any]:
             step=0.05,
             tooltip="How closely in-betweens follow the sketches [0 to 2]. The paper takes 0.1; 0 ignores them.",
         ),
-        io.Int.Input(
-            "noise_from",
-            default=_USUAL.seed,
-            min=0,
-            max=2**32 - 1,
-            tooltip="Seed of the noise: another number gives other in-betweens, the same one the same ones.",
-        ),
-        io.Int.Input(
-            "steps",
-            default=_USUAL.steps,
-            min=1,
-            max=200,
-            tooltip="Sampling steps for each pair of keyframes; time grows with them. 50 is usual.",
+        seed_input(_USUAL, "other in-betweens, the same one the same ones"),
+        count_input(
+            "steps", _USUAL, 1, 200, "Sampling steps for each pair of keyframes; time grows with them. 50 is usual."
         ),
         io.Combo.Input(
             "solver",
@@ -72,39 +62,26 @@ def tooncrafter_inputs() -> list[Any]:
             step=0.1,
             tooltip="How closely in-betweens follow prompt and keyframes [1 to 30]; 1 takes half the time.",
         ),
-        io.Int.Input(
+        count_input(
             "fs",
-            default=_USUAL.frame_rate,
-            min=1,
-            max=60,
-            tooltip="What the model is told of the frame rate [1/s]: lower for larger motion. The video's own stays.",
+            _USUAL,
+            1,
+            60,
+            "What the model is told of the frame rate [1/s]: lower for larger motion. The video's own stays.",
+            field="frame_rate",
         ),
-        io.Combo.Input(
-            "working_size",
-            options=list(AREAS),
-            default=next(iter(AREAS)),
-            tooltip="Area that the model works on [px], in the keyframes' proportions; trained at 512 x 320.",
+        area_input(list(AREAS), next(iter(AREAS)), "the keyframes'", "512 x 320"),
+        count_input(
+            "pairs_together", _USUAL, 1, 16, "Pairs of keyframes that are drawn at once; fewer need less memory."
         ),
-        io.Int.Input(
-            "pairs_together",
-            default=_USUAL.pairs_together,
-            min=1,
-            max=16,
-            tooltip="Pairs of keyframes that are drawn at once; fewer need less memory.",
-        ),
-        io.Int.Input(
+        count_input(
             "decoded_together",
-            default=_USUAL.decoded_together,
-            min=1,
-            max=16,
-            tooltip="Frames whose pictures are made at once; fewer need less memory, and give the same pictures.",
+            _USUAL,
+            1,
+            16,
+            "Frames whose pictures are made at once; fewer need less memory, and give the same pictures.",
         ),
-        io.Combo.Input(
-            "precision",
-            options=list(PRECISIONS),
-            default=PRECISIONS[0],
-            tooltip="auto: 16 bits where the device computes faster with them.",
-        ),
+        precision_input(),
         io.String.Input(
             "prompt",
             default="",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .holds import holds_of_bodies
 from .records import FRAME, HEADER, split_records
 from .requests import PreviewRequest, preview_scene, read_request
 from .server import STORE, register_routes
@@ -14,6 +15,7 @@ __all__ = [
     "PreviewBodies",
     "PreviewRequest",
     "PreviewStore",
+    "holds_of_bodies",
     "preview_scene",
     "read_request",
     "register_routes",

@@ -53,7 +53,7 @@ MAX_EDITORS = 4
 """Editors whose simulations may run at once."""
 
 MAX_PREVIEW_STROKES = 400
-MAX_PREVIEW_RIG_POINTS = 200
+MAX_PREVIEW_RIG_POINTS = 1_000
 MAX_PREVIEW_POINTS = 40_000
 """Points of all strokes, polygons and keyed paths together."""
 

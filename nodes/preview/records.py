@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import struct
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -95,14 +96,21 @@ class FrameEncoder:
         times = np.arange(frames) / scene.frame_rate
         self._leads = [_led(point.position, lead(point.motion, point.position, times)) for point in scene.rig_points]
 
-    def header(self, *, frames: int) -> dict[str, Any]:
-        """The first record's payload."""
+    def header(self, *, frames: int, points: Sequence[int] | None = None) -> dict[str, Any]:
+        """The first record's payload.
+
+        Args:
+            frames: how many frames there are.
+            points: the number that each rig point has in the editor's document, -1 for none; None where they are the
+                same.
+        """
         return {
             "version": FORMAT,
             "frames": frames,
             "frame_rate": self._scene.frame_rate,
             "vertices": len(self._rest),
             "rig_points": len(self._leads),
+            "points": list(range(len(self._leads))) if points is None else list(points),
             "unit": self.unit,
             "loop": self._scene.loop is not None,
         }

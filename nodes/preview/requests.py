@@ -35,7 +35,7 @@ from .limits import (
     MAX_VALUES,
 )
 
-__all__ = ["PreviewRequest", "is_key", "preview_scene", "read_request"]
+__all__ = ["PreviewRequest", "document_points", "is_key", "preview_scene", "read_request"]
 
 _COARSER = "paint on a coarser mask"
 _FIELDS = {"editor", "key", "scene", "frames"}
@@ -107,13 +107,13 @@ def preview_scene(
         InvalidInputError: it is more than a preview shows.
     """
     from ...physics.document import check_document, checked_scene_over, mask_pixels
-    from ...physics.scene import region_work
+    from ...physics.scene import held_where_said, region_work
 
     triangles = sum(len(body.mesh.triangles) for body in bodies)
     _require_preview("triangles", triangles, MAX_PREVIEW_TRIANGLES, "mesh the bodies with a larger spacing")
     document = check_document(request.document)
     _require_preview("pixels of painted masks", mask_pixels(document), MAX_PREVIEW_MASK_PIXELS, _COARSER)
-    scene = checked_scene_over(document, bodies, layers=layers)
+    scene = held_where_said(checked_scene_over(document, bodies, layers=layers))
     frames = request.frames if scene.loop is None else loop_frames(scene)
     _require_preview("frames", frames, MAX_FRAMES, "shorten the loop")
     vertices = sum(len(body.mesh.vertices) for body in bodies)
@@ -132,6 +132,18 @@ def preview_scene(
         )
     _require_short_outlines(scene)
     return scene, frames
+
+
+def document_points(request: PreviewRequest, scene: Scene) -> list[int]:
+    """For each rig point of a scene its number in the document that it was made of; -1 for those found on the way.
+
+    Rig points of bodies that are not there are left out of a scene, and pins of bodies that say where they are held
+    come before the others.
+    """
+    from ...physics.document import rig_points_kept
+
+    kept = rig_points_kept(request.document, [body.name for body in scene.bodies])
+    return [-1] * (len(scene.rig_points) - len(kept)) + kept
 
 
 def _require_short_outlines(scene: Scene) -> None:

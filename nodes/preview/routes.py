@@ -22,11 +22,12 @@ from aiohttp import web
 from ...physics.errors import Cancelled, SimulationError
 from ...physics.interruption import interruptible
 from .guard import BUSY, KEEP_NOTHING, Guard, body_of, hung_up, refused
+from .holds import found_holds
 from .limits import MAX_EDITORS, MAX_REQUEST_BYTES
 from .plates import Plates, png_of
 from .queue import RecordQueue
 from .records import encode_mesh
-from .requests import PreviewRequest, is_key, preview_scene, read_request
+from .requests import PreviewRequest, document_points, is_key, preview_scene, read_request
 from .session import PreviewRun, PreviewRuns, stream
 from .store import PreviewBodies, PreviewStore
 
@@ -69,6 +70,7 @@ class PreviewRoutes:
         routes.get("/physanimator/mesh/{key}")(self._guard(self.mesh))
         routes.get("/physanimator/plate/{key}")(self._guard(self.plate))
         routes.get("/physanimator/layer/{key}/{number}")(self._guard(self.layer))
+        routes.get("/physanimator/holds/{key}/{attach}")(self._guard(self.holds))
         routes.post("/physanimator/preview")(self._guard(self.preview))
         routes.get("/physanimator/example")(self._guard(self.example))
         routes.post("/physanimator/warm-up")(self._guard(self.warm_up))
@@ -112,6 +114,16 @@ class PreviewRoutes:
         body = await self._on_a_thread(_Patience(request), png_of, stored.layers[int(number)].pixels)
         return web.Response(body=body, content_type="image/png", headers=KEEP_NOTHING)
 
+    async def holds(self, request: web.Request) -> web.StreamResponse:
+        """Pins for the bodies of a key, as JSON: where each is found to be held, or at a side."""
+        stored = self._stored(request)
+        if stored is None:
+            return refused(404, _FORGOTTEN)
+        attach = request.match_info["attach"]
+        return web.json_response(
+            await self._on_a_thread(_Patience(request), found_holds, stored, attach), headers=KEEP_NOTHING
+        )
+
     async def preview(self, request: web.Request) -> web.StreamResponse:
         """A scene over the bodies of a key, simulated and streamed frame by frame."""
         order = next(self._order)
@@ -128,12 +140,13 @@ class PreviewRoutes:
         if stored is None:
             return refused(404, _FORGOTTEN)
         scene, frames = await self._on_a_thread(check, preview_scene, wanted, stored.bodies, stored.layer_masks)
+        points = document_points(wanted, scene)
         prepared = await self._on_a_thread(check, self.runs.prepare, scene)
         run = self.runs.enter(wanted.editor, order, prepared)
         if run is None:
             return refused(429, BUSY)
         try:
-            return await self._streamed(request, run, functools.partial(stream, scene, frames, run))
+            return await self._streamed(request, run, functools.partial(stream, scene, frames, run, points=points))
         finally:
             run.cancel("The editor is gone.")
             self.runs.leave(run)

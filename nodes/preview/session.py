@@ -132,7 +132,9 @@ class PreviewRuns:
         return len(self._runs)
 
 
-def stream(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) -> None:
+def stream(
+    scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue, *, points: Sequence[int] | None = None
+) -> None:
     """Simulate a scene and put its records into a queue, which is closed in the end whatever happens.
 
     Of a scene that loops every cycle goes out while it settles, so that something moves at once; each frame takes the
@@ -143,12 +145,13 @@ def stream(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) -> No
         frames: how many; of a loop, those of a cycle.
         run: may be cancelled at any time from any thread.
         queue: where the records go.
+        points: the number that each rig point has in the editor's document, -1 for none; None where they are the same.
     """
     last = b""
     try:
         run.wait_for_turn()
         try:
-            last = _streamed(scene, frames, run, queue)
+            last = _streamed(scene, frames, run, queue, points)
         finally:
             run.turn.release()
     except PhysAnimatorError as error:
@@ -162,7 +165,7 @@ def stream(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) -> No
         queue.close(last)
 
 
-def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) -> bytes:
+def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue, points: Sequence[int] | None) -> bytes:
     """Put everything but the last record, which is returned."""
     from ...physics.simulation import simulate
 
@@ -170,7 +173,7 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue) ->
     prepared = run.wants
     acting = scene if scene.loop is None else periodic(scene)
     encoder = FrameEncoder(acting, frames=frames, first_frame=0 if scene.loop is None else first_frame(acting))
-    queue.put(record(HEADER, encoder.header(frames=frames)), run.check)
+    queue.put(record(HEADER, encoder.header(frames=frames, points=points)), run.check)
 
     def send(number: int, positions: NDArray[np.float32]) -> None:
         nonlocal largest

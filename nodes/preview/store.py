@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.document import LayerMasks, encode
-from ...physics.scene import Body
+from ...physics.scene import Body, Held
 from ...rendering.layer_pictures import LayerPicture
 from .limits import MAX_STORED_BYTES
 
@@ -34,6 +34,7 @@ class PreviewBodies:
             cut the bodies out.
         layer_masks: gives the mask of a still layer by its name; None where there are no layers.
         layer_bytes: memory that it holds on to by that.
+        attachments: where each body is found to be held; empty for "auto" everywhere.
     """
 
     bodies: tuple[Body, ...]
@@ -42,6 +43,7 @@ class PreviewBodies:
     layers: tuple[LayerPicture, ...] = ()
     layer_masks: LayerMasks | None = None
     layer_bytes: int = 0
+    attachments: tuple[Held, ...] = ()
 
     @cached_property
     def key(self) -> str:
@@ -50,6 +52,7 @@ class PreviewBodies:
         for body in self.bodies:
             described = [body.mesh.content_hash, body.name, body.layer, encode(body.material)]
             digest.update(json.dumps(described).encode())
+        digest.update(json.dumps(self.attachments).encode())
         digest.update(self.picture_key.encode())
         for layer in self.layers:
             digest.update(repr((layer.layer, layer.box, layer.blend, layer.pixels.shape)).encode())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .body_names import arranged_for, bodies_named, still_layers
+from .body_names import arranged_for, bodies_named, order_of_layers, rig_points_kept, still_layers
 from .checking import check_document
 from .encoding import encode, encode_material, scene_to_dict
 from .given import given_scene, materials_of
@@ -25,10 +25,12 @@ __all__ = [
     "loads",
     "mask_pixels",
     "materials_of",
+    "order_of_layers",
     "parse_points",
     "parse_polyline",
     "read_json",
     "require_pixels",
+    "rig_points_kept",
     "scene_from_dict",
     "scene_over",
     "scene_schema",

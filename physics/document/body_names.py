@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-__all__ = ["arranged_for", "bodies_named", "still_layers"]
+__all__ = ["arranged_for", "bodies_named", "order_of_layers", "rig_points_kept", "still_layers"]
 
 _OF_BODIES = ("rig_points", "paint")  # lists whose entries may speak of a body by its number
 
@@ -18,6 +18,21 @@ def bodies_named(document: Mapping[str, Any]) -> list[str]:
 def still_layers(document: Mapping[str, Any]) -> list[str]:
     """The names of the layers that a checked document keeps still."""
     return list(document.get("still", []))
+
+
+def order_of_layers(document: Mapping[str, Any]) -> list[str]:
+    """The names of layers that a checked document puts in order, from back to front."""
+    return list(document.get("order", []))
+
+
+def rig_points_kept(document: Mapping[str, Any], names: Sequence[str]) -> list[int]:
+    """Which rig points of a checked document are left where its bodies are these parts, by their numbers.
+
+    The others speak of bodies that no part is: see :func:`arranged_for`.
+    """
+    points = document.get("rig_points", [])
+    numbered = {**document, "rig_points": [{**point, "number": index} for index, point in enumerate(points)]}
+    return [point["number"] for point in arranged_for(numbered, names)[0]["rig_points"]]
 
 
 def arranged_for(document: Mapping[str, Any], names: Sequence[str]) -> tuple[Mapping[str, Any], tuple[str, ...]]:

@@ -97,7 +97,7 @@ def scene_to_dict(scene: Scene, *, meshes: bool = True) -> dict[str, Any]:
         **({"contact": encode(scene.contact)} if scene.contact is not None else {}),
         **{
             name: encode(getattr(scene, name))
-            for name in ("colliders", "paint", "query_points", "still")
+            for name in ("colliders", "paint", "query_points", "still", "order")
             if getattr(scene, name)
         },
     }
@@ -142,6 +142,8 @@ def _encode_body(body: Body, *, mesh: bool) -> dict[str, Any]:
     encoded: dict[str, Any] = {"name": body.name, "layer": int(body.layer), "material": encode_material(body.material)}
     if body.strands:
         encoded["strands"] = True
+    if body.attach != "none":
+        encoded["attach"] = body.attach
     if mesh:
         encoded["mesh"] = {"vertices": body.mesh.vertices.tolist(), "triangles": body.mesh.triangles.tolist()}
     return encoded

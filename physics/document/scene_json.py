@@ -258,7 +258,7 @@ def _read_query_point(entry: dict[str, Any], _path: str) -> QueryPoint:
     return QueryPoint(**_floats(entry))
 
 
-_OPTIONS = ("gravity", "frame_rate", "loop", "sag", "still", "time_step", "strokes_as")
+_OPTIONS = ("gravity", "frame_rate", "loop", "sag", "still", "order", "time_step", "strokes_as")
 
 _READERS: dict[str, Callable[[dict[str, Any], str], Any]] = {
     "strokes": _read_stroke,

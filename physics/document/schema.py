@@ -98,7 +98,7 @@ def _document() -> dict[str, Schema]:
             name: own[name] for name in ("gravity", "sag", "time_step", "strokes_as", "bodies", "strokes", "rig_points")
         },
         "contact": {**defined("contact"), "type": ["object", "null"], "description": own["contact"]["description"]},
-        **{name: own[name] for name in ("colliders", "paint", "query_points", "still")},
+        **{name: own[name] for name in ("colliders", "paint", "query_points", "still", "order")},
     }
 
 
@@ -108,6 +108,7 @@ def _body() -> dict[str, Schema]:
         "name": own["name"],
         "layer": own["layer"],
         "strands": own["strands"],
+        "attach": own["attach"],
         "material": {"$ref": "#/$defs/material"},
         "mesh": {"$ref": "#/$defs/mesh"},
     }

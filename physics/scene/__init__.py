@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .advising import absent_bodies, advice, mask_advice, unused_rig_points
-from .attachment import ATTACHMENTS, Attachment, pins
+from .attachment import held_where_said, pins
 from .automatic import automatic_scene
 from .collider_outlines import (
     LEAST_SPACING,
@@ -20,6 +20,7 @@ from .paint import QUANTITIES, Paint
 from .query_points import QueryPoint
 from .scene import Body, Scene, StrokesAs, check_scene_rate
 from .shapes import LayerRegion
+from .sides import ATTACHMENTS, Attachment, Held
 
 __all__ = [
     "ATTACHMENTS",
@@ -30,6 +31,7 @@ __all__ = [
     "Body",
     "Collider",
     "Contact",
+    "Held",
     "Holds",
     "LayerRegion",
     "OutlineCounts",
@@ -42,6 +44,7 @@ __all__ = [
     "automatic_scene",
     "check_scene_rate",
     "count_outlines",
+    "held_where_said",
     "holds_of",
     "mask_advice",
     "outlines",

@@ -8,7 +8,8 @@ run around every part of a drawing, so the colours along the contour say nothing
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, get_args
+from dataclasses import replace
+from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +19,10 @@ from ..rig import Pinned, Polygon, RigPoint
 from .held_outline import hull_around, outlines_around
 from .part_raster import PartRaster
 from .roots import covered_root, crown, end_in_contact, head
-from .scene import Body
+from .scene import Body, Scene
+from .sides import ATTACHMENTS, Attachment, Held
 
-__all__ = ["ATTACHMENTS", "Attachment", "attachment_of", "pins"]
-
-Attachment = Literal["auto", "top", "bottom", "left", "right", "head", "crown", "covered", "end"]
-ATTACHMENTS: tuple[Attachment, ...] = get_args(Attachment)[:5]
-"""Those that people choose from; the others are said by names of layers: see :func:`pins`."""
+__all__ = ["attachment_of", "held_where_said", "pins"]
 
 BoolArray = NDArray[np.bool_]
 
@@ -49,19 +47,22 @@ _FOUND: dict[str, Callable[[PartRaster], BoolArray]] = {
 }
 
 
-def pins(body: Body, number: int, *, attach: Attachment = "auto") -> list[RigPoint]:
+def pins(body: Body, number: int, *, attach: Held = "auto") -> list[RigPoint]:
     """Pinned regions for each connected part of a body, where it is attached.
 
     Args:
         body: what to hold.
         number: the body's number in the scene.
         attach: side; "head" for hair on a head, "crown" for hair that hangs over a forehead, "covered" for what hangs
-            behind a head, "end" for what is held where it touches what stands still; or "auto" for each part's own.
+            behind a head, "end" for what is held where it touches what stands still; "auto" for each part's own; or
+            "none" for nowhere.
 
     Raises:
         InvalidInputError: there is no such side.
     """
-    require("attach", attach, attach in get_args(Attachment), f"one of {', '.join(ATTACHMENTS)}")
+    require("attach", attach, attach in get_args(Held), f"one of {', '.join(ATTACHMENTS)}")
+    if attach == "none":
+        return []
     mesh = body.mesh
     points = []
     for component in range(int(mesh.components.max()) + 1):
@@ -70,6 +71,17 @@ def pins(body: Body, number: int, *, attach: Attachment = "auto") -> list[RigPoi
             centre = np.mean(region, axis=0)
             points.append(RigPoint((centre[0], centre[1]), Polygon(region), Pinned(), body=number))
     return points
+
+
+def held_where_said(scene: Scene) -> Scene:
+    """The scene with pins for the bodies that say where they are held (``Body.attach``) and have no rig point alone.
+
+    They come first: of regions that overlap, the last one leads.
+    """
+    led = {point.body for point in scene.rig_points}
+    free = [(number, body) for number, body in enumerate(scene.bodies) if number not in led]
+    found = [pin for number, body in free for pin in pins(body, number, attach=body.attach)]
+    return replace(scene, rig_points=(*found, *scene.rig_points)) if found else scene
 
 
 def _held_regions(body: Body, chosen: BoolArray, attach: Attachment) -> list[tuple[tuple[float, float], ...]]:

@@ -11,11 +11,12 @@ from ..checks import within
 from ..errors import require
 from ..mesh import TriangleMesh, ways_from
 from ..rig import RigPoint, vertices_of
-from .attachment import Attachment, pins
+from .attachment import pins
 from .automatic_wind import breeze, gusts, length_of, unit_of
 from .part_raster import PartRaster
 from .roots import on_face
 from .scene import Body, Scene
+from .sides import Held
 
 __all__ = ["USUAL_LENGTH", "automatic_scene", "swaying_by_size"]
 
@@ -38,7 +39,7 @@ MOST_WIND, MOST_TURN = 100_000, 1_000_000
 def automatic_scene(
     bodies: Sequence[Body],
     *,
-    attach: Attachment | Sequence[Attachment] = "auto",
+    attach: Held | Sequence[Held] = "auto",
     frame_rate: float = 24.0,
     wind_strength: float = 1.0,
     wind_angle: float = 0.0,
@@ -122,5 +123,7 @@ def _on_its_face(body: Body, *, sways: bool) -> Body:
 
 def _free_length(mesh: TriangleMesh, pinned: Sequence[RigPoint]) -> float:
     """How far the farthest tip of the body is from what is pinned, along the shape [px]."""
+    if not pinned:
+        return length_of(mesh)
     ways = ways_from(mesh, np.logical_or.reduce([vertices_of(point, mesh) for point in pinned]))
     return float(ways[np.isfinite(ways)].max(initial=0.0)) or length_of(mesh)

@@ -16,6 +16,7 @@ from ..limits import (
     LARGEST,
     MAX_BODIES,
     MAX_COLLIDERS,
+    MAX_LAYERS,
     MAX_LOOP,
     MAX_PAINT,
     MAX_PARTICLES,
@@ -30,6 +31,7 @@ from ..rig import RigPoint
 from .collision import Collider, Contact
 from .paint import Paint
 from .query_points import QueryPoint
+from .sides import Held
 
 __all__ = ["Body", "Scene", "StrokesAs", "check_scene_rate"]
 
@@ -112,6 +114,15 @@ class Body:
     """Where something that stands still is in front of it, shape [h, w] of the picture; None for nowhere."""
     rests_on: NDArray[np.bool_] | None = None
     """Where something that stands still is behind it, the backdrop apart, shape [h, w]; None where nothing says so."""
+    attach: Annotated[
+        Held,
+        Field(
+            "Attach",
+            "Where it is held as long as no rig point is for it alone: at a side; auto, where each of its parts reaches"
+            " out of the picture, or else at its top; head, hair on a head; crown, hair that hangs over a forehead;"
+            " covered, what hangs behind a head; end, where it touches what stands still. none: nowhere.",
+        ),
+    ] = "none"
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -263,6 +274,17 @@ class Scene:
             "Names of layers of an artwork that stand still although their names say that they move.",
             "layer_name",
             MAX_BODIES,
+        ),
+    ] = ()
+    order: Annotated[
+        tuple[str, ...],
+        _several(
+            str,
+            "Order of layers",
+            "Names of layers of an artwork from back to front: where they are in another order in the file, they change"
+            " places among themselves. Layers that are not named stay where they are.",
+            "layer_name",
+            MAX_LAYERS,
         ),
     ] = ()
     absent: tuple[str, ...] = ()

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError, require
-from .limits import MAX_LAYERS, check_canvas
+from ...physics.limits import MAX_LAYERS
+from .limits import check_canvas
 
 __all__ = ["ArtLayer", "Artwork", "Blend"]
 

@@ -65,10 +65,11 @@ def _unnumbered(name: str) -> str:
 def _in_order(files: list[Path], name: str) -> Artwork:
     count = MemoryCount(name)
     layers: list[ArtLayer] = []
+    remarks: list[str] = []
     size: tuple[int, int] | None = None
     for path in files:
         with _opened(path) as file:
-            pixels = picture_of(file, f"layer {path}")
+            pixels = picture_of(file, f"layer {path}", remarks)
         size = size or (pixels.shape[1], pixels.shape[0])
         if size != (pixels.shape[1], pixels.shape[0]):
             raise InvalidInputError(
@@ -79,7 +80,7 @@ def _in_order(files: list[Path], name: str) -> Artwork:
         count.add(layer.pixels.nbytes)
         layers.append(layer)
     assert size is not None
-    return Artwork(*size, as_one_dtype(layers))
+    return Artwork(*size, as_one_dtype(layers), tuple(remarks))
 
 
 def _opened(path: Path) -> Any:
@@ -108,17 +109,18 @@ def read_layer_list(path: StrPath) -> Artwork:
         width, height = (_whole(document.get(key), f"{name}: {key}") for key in ("width", "height"))
         check_canvas(width, height, name)
         count = MemoryCount(name)
-        layers = []
+        layers: list[ArtLayer] = []
+        remarks: list[str] = []
         for entry in document["layers"]:
-            layer = _listed(entry, Path(path).parent, name)
+            layer = _listed(entry, Path(path).parent, name, remarks)
             count.add(layer.pixels.nbytes)
             layers.append(layer)
         if all(layer.depth is not None for layer in layers):
             layers.sort(key=lambda layer: -(layer.depth or 0.0))
-        return Artwork(width, height, as_one_dtype(layers))
+        return Artwork(width, height, as_one_dtype(layers), tuple(remarks))
 
 
-def _listed(entry: Any, folder: Path, name: str) -> ArtLayer:
+def _listed(entry: Any, folder: Path, name: str, remarks: list[str]) -> ArtLayer:
     if not isinstance(entry, dict) or not isinstance(entry.get("filename"), str):
         raise InvalidInputError(f"{name}: each layer must name its file. Got: {shown(entry)}")
     file_name = entry["filename"]
@@ -126,7 +128,7 @@ def _listed(entry: Any, folder: Path, name: str) -> ArtLayer:
         raise InvalidInputError(f"{name}: filename must be that of a file beside the list. Got: {shown(file_name)}")
     called = entry.get("name") or Path(file_name).stem
     with _opened(folder / file_name) as file:
-        pixels = picture_of(file, f"layer {folder / file_name}")
+        pixels = picture_of(file, f"layer {folder / file_name}", remarks)
     depth = entry.get("depth_median")
     if depth is not None and (isinstance(depth, bool) or not isinstance(depth, int | float) or not abs(depth) < 1e9):
         raise InvalidInputError(f"{name}: depth_median must be a number. Got: {shown(depth)}")

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ...physics.errors import InvalidInputError
-from ...physics.limits import MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE
+from ...physics.limits import MAX_LAYERS, MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE
 
 __all__ = [
     "MAX_FILE_BYTES",
-    "MAX_LAYERS",
     "MAX_LAYER_BYTES",
     "MAX_OFFSET",
     "MAX_PICTURE_BYTES",
@@ -17,9 +16,6 @@ __all__ = [
     "check_canvas",
     "check_layer_sizes",
 ]
-
-MAX_LAYERS = 1_000
-"""Layers of one artwork, groups not counted."""
 
 MAX_LAYER_BYTES = 2**31
 """Pixels of all layers together in memory [bytes], 4 bytes each with 8 bits a channel, 8 with 16: with 8 bits, that is

@@ -17,9 +17,10 @@ from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
 from ...physics.errors import InvalidInputError
+from ...physics.limits import MAX_LAYERS
 from .artwork import ArtLayer, Artwork, Blend
 from .groups import carried_down, merged
-from .limits import MAX_LAYERS, MAX_OFFSET, MemoryCount, check_canvas
+from .limits import MAX_OFFSET, MemoryCount, check_canvas
 from .png_layers import as_one_dtype, picture_of, trimmed
 from .reading import reading
 
@@ -114,7 +115,7 @@ class _Reader:
     def _layer(self, element: Element, left: int, top: int) -> ArtLayer:
         name = element.get("name") or PurePosixPath(element.get("src", "layer")).stem
         with self._opened(element.get("src", ""), name) as file:
-            pixels = picture_of(cast("IO[bytes]", file), f"{self._name}: layer {name}")
+            pixels = picture_of(cast("IO[bytes]", file), f"{self._name}: layer {name}", self.remarks)
         layer = ArtLayer(
             name=name,
             pixels=pixels,

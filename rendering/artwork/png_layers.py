@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import io
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import cv2
 import numpy as np
@@ -15,18 +17,22 @@ from ...physics.errors import InvalidInputError, PhysAnimatorError
 from .artwork import ArtLayer
 from .limits import MAX_PICTURE_BYTES, check_canvas
 
+if TYPE_CHECKING:
+    from PIL import Image
+
 __all__ = ["as_one_dtype", "picture_of", "trimmed"]
 
 _SIXTEEN_BITS_AT = 24
 """Where a PNG file says how many bits a channel has."""
 
 
-def picture_of(file: IO[bytes], name: str) -> NDArray[Any]:
-    """Straight RGBA of a PNG file: uint16 if it has 16 bits a channel, otherwise uint8, shape [h, w, 4].
+def picture_of(file: IO[bytes], name: str, remarks: list[str]) -> NDArray[Any]:
+    """Straight RGBA of a PNG file: uint16 if it has 16 bits a channel, otherwise uint8, shape [h, w, 4], in sRGB.
 
     Args:
         file: of the picture; not read beyond ``MAX_PICTURE_BYTES``.
         name: what the user calls it.
+        remarks: gets a sentence where its colours are not converted exactly.
 
     Raises:
         InvalidInputError: it is no PNG file, damaged, or too large.
@@ -38,25 +44,31 @@ def picture_of(file: IO[bytes], name: str) -> NDArray[Any]:
         raise InvalidInputError(f"{name} must be a PNG file. Got: something else")
     width, height = int.from_bytes(data[16:20], "big"), int.from_bytes(data[20:24], "big")
     check_canvas(width, height, name)
+    from ..pictures.colour_profiles import as_srgb
+
     try:
-        if data[_SIXTEEN_BITS_AT] == 16:
-            return _of_16_bits(data, name)
-        return _of_8_bits(data)
+        with _opened(data) as picture:
+            profile = picture.info.get("icc_profile")
+            sixteen = data[_SIXTEEN_BITS_AT] == 16
+            pixels = _of_16_bits(data, name) if sixteen else np.array(picture.convert("RGBA"))
+        if isinstance(profile, bytes) and profile:
+            pixels, remark = as_srgb(pixels, profile)
+            remarks += [f"{name}: {remark}"] if remark else []
+        return pixels
     except (PhysAnimatorError, MemoryError):
         raise
     except Exception as error:  # a damaged file makes the readers raise nearly anything
         raise InvalidInputError(f"{name} cannot be read: it is damaged") from error
 
 
-def _of_8_bits(data: bytes) -> NDArray[Any]:
+@contextmanager
+def _opened(data: bytes) -> Iterator[Image.Image]:
     from PIL import Image
-
-    from ..pictures.picture_modes import in_srgb
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         with Image.open(io.BytesIO(data), formats=["PNG"]) as picture:
-            return np.array(in_srgb(picture).convert("RGBA"))
+            yield picture
 
 
 def _of_16_bits(data: bytes, name: str) -> NDArray[Any]:

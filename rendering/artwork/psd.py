@@ -47,7 +47,8 @@ def read_psd(path: StrPath, *, groups: bool = False) -> Artwork:
         check_layer_sizes(_sizes(document), document.depth // 8, name)
         layers, remarks = layers_of(document, groups=groups)
         if not layers:
-            return _flat(document, remarks)
+            layers = [_flat(document)]
+            remarks.append("the file has no layers that can be read: its picture is taken as one")
         layers = in_srgb_colours(layers, document, remarks)
         return Artwork(document.width, document.height, tuple(layers), tuple(remarks))
 
@@ -102,7 +103,7 @@ def _check_offset(left: int, top: int, name: str) -> None:
         raise InvalidInputError(f"layer {name} must lie within {MAX_OFFSET} px of the canvas. Got: {left}, {top}")
 
 
-def _flat(document: PSDImage, remarks: list[str]) -> Artwork:
+def _flat(document: PSDImage) -> ArtLayer:
     """A file without layers: its picture as one."""
     import numpy as np
     from psd_tools.constants import ColorMode
@@ -114,5 +115,4 @@ def _flat(document: PSDImage, remarks: list[str]) -> Artwork:
     pixels = np.full((*size, 4), np.iinfo(dtype).max, dtype.newbyteorder("="))
     for index in range(3):
         pixels[..., index] = np.frombuffer(planes[min(index, colours - 1)], dtype).reshape(size)
-    remark = "the file has no layers that can be read: its picture is taken as one"
-    return Artwork(document.width, document.height, (ArtLayer("picture", pixels),), (*remarks, remark))
+    return ArtLayer("picture", pixels)

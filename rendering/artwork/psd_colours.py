@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from .artwork import ArtLayer
 
 if TYPE_CHECKING:
@@ -22,37 +20,19 @@ def in_srgb_colours(layers: Sequence[ArtLayer], document: PSDImage, remarks: lis
     Args:
         layers: of the document.
         document: whose profile counts.
-        remarks: gets a sentence where a profile cannot be applied.
+        remarks: gets a sentence where a profile cannot be applied, or not exactly.
     """
-    from psd_tools.constants import ColorMode, Resource
+    from psd_tools.constants import Resource
+
+    from ..pictures.colour_profiles import as_srgb
 
     profile = document.image_resources.get_data(Resource.ICC_PROFILE)
-    if not isinstance(profile, bytes) or document.color_mode != ColorMode.RGB or _is_srgb(profile):
+    if not isinstance(profile, bytes) or not profile:
         return list(layers)
-    if document.depth != 8:
-        remarks.append("the file's colour profile is not applied; convert it to sRGB in the painting program")
-        return list(layers)
-    return [_converted(layer, profile) for layer in layers]
-
-
-def _is_srgb(profile: bytes) -> bool:
-    import io
-
-    from PIL import ImageCms
-
-    try:
-        return "srgb" in ImageCms.getProfileDescription(ImageCms.ImageCmsProfile(io.BytesIO(profile))).lower()
-    except (ImageCms.PyCMSError, OSError, ValueError, TypeError):
-        return True  # a profile that cannot be read says nothing
-
-
-def _converted(layer: ArtLayer, profile: bytes) -> ArtLayer:
-    from PIL import Image
-
-    from ..pictures.picture_modes import in_srgb
-
-    if not layer.pixels.size:
-        return layer
-    picture = Image.fromarray(layer.pixels)
-    picture.info["icc_profile"] = profile
-    return replace(layer, pixels=np.array(in_srgb(picture)))
+    converted = []
+    for layer in layers:
+        pixels, remark = as_srgb(layer.pixels, profile)
+        converted.append(replace(layer, pixels=pixels))
+        if remark and remark not in remarks:
+            remarks.append(remark)
+    return converted

@@ -57,7 +57,7 @@ def load_image(path: StrPath, *, alpha: bool = False) -> NDArray[np.uint8]:
     from PIL import Image, ImageOps
 
     with reading(path, "picture") as opened:
-        picture = in_srgb(ImageOps.exif_transpose(opened))
+        picture = in_srgb(ImageOps.exif_transpose(opened), name=f"picture {path}")
         if has_transparency(picture):
             picture = with_opacity(picture, name=f"picture {path}")
             pixels = np.array(picture)

@@ -79,22 +79,37 @@ def grey_numbers(picture: Image.Image, *, name: str = "picture") -> NDArray[Any]
     return np.clip(values / fitting[0], 0.0, 1.0)
 
 
-def in_srgb(picture: Image.Image) -> Image.Image:
-    """The picture's colours as sRGB values; drawing tablets embed wider profiles such as Display P3."""
-    from PIL import ImageCms
+def in_srgb(picture: Image.Image, *, name: str = "picture") -> Image.Image:
+    """The picture's colours as sRGB values; drawing tablets embed wider profiles such as Display P3.
+
+    One with a profile comes back as RGB or RGBA of 8 bits, whatever mode it had, unless it is sRGB already.
+    """
+    from PIL import Image, ImageCms
+
+    from .colour_profiles import as_srgb, is_srgb
 
     if picture.mode == "LAB":
         lab = ImageCms.createProfile("LAB")
         return ImageCms.profileToProfile(picture, lab, ImageCms.createProfile("sRGB"), outputMode="RGB") or picture
     profile = picture.info.get("icc_profile")
-    if not profile or picture.mode not in ("RGB", "RGBA", "CMYK"):
+    if not isinstance(profile, bytes) or not profile:
         return picture
+    if picture.mode == "CMYK":
+        return _from_cmyk(picture, profile)
+    if is_srgb(profile):
+        return picture
+    plain = with_opacity(picture, name=name) if has_transparency(picture) else in_8_bits(picture, name=name)
+    pixels = np.asarray(plain if plain.mode == "RGBA" else plain.convert("RGB"))
+    converted, _ = as_srgb(pixels, profile)
+    return picture if converted is pixels else Image.fromarray(converted)
+
+
+def _from_cmyk(picture: Image.Image, profile: bytes) -> Image.Image:
+    from PIL import ImageCms
+
     try:
         source = ImageCms.ImageCmsProfile(io.BytesIO(profile))
-        if "srgb" in ImageCms.getProfileDescription(source).lower():
-            return picture
-        mode = "RGBA" if picture.mode == "RGBA" else "RGB"
-        converted = ImageCms.profileToProfile(picture, source, ImageCms.createProfile("sRGB"), outputMode=mode)
+        converted = ImageCms.profileToProfile(picture, source, ImageCms.createProfile("sRGB"), outputMode="RGB")
     except (ImageCms.PyCMSError, OSError, ValueError, TypeError):
         return picture
     return picture if converted is None else converted

@@ -79,7 +79,7 @@ def _moved(name: str, source: str, number: int) -> tuple[Group, ...]:
     values: dict[str, Any] = {"filename_prefix": f"PhysAnimator/{name}"}
     shown = {"image": "bodies.image", "motion": "simulate.motion", "scene": "scene.scene"}
     bodies: tuple[Node, ...] = (
-        ours("bodies", "ArtworkToBodies", 420, layers=source),
+        ours("bodies", "ArtworkToBodies", 720, layers=source),
         core("report", "PreviewAny", 260, "What moves", {}, source="bodies.report"),
     )
     simulated = (

@@ -89,7 +89,11 @@ def test_sixteen_bits_stay(host: Any) -> None:
     ("layers", "changes", "sentence"),
     [
         ([("glass", np.zeros((HEIGHT, WIDTH, 4), np.uint8))], {}, "at least one layer with something on it"),
-        ([("face", filled((1, 2, 3), 5, 5, 50, 50))], {}, "no layer that is seen has a name that says it moves"),
+        (
+            [("face", filled((1, 2, 3), 5, 5, 50, 50))],
+            {},
+            'type their names into the node\'s input move, one on each line, or give them on the command line as --move "face"',
+        ),
         (bust(), {"move": "hairr"}, "there must be a layer hairr"),
         (bust(), {"move": "face", "still": "face"}, "layer face must either move or stand still"),
         (bust(), {"move": "face=granite"}, "the preset of layer face must be one of hair"),

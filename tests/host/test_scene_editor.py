@@ -189,8 +189,8 @@ def test_query_points_of_a_document_cut_the_part_out(host: Any) -> None:
     assert "click on what shall move" in host.error_of(prompt)
 
 
-def layered(document: dict[str, Any], *, bodies: bool) -> dict[str, Any]:
-    moved = {"move": "", "still": "plant", "preset": "by name", "spacing": 0.0, "elements_across": 3, "strands": False}
+def layered(document: dict[str, Any], *, bodies: bool, strands: bool = False, still: str = "plant") -> dict[str, Any]:
+    moved = {"move": "", "still": still, "preset": "by name", "spacing": 0.0, "elements_across": 3, "strands": strands}
     given = {"bodies": ["bodies", 0]} if bodies else {"layers": ["load", 0]}
     return {
         "load": ours("LoadLayers", file="PhysAnimator example.psd"),
@@ -215,7 +215,9 @@ def test_what_moves_is_what_the_document_names(host: Any, bodies: bool) -> None:
     written = json.loads(results["json"]["text"][0])
     assert [body["name"] for body in written["bodies"]] == moving
     assert written["bodies"][4]["material"]["name"] == "jelly"
-    assert [point.get("body") for point in written["rig_points"]] == [4]
+    held = [point.get("body") for point in written["rig_points"]]
+    assert held[-1] == 4, "the document's own pin"
+    assert set(held[:-1]) == set(range(len(moving))) - {1, 4}, "layers that it has no word of are held"
     assert (written["still"], written["colliders"]) == (["cape"], [{"region": region}])
     assert any("moustache" in sentence for sentence in results["editor"]["advice"])
     drawn = info["layers"]["drawn"]
@@ -226,6 +228,63 @@ def test_what_moves_is_what_the_document_names(host: Any, bodies: bool) -> None:
     assert list(picture.size) == drawn[-1]["box"][2:]
     status, body = ask(host, {"editor": "layers", "key": info["key"], "scene": document, "frames": 3})
     assert status == 200, body
+
+
+def written(host: Any, document: dict[str, Any], **more: Any) -> dict[str, Any]:
+    results = host.run(layered({**SIZE, **document}, **more))
+    return json.loads(results["json"]["text"][0]) | {"told": results["editor"]["physanimator_editor"][0]}
+
+
+@pytest.mark.parametrize("bodies", [False, True])
+def test_layers_are_held_from_the_start_as_artwork_to_bodies_finds_it(host: Any, bodies: bool) -> None:
+    first = written(host, {}, bodies=bodies)
+    names = [body["name"] for body in first["bodies"]]
+    assert {names[point["body"]] for point in first["rig_points"]} == set(names)
+    automatic = ours("AutomaticScene", bodies=["bodies", 0], wind_strength=1.0, wind_angle=0.0, sway_by_size=True,
+                     frame_rate=24.0)  # fmt: skip
+    prompt = layered({**SIZE}, bodies=True, strands=not bodies, still="plant" if bodies else "")
+    found = host.run({**prompt, "auto": automatic, "text": core("PreviewAny", source=["auto", 1])})["text"]["text"][0]
+    assert first["rig_points"] == json.loads(found)["rig_points"]
+    told = first["told"]["holds"]
+    assert sum(len(each["points"]) for each in told) == len(first["rig_points"])
+    assert [each["name"] for each in told] == names
+    none = {"bodies": [{"name": name} for name in names], "rig_points": []}
+    assert written(host, none, bodies=bodies)["rig_points"] == [], "what somebody has taken away stays away"
+    said = {"bodies": [{"name": names[0], "attach": "bottom"}, {"name": names[1], "attach": "none"}]}
+    again = written(host, said, bodies=bodies)
+    assert 1 not in {point["body"] for point in again["rig_points"]}
+    assert again["bodies"][0]["attach"] == "bottom"
+    lowest, usual = (
+        max(y for point in each["rig_points"] if point["body"] == 0 for _, y in point["region"]["points"])
+        for each in (again, first)
+    )
+    assert lowest > usual
+
+
+def test_a_layer_that_is_switched_on_beside_bodies_is_slit_as_from_the_start(host: Any) -> None:
+    start = written(host, {}, bodies=False)["bodies"]
+    slit = {body["name"] for body in start if body.get("strands")}
+    assert "front hair" in slit
+    on = {"bodies": [{"name": "front hair", "attach": "crown"}]}
+    later = written(host, on, bodies=True, strands=True, still="front hair")
+    assert {body["name"] for body in later["bodies"] if body.get("strands")} == slit
+    assert {later["bodies"][point["body"]]["name"] for point in later["rig_points"]} == {body["name"] for body in start}
+    contact = written(host, {**on, "contact": {}}, bodies=True, strands=False, still="front hair")
+    assert not any(body.get("strands") for body in contact["bodies"])
+    none = written(host, {"bodies": [{"name": "front hair", "strands": False}]}, bodies=True, strands=True,
+                   still="front hair")  # fmt: skip
+    assert {body["name"] for body in none["bodies"] if body.get("strands")} == slit - {"front hair"}
+
+
+@pytest.mark.parametrize("bodies", [False, True])
+def test_layers_lie_in_the_order_of_the_document(host: Any, bodies: bool) -> None:
+    turned = written(host, {"order": ["front hair", "face"]}, bodies=bodies)
+    told = [each["name"] for each in turned["told"]["layers"]["layers"]]
+    assert told.index("face") < told.index("front hair")
+    assert turned["order"] == ["front hair", "face"]
+    usual = written(host, {}, bodies=bodies)
+    assert sorted(each["name"] for each in usual["told"]["layers"]["layers"]) == sorted(told)
+    assert turned["told"]["key"] != usual["told"]["key"]
 
 
 def test_layers_that_cannot_be_leant_on(host: Any) -> None:

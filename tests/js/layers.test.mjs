@@ -2,10 +2,11 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import test from "node:test";
 import { layerAt } from "../../nodes/web/js/preview/layered_picture.js";
-import { bodyOf, isAsRun, movesIn, presetIn, PRESETS, withMoves, withNames, withPreset } from "../../nodes/web/js/scene/layers.js";
+import { SIDES, withAttach, withFoundHolds, withHoldsAnew, withLostHolds } from "../../nodes/web/js/scene/holds.js";
 import { History } from "../../nodes/web/js/scene/history.js";
+import { attachIn, bodyOf, inOrder, isAsRun, movesIn, presetIn, PRESETS, withMoves, withNames, withPlace, withPreset } from "../../nodes/web/js/scene/layers.js";
 
-const layer = (index, name, moves, more = {}) => ({ index, name, shown: true, moves, moving: moves, preset: "hair", ...more });
+const layer = (index, name, moves, more = {}) => ({ index, name, shown: true, moves, moving: moves, preset: "hair", attach: "head", ...more });
 const FACE = layer(2, "face", false);
 const FRONT = layer(3, "前髪", true);
 const TAIL = layer(1, "tail", true, { preset: "ribbon" });
@@ -43,7 +44,7 @@ test("a layer that is switched off takes its own pins along, the others keep to 
   assert.equal(isAsRun(off, LAYERS), false);
   const on = withMoves(off, TAIL, true, LAYERS);
   assert.equal("still" in on, false);
-  assert.deepEqual(on.bodies.at(-1), { name: "tail", material: { preset: "ribbon" } });
+  assert.deepEqual(on.bodies.at(-1), { name: "tail", material: { preset: "ribbon" }, attach: "head" });
   assert.deepEqual(on.rig_points, [pin(0), pin()]);
 });
 
@@ -87,4 +88,66 @@ test("the frontmost layer that moves is found, where it is at this moment", () =
   assert.equal(at([2, 2]), 4);
   assert.equal(at([40, 2]), null);
   assert.equal(at([107, 7], [], new Int16Array(16).fill(0).map((_, i) => (i % 2 ? 0 : 200))), 9);
+});
+
+const names = (layers) => layers.map((one) => one.name);
+const hold = (name, body, ...points) => ({ name, body, points });
+const HELD = { position: [5, 5], region: { type: "polygon", points: [[0, 0], [9, 0], [9, 9]] } };
+const HOLDS = [hold("tail", 0, HELD), hold("前髪", 1, HELD, HELD)];
+
+test("sides are those of the schema", () => {
+  const schema = JSON.parse(readFileSync(new URL("../../physics/document/scene.schema.json", import.meta.url), "utf8"));
+  assert.deepEqual(Object.keys(SIDES), schema.$defs.body.properties.attach.enum);
+});
+
+test("layers change places, and those that the document does not name stay", () => {
+  assert.deepEqual(names(inOrder(EMPTY, LAYERS)), ["前髪", "face", "tail", "sketch"]);
+  const behind = withPlace(EMPTY, FRONT, -1, LAYERS);
+  assert.deepEqual(behind.order, ["sketch", "tail", "前髪", "face"]);
+  assert.deepEqual(names(inOrder(behind, LAYERS)), ["face", "前髪", "tail", "sketch"]);
+  assert.equal(withPlace(EMPTY, FRONT, 3, LAYERS), EMPTY);
+  assert.deepEqual(names(inOrder({ ...EMPTY, order: ["前髪", "gone", "tail"] }, LAYERS)), ["tail", "face", "前髪", "sketch"]);
+});
+
+test("a picture is held from the start by the pins that its run has found", () => {
+  const held = withFoundHolds({ ...EMPTY, strokes: [{ kind: "wind" }] }, HOLDS, LAYERS);
+  assert.deepEqual(held.rig_points.map((one) => one.body), [0, 1, 1]);
+  assert.deepEqual(held.bodies, [{ name: "tail" }, { name: "前髪" }]);
+  assert.equal(withFoundHolds(held, HOLDS, LAYERS), held);
+});
+
+test("pins that somebody has taken away stay away, and a layer that comes later is held", () => {
+  const bare = { ...EMPTY, rig_points: [], bodies: [{ name: "tail" }] };
+  const held = withFoundHolds(bare, HOLDS, LAYERS);
+  assert.deepEqual(held.rig_points.map((one) => one.body), [1, 1]);
+});
+
+test("pins drawn before come last, so that they lead", () => {
+  const drawn = { ...EMPTY, rig_points: [pin()] };
+  assert.deepEqual(withFoundHolds(drawn, HOLDS, LAYERS).rig_points.at(-1), pin());
+});
+
+test("another side takes the place of the pins of that layer, but not of what leads it about", () => {
+  const led = { ...pin(0), motion: { type: "wave" } };
+  const document = { ...EMPTY, bodies: [{ name: "tail" }, { name: "前髪" }], rig_points: [pin(0), led, pin(1), pin()] };
+  const made = withAttach(document, TAIL, "bottom", [HELD], LAYERS);
+  assert.equal(attachIn(made, TAIL), "bottom");
+  assert.deepEqual(made.rig_points, [{ ...HELD, body: 0 }, led, pin(1), pin()]);
+  assert.equal(attachIn(document, TAIL), "head");
+});
+
+test("all holds are put back at once", () => {
+  const document = { ...EMPTY, bodies: [{ name: "tail" }, { name: "前髪" }], rig_points: [pin(0), pin()] };
+  assert.deepEqual(withHoldsAnew(document, HOLDS, LAYERS).rig_points.map((one) => one.body), [0, 1, 1, undefined]);
+  const flat = withHoldsAnew({ ...EMPTY, rig_points: [pin(0)] }, [hold("", 0, HELD)], []);
+  assert.deepEqual(flat.rig_points, [{ ...HELD, body: 0 }]);
+});
+
+test("who loses the last pin is held nowhere until somebody says otherwise", () => {
+  const before = { ...EMPTY, bodies: [{ name: "tail", attach: "top" }], rig_points: [pin(0)] };
+  const after = withLostHolds({ ...before, rig_points: [] }, before);
+  assert.equal(after.bodies[0].attach, "none");
+  assert.equal(withFoundHolds(after, HOLDS.slice(0, 1), LAYERS), after);
+  const other = withAttach(before, TAIL, "left", null, LAYERS);
+  assert.equal(withLostHolds(other, before), other);
 });

@@ -43,6 +43,13 @@ test("records are read however the bytes are cut", () => {
   }
 });
 
+test("rig points of bodies that are not there leave the others in their places", () => {
+  const reader = new RecordReader();
+  const header = { ...HEADER, rig_points: 3, points: [-1, 1, 3] };
+  const records = reader.push(new Uint8Array(Buffer.concat([json(0, header), frame(1, [0, 0, 0, 0], [9, 9, 5, 6, 7, 8], [])])));
+  assert.deepEqual([...records[1].frame.anchors], [0, 0, 5, 6, 0, 0, 7, 8]);
+});
+
 test("a mesh is read from its header and arrays", () => {
   const header = new TextEncoder().encode(JSON.stringify({
     version: 1, width: 8, height: 4, names: ["hair"],

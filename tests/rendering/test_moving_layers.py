@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
+from physanimator.physics.document import check_document
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import Material, preset
 from physanimator.physics.motion import Motion
+from physanimator.physics.scene import Body, Held, pins
 from physanimator.rendering.artwork import ArtLayer, Artwork, flattened
-from physanimator.rendering.moving_layers import (
-    LayerSource,
-    bodies_before,
-    bodies_of_layers,
-    moving_layers_of,
-    told_layers,
-)
+from physanimator.rendering.layer_bodies import LayerBodies, bodies_before, bodies_of_layers
+from physanimator.rendering.moving_layers import LayerSource, moving_layers_of, told_layers
 
 WIDTH, HEIGHT = 120, 90
 
@@ -64,6 +62,11 @@ def test_bodies_are_of_what_their_names_say_and_know_what_is_in_front() -> None:
     ]
 
 
+def earlier(made: LayerBodies) -> list[tuple[LayerSource, Body, Held]]:
+    """Bodies as another node has made them."""
+    return list(zip(made.sources, made.bodies, made.attachments, strict=True))
+
+
 @pytest.mark.parametrize("material", ["cloth", Material(density=0.5)])
 def test_one_material_for_all_but_those_that_are_named_with_a_preset(material: Material | str) -> None:
     made = bodies_of_layers(artwork(), move=["face=jelly", "arm"], material=material, spacing=8)
@@ -75,7 +78,7 @@ def test_one_material_for_all_but_those_that_are_named_with_a_preset(material: M
 
 def test_a_second_choice_keeps_the_bodies_of_the_first() -> None:
     first = bodies_of_layers(artwork(), still=["リボン"], spacing=8)
-    before = bodies_before(artwork(), list(zip(first.sources, first.bodies, strict=True)))
+    before = bodies_before(artwork(), earlier(first))
     assert list(before) == [1]
     both = bodies_of_layers(artwork(), move=["リボン=cloth"], spacing=5, before=before)
     assert [body.name for body in both.bodies] == ["back hair", "リボン"]
@@ -91,7 +94,7 @@ def test_a_second_choice_keeps_the_bodies_of_the_first() -> None:
 
 def test_what_was_asked_for_before_still_moves() -> None:
     first = bodies_of_layers(artwork(), move=["face"], still=["リボン"], spacing=8)
-    before = bodies_before(artwork(), list(zip(first.sources, first.bodies, strict=True)))
+    before = bodies_before(artwork(), earlier(first))
     both = bodies_of_layers(artwork(), move=["リボン"], before=before)
     assert [body.name for body in both.bodies] == ["back hair", "face", "リボン"]
     assert [body.layer for body in both.bodies] == [0, 1, 2]
@@ -101,11 +104,11 @@ def test_what_does_not_belong_together_is_refused() -> None:
     made = bodies_of_layers(artwork(), spacing=8)
     other = replace(artwork(), layers=(*artwork().layers[:4], box("arm", 10, 60, 99, 70, 250)))
     with pytest.raises(InvalidInputError, match="layers of the same artwork"):
-        bodies_before(other, list(zip(made.sources, made.bodies, strict=True)))
+        bodies_before(other, earlier(made))
     with pytest.raises(InvalidInputError, match="bodies of layers and bodies of masks"):
         moving_layers_of([made.sources[0], None])
     with pytest.raises(InvalidInputError, match="bodies of layers and bodies of masks"):
-        bodies_before(artwork(), [(None, made.bodies[0])])
+        bodies_before(artwork(), [(None, made.bodies[0], "auto")])
     with pytest.raises(InvalidInputError, match="layers of one picture"):
         moving_layers_of([made.sources[0], LayerSource(other, 3)])
     with pytest.raises(InvalidInputError, match="a layer twice"):
@@ -145,3 +148,45 @@ def test_a_finer_mesh_where_it_is_asked_for() -> None:
     usual = bodies_of_layers(artwork(), spacing=20, elements_across=1).bodies[1].mesh
     fine = bodies_of_layers(artwork(), spacing=20, elements_across=6).bodies[1].mesh
     assert len(fine.triangles) > 2 * len(usual.triangles)
+
+
+def document(*entries: dict[str, Any], **more: Any) -> dict[str, Any]:
+    return check_document({"version": 2, "width": WIDTH, "height": HEIGHT, "bodies": list(entries), **more})
+
+
+def test_a_scene_document_says_what_moves_of_what_and_held_where() -> None:
+    said = document(
+        {"name": "face", "material": {"preset": "jelly", "damping": 7}, "attach": "left"},
+        {"name": "back hair", "attach": "bottom"},
+        still=["リボン"],
+    )
+    made = bodies_of_layers(artwork(), document=said, spacing=8, material="cloth")
+    assert [body.name for body in made.bodies] == ["back hair", "face"]
+    assert made.attachments == ("bottom", "left")
+    assert [body.material.name for body in made.bodies] == ["cloth", "jelly"]
+    assert made.bodies[1].material.damping == 7
+    usual = bodies_of_layers(artwork(), spacing=8)
+    assert usual.attachments == ("covered", "end")
+
+
+def test_layers_change_places_as_a_scene_document_says() -> None:
+    turned = bodies_of_layers(artwork(), document=document(order=["リボン", "face", "back hair"]), spacing=8)
+    assert turned.sources[0].artwork.names == ("paper", "リボン", "face", "back hair", "arm")
+    assert [body.name for body in turned.bodies] == ["リボン", "back hair"]
+    cover = turned.bodies[0].cover
+    assert cover is not None
+    assert cover[30, 50], "the face is in front of the ribbon now"
+    assert turned.parts.image[30, 50].tolist() == artwork().layers[1].pixels[30, 50, :3].tolist(), (
+        "hair before the face"
+    )
+    again = bodies_of_layers(
+        artwork(), document=document(), before=bodies_before(artwork(), earlier(turned)), spacing=8
+    )
+    assert [body.name for body in again.bodies] == ["back hair", "リボン"]
+    assert again.bodies[1].mesh is turned.bodies[0].mesh
+
+
+def test_what_a_document_holds_nowhere_stays_whole_and_free() -> None:
+    made = bodies_of_layers(artwork(), document=document({"name": "back hair", "attach": "none"}), spacing=8)
+    assert made.attachments[0] == "none"
+    assert pins(made.bodies[0], 0, attach=made.attachments[0]) == []

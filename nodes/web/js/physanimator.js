@@ -4,6 +4,7 @@ import { app } from "../../../scripts/app.js";
 import { api } from "../../../scripts/api.js";
 import { showAdvice } from "./host/advice.js";
 import { attachEditor } from "./host/attach.js";
+import { attachLayers } from "./host/attach_layers.js";
 import { POINTS, SCENE } from "./host/formats.js";
 import { attachUpload } from "./host/upload.js";
 import { POINT_GROUPS, SCENE_GROUPS } from "./panels/toolbar.js";
@@ -26,12 +27,14 @@ app.registerExtension({
   beforeRegisterNodeDef(nodeType, nodeData) {
     const kind = KINDS[nodeData.name];
     const uploads = nodeData.name === "PhysAnimator_LoadLayers";
-    if (!kind && !uploads) return;
+    const lists = nodeData.name === "PhysAnimator_ArtworkToBodies";
+    if (!kind && !uploads && !lists) return;
     const before = nodeType.prototype.onNodeCreated;
     // Earlier than the hook for created nodes, which comes when the Vue canvas has taken the node's size already.
     nodeType.prototype.onNodeCreated = function () {
       before?.apply(this, arguments);
       if (uploads) attachUpload(app, api, this, "file");
+      else if (lists) this.physanimatorLayers = attachLayers(app, api, this, "scene");
       else this.physanimatorEditor = attachEditor(app, api, this, kind);
     };
   },

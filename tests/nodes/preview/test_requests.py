@@ -91,7 +91,7 @@ MASK = {"type": "mask", "width": 60_000, "height": 60_000, "runs": [1]}
         (of_scene(strokes=[0] * 400_001), "at most 400000 values"),
         (of_scene(strokes=[{}] * 10_001), "at most 10000 objects"),
         (of_scene(strokes=[{}] * 401), "at most 400 strokes"),
-        (of_scene(rig_points=[{}] * 201), "at most 200 rig_points"),
+        (of_scene(rig_points=[{}] * 1001), "at most 1,000 rig_points"),
         (of_scene(strokes=[{"path": [[0, 0]] * 40_001}]), "at most 40,000 points"),
         (of_scene(paint=[{"region": MASK}]), "at most 33,554,432 pixels of painted masks"),
     ],

@@ -34,6 +34,7 @@ def test_a_host_gets_the_routes_once(monkeypatch: pytest.MonkeyPatch) -> None:
         ("GET", "/physanimator/mesh/{key}"),
         ("GET", "/physanimator/plate/{key}"),
         ("GET", "/physanimator/layer/{key}/{number}"),
+        ("GET", "/physanimator/holds/{key}/{attach}"),
         ("POST", "/physanimator/preview"),
         ("GET", "/physanimator/example"),
         ("POST", "/physanimator/warm-up"),

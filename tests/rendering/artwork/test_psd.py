@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from colour_profiles import grey_profile, rgb_profile
 from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.artwork import ArtLayer, Artwork, flattened, read_psd
+from physanimator.rendering.pictures.colour_profiles import as_srgb
 from PIL import Image, ImageDraw
 from psd_tools import PSDImage
 from psd_tools.constants import BlendMode, Tag
@@ -128,6 +130,24 @@ def test_a_colour_profile_is_applied(tmp_path: Path) -> None:
         read = read_psd(saved(psd, tmp_path)).layers[0].pixels[..., :3].astype(int)
         wanted = np.asarray(opaque(1)).astype(int)
         assert np.abs(read - (wanted[..., ::-1] if changed else wanted)).max() <= (3 if changed else 0)
+
+
+@pytest.mark.parametrize("depth", [8, 16])
+@pytest.mark.parametrize("mode", ["RGB", "L"])
+def test_a_colour_profile_is_applied_in_16_bits_and_greyscale(tmp_path: Path, depth: int, mode: str) -> None:
+    from psd_tools.constants import Resource
+    from psd_tools.psd.image_resources import ImageResource
+
+    psd = PSDImage.new(mode, (WIDTH, HEIGHT), depth=depth)
+    psd.create_pixel_layer(opaque(1).convert(mode), name="background")
+    before = read_psd(saved(psd, tmp_path)).layers[0].pixels
+    profile = rgb_profile(1.0) if mode == "RGB" else grey_profile(1.0)
+    psd.image_resources[Resource.ICC_PROFILE] = ImageResource(key=Resource.ICC_PROFILE, data=profile)
+    artwork = read_psd(saved(psd, tmp_path))
+    assert artwork.dtype == (np.uint8 if depth == 8 else np.uint16)
+    np.testing.assert_array_equal(artwork.layers[0].pixels, as_srgb(before, profile)[0])
+    assert artwork.layers[0].pixels[..., :3].mean() > 1.2 * before[..., :3].mean(), "linear light is brighter than it"
+    assert artwork.warnings == ()
 
 
 @pytest.mark.parametrize(("mode", "word"), [("CMYK", "CMYK"), ("LAB", "Lab")])

@@ -40,6 +40,7 @@ export class Backdrop {
     editor.setLayers(run.layers?.layers ?? []);
     if (picture) this.#take(picture);
     else this.fitTo(run.width, run.height);
+    editor.takeHolds(run.holds);
     await editor.live.setRun(run, picture);
     editor.simulate();
     if (run.layers) return;

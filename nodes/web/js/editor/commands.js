@@ -6,7 +6,8 @@
 
 import { itemAt, withAdded, withItem, withoutItems } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
-import { withMoves, withPreset } from "../scene/layers.js";
+import { withAttach, withHoldsAnew } from "../scene/holds.js";
+import { withMoves, withOfBody, withPlace, withPreset } from "../scene/layers.js";
 import { moved } from "../scene/shapes.js";
 import { BRUSHES } from "./toolbox.js";
 
@@ -55,6 +56,7 @@ export class Commands {
       "brush-larger": () => this.setBrush(editor.brushRadius * BRUSH),
       "frame-back": () => this.seek(Math.floor(live.playback.position) - 1),
       "frame-on": () => this.seek(Math.floor(live.playback.position) + 1),
+      hold: () => this.#holdAll(),
       play: () => this.#play(),
       loop: () => {
         live.playback.looping = !live.playback.looping;
@@ -122,6 +124,58 @@ export class Commands {
     const { editor } = this;
     editor.commit(withPreset(editor.document, layer, preset, editor.layerList.layers));
     editor.choose(layer.name);
+  }
+
+  /**
+   * @param {import("../scene/layers.js").Layer} layer
+   * @param {number} places  further to the front; below 0 to the back
+   */
+  place(layer, places) {
+    const { editor } = this;
+    editor.commit(withPlace(editor.document, layer, places, editor.layerList.layers));
+    editor.choose(layer.name);
+  }
+
+  /**
+   * @param {import("../scene/layers.js").Layer} layer
+   * @param {string} attach  where it is to be held
+   */
+  async attach(layer, attach) {
+    const { editor } = this;
+    const { layers } = editor.layerList;
+    const key = editor.live.run?.key;
+    try {
+      // Of a layer that does not move yet the next run finds where it is held.
+      const holds = key && layer.moving && attach !== "none" ? await editor.live.client.holds(key, attach) : [];
+      const points = attach === "none" ? [] : (holds.find((hold) => hold.name === layer.name)?.points ?? null);
+      editor.commit(withAttach(editor.document, layer, attach, points, layers));
+      editor.choose(layer.name);
+    } catch (error) {
+      editor.backdrop.trouble(/** @type {Error} */ (error));
+    }
+  }
+
+  /** Hold every body where it is found to be held, or where the document says, and nowhere else. */
+  async #holdAll() {
+    const { editor } = this;
+    const key = editor.live.run?.key;
+    if (!key) return editor.backdrop.offerRun("Where the bodies are held is known once this node has run.");
+    try {
+      const sides = new Map([["found", await editor.live.client.holds(key, "found")]]);
+      const holds = [];
+      let { document } = editor;
+      for (const found of sides.get("found") ?? []) {
+        const said = document.bodies?.find((/** @type {any} */ body) => found.name && body.name === found.name)?.attach;
+        if (said === "none") document = withOfBody(document, found.name, { attach: undefined });
+        const side = said && said !== "none" ? said : "found";
+        if (!sides.has(side)) sides.set(side, await editor.live.client.holds(key, side));
+        holds.push(sides.get(side)?.find((hold) => hold.body === found.body) ?? found);
+      }
+      editor.commit(withHoldsAnew(document, holds, editor.layerList.layers), null);
+      editor.say("All bodies are held where they are found to be held.");
+    } catch (error) {
+      editor.backdrop.trouble(/** @type {Error} */ (error));
+    }
   }
 
   /** @param {number} frame */

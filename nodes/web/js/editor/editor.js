@@ -19,7 +19,8 @@
 import { ACTIONS } from "../panels/toolbar.js";
 import { emptyDocument, itemAt, withItem, withValue } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
-import { isAsRun, withNames } from "../scene/layers.js";
+import { withFoundHolds, withLostHolds } from "../scene/holds.js";
+import { inOrder, isAsRun, withNames } from "../scene/layers.js";
 import { handlesOf } from "../scene/shapes.js";
 import { Layers } from "../stage/layers.js";
 import { Scheduler } from "../stage/scheduler.js";
@@ -119,7 +120,19 @@ export class Editor {
   commit(document, selection, key) {
     this.replacing = null;
     // With the names of the bodies in it the document finds them again where layers come and go.
-    this.store.commit(withNames(document, this.layerList.layers), selection, key);
+    const named = withNames(document, this.layerList.layers);
+    this.store.commit(withLostHolds(named, this.store.history.present), selection, key);
+  }
+
+  /** @param {import("../scene/holds.js").Hold[]} holds  pins that a run has found, which become part of the document */
+  takeHolds(holds) {
+    const { document, selection } = this;
+    const { layers } = this.layerList;
+    const held = withFoundHolds(document, holds, layers);
+    if (held === document) return;
+    const more = held.rig_points.length - (document.rig_points?.length ?? 0);
+    const moved = selection?.list === "rig_points" ? { ...selection, index: selection.index + more } : selection;
+    this.store.amend((each) => withFoundHolds(each, holds, layers), moved);
   }
 
   /** @param {SceneDocument} document */
@@ -158,6 +171,14 @@ export class Editor {
     this.select(null);
     if (this.layerList.layers.length) this.choose(name);
     else this.show();
+  }
+
+  /** @param {import("../scene/layers.js").Layer[]} layers  of which none moves by its name */
+  refuseLayers(layers) {
+    this.live.setRun(null, null);
+    this.setLayers(layers);
+    this.backdrop.offerRun("No layer moves by its name: switch on in the list what is to move, then run this node.");
+    this.redraw();
   }
 
   /** @param {string} name of the layer to select; empty for none */
@@ -303,6 +324,7 @@ export class Editor {
     const paints = BRUSHES.includes(this.tool.id) && this.tool.id !== "erase";
     this.inspector.show(document, selection, paints ? { radius: this.brushRadius } : null);
     this.layerList.show(document, this.chosenLayer, this.live.player.unseen);
+    this.live.player.arrange(inOrder(document, this.layerList.layers).map((layer) => layer.index).reverse());
     const { playback } = this.live;
     if (!playback.header) playback.duration = this.frameCount;
     playback.frameRate = document.frame_rate ?? 24;

@@ -14,7 +14,7 @@ export function actionOf(event) {
 /** @type {Record<string, string>} */
 const PLAIN = {
   v: "select", q: "query-positive", n: "query-negative", w: "wind", r: "repel", a: "attract", p: "pin", l: "path", s: "wave",
-  c: "region-circle", g: "region-polygon", b: "region-brush", f: "stiffness", e: "erase",
+  c: "region-circle", g: "region-polygon", b: "region-brush", f: "stiffness", e: "erase", t: "hold",
   Delete: "delete", Backspace: "delete", 0: "fit", "+": "zoom-in", "=": "zoom-in", "-": "zoom-out",
   m: "mesh", h: "items", i: "panel", x: "expand", "[": "brush-smaller", "]": "brush-larger",
   ",": "frame-back", ".": "frame-on", Enter: "finish", Escape: "cancel",

@@ -32,6 +32,8 @@ export function layout(editor) {
     look: (layer) => editor.commands.look(layer),
     move: (layer, moves) => editor.commands.move(layer, moves),
     make: (layer, preset) => editor.commands.make(layer, preset),
+    attach: (layer, attach) => editor.commands.attach(layer, attach),
+    place: (layer, places) => editor.commands.place(layer, places),
   });
   const side = element("div", { className: "physanimator-side" }, [layerList.root, inspector.root]);
   const timeline = new Timeline({

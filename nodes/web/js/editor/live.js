@@ -13,6 +13,7 @@
  * @property {string} plate  URL of what is behind the bodies
  * @property {LayersOfRun | null} layers  null where masks cut the bodies out of a flat picture
  * @property {import("../scene/materials.js").Materials | null} materials
+ * @property {import("../scene/holds.js").Hold[]} holds  pins that the run has found beside the document's own
  *
  * @typedef {object} LayersOfRun
  * @property {import("../scene/layers.js").Layer[]} layers  from front to back
@@ -106,7 +107,7 @@ export class Live {
   layerAt(point) {
     const { mesh, player, playback } = this;
     if (!mesh || !player.layers.length) return null;
-    return layerAt(mesh, player.layers, player.unseen, point, playback.shown?.displacements ?? null, this.unit);
+    return layerAt(mesh, player.stacked, player.unseen, point, playback.shown?.displacements ?? null, this.unit);
   }
 
   /**

@@ -48,6 +48,17 @@ export class Store {
     this.listener.show();
   }
 
+  /**
+   * Change all that there is, the steps to undo as well: what is found out about the picture is no step.
+   *
+   * @param {(document: SceneDocument) => SceneDocument} change
+   * @param {Reference | null} selection
+   */
+  amend(change, selection) {
+    this.history.amend(change);
+    this.#settle(selection, true);
+  }
+
   undo() {
     if (this.history.undo()) this.#settle(this.selection, true);
   }

@@ -11,8 +11,9 @@
  */
 
 import { Editor } from "../editor/editor.js";
-import { runNode } from "./queueing.js";
+import { executionId, runNode } from "./queueing.js";
 import { upstreamPicture } from "./upstream.js";
+import { chain, hide, tell } from "./widgets.js";
 
 const SHORTEST = 300;
 /** After this time a new node is on the canvas [ms]. */
@@ -20,6 +21,8 @@ const SETTLED = 150;
 /** Time from one look at the graph to the next [ms]. */
 const LOOKS = 500;
 const OUTPUT = "physanimator_editor";
+/** What a node sends that refuses to go on because no layer moves; see nodes/layer_lists.py. */
+export const LAYERS = "physanimator.layers";
 
 /**
  * @param {any} app  the host's
@@ -72,29 +75,6 @@ function grow(node, size, root) {
   );
 }
 
-/** @param {any} value the widget whose text the editor shows */
-function hide(value) {
-  value.hidden = true;
-  value.options ??= {};
-  value.options.hidden = true;
-}
-
-/**
- * Tell the host that a value has changed, so that it can be undone.
- *
- * @param {any} app
- * @param {any} node
- * @param {any} value
- */
-function tell(app, node, value) {
-  value.callback?.(value.value);
-  // The graph itself looks as before; to draw it anew would keep the first moving frame waiting.
-  const tracker = app.extensionManager?.workflow?.activeWorkflow?.changeTracker;
-  if (tracker?.captureCanvasState) tracker.captureCanvasState();
-  else if (tracker?.checkState) tracker.checkState();
-  else node.graph?.change?.();
-}
-
 /**
  * Keep the editor up to date with the graph.
  *
@@ -134,8 +114,13 @@ function follow(app, api, node, value, editor) {
     remains = setInterval(look, LOOKS);
     setTimeout(look, SETTLED);
   });
+  const refused = (/** @type {any} */ { detail }) => {
+    if (node.graph && detail.node === executionId(node, app.rootGraph ?? app.graph)) editor.refuseLayers(detail.layers);
+  };
+  api.addEventListener(LAYERS, refused);
   chain(node, "onRemoved", () => {
     clearInterval(remains);
+    api.removeEventListener(LAYERS, refused);
     editor.release();
   });
   queueMicrotask(() => {
@@ -162,23 +147,9 @@ function takePlace(node, root) {
  * @param {any} info  as the node tells it
  * @returns {import("../editor/live.js").Run}
  */
-function runOf(api, { key, width, height, image, plate, layers = null, materials = null }) {
+function runOf(api, { key, width, height, image, plate, layers = null, materials = null, holds = [] }) {
   const url = (/** @type {any} */ saved) => api.apiURL(`/view?${new URLSearchParams(saved)}`);
   const behind = plate ? url(plate) : api.apiURL(`/physanimator/plate/${key}`);
   const drawn = (layers?.drawn ?? []).map((/** @type {any} */ one, /** @type {number} */ number) => ({ ...one, url: api.apiURL(`/physanimator/layer/${key}/${number}`) }));
-  return { key, width, height, image: image ? url(image) : null, plate: behind, layers: layers && { layers: layers.layers, drawn }, materials };
-}
-
-/**
- * @param {any} node
- * @param {string} name
- * @param {(argument: any) => void} more
- */
-function chain(node, name, more) {
-  const before = node[name];
-  node[name] = function (/** @type {any[]} */ ...args) {
-    const result = before?.apply(this, args);
-    more(args[0]);
-    return result;
-  };
+  return { key, width, height, image: image ? url(image) : null, plate: behind, layers: layers && { layers: layers.layers, drawn }, materials, holds };
 }

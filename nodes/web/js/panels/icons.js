@@ -11,6 +11,7 @@ const SHAPES = {
   repel: '<circle cx="10" cy="10" r="1.5" fill="currentColor"/><path d="M10 6V2m-1.8 1.800L10 2l1.8 1.800M10 14v4m-1.8-1.800L10 18l1.8-1.800M6 10H2m1.8-1.800L2 10l1.8 1.800M14 10h4m-1.8-1.800L18 10l-1.8 1.8"/>',
   attract: '<circle cx="10" cy="10" r="1.5" fill="currentColor"/><path d="M10 2v4.500M8.2 4.700L10 6.500l1.8-1.800M10 18v-4.500m-1.8 1.800L10 13.500l1.8 1.800M2 10h4.500M4.7 8.200L6.5 10l-1.8 1.800M18 10h-4.500m1.8-1.800L13.5 10l1.8 1.8"/>',
   pin: '<path d="M7 3h6M8 3v5l-2.5 3.500h9L12 8V3M10 11.500V18"/>',
+  hold: '<path d="M3 12a7 7 0 1 1 2 5M3 17v-5h5M8 6h4M8.7 6v3l-1.2 2.200h5L11.3 9V6M10 11.200V15"/>',
   path: '<circle cx="4.5" cy="15" r="1.8"/><path d="M6.3 14.500c5-.5 1-8 6-8.500H16m-2.5-2.500L16 6l-2.5 2.5"/>',
   wave: '<path d="M2 10h16M4.5 7.500L2 10l2.5 2.500M15.5 7.500L18 10l-2.5 2.5"/><circle cx="10" cy="10" r="2.2" fill="currentColor"/>',
   "region-circle": '<circle cx="10" cy="10" r="7" stroke-dasharray="2.8 2.2"/><circle cx="10" cy="10" r="1" fill="currentColor"/>',

@@ -45,15 +45,27 @@ export const STYLE = `
 .physanimator-layers { flex: 0 1 auto; max-height: 55%; min-height: 84px; display: flex; flex-direction: column; padding: 6px 4px 4px 8px; border-bottom: 1px solid var(--physanimator-rim); }
 .physanimator-layers[hidden] { display: none; }
 .physanimator-layer-list { flex: 1; min-height: 0; margin: 0; padding: 0; overflow: auto; list-style: none; scrollbar-width: thin; }
-.physanimator-layer { display: flex; align-items: center; gap: 3px; height: 24px; padding-right: 4px; border-radius: 4px; }
+.physanimator-layer { padding-right: 4px; border-radius: 4px; }
+.physanimator-layer-line { display: flex; align-items: center; gap: 3px; height: 24px; }
+.physanimator-layer-said { flex: 0 1 auto; min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; color: var(--physanimator-dim); font-size: 11px; cursor: pointer; }
+.physanimator-layer-said[hidden], .physanimator-editor .physanimator-layer:not([data-chosen="true"]) button.physanimator-place { display: none; }
+.physanimator-layer-more { display: flex; gap: 4px; height: 23px; padding: 0 0 3px 6px; }
+.physanimator-layer-more[hidden] { display: none; }
+.physanimator-layer[data-target="above"] { box-shadow: 0 -2px var(--physanimator-accent); }
+.physanimator-layer[data-target="below"] { box-shadow: 0 2px var(--physanimator-accent); }
 .physanimator-layer[data-chosen="true"] { background: var(--physanimator-field); box-shadow: inset 2px 0 var(--physanimator-accent); }
 .physanimator-layer[data-shown="false"] { opacity: 0.5; }
 .physanimator-editor .physanimator-layer button { height: 22px; padding: 0 2px; }
 .physanimator-editor .physanimator-layer button.physanimator-eye[aria-pressed] { min-width: 22px; color: var(--physanimator-text); background: transparent; }
 .physanimator-editor .physanimator-layer button.physanimator-eye[aria-pressed="false"] { opacity: 0.3; }
-.physanimator-editor .physanimator-layer button.physanimator-layer-name[aria-pressed] { flex: 1; min-width: 0; display: block; text-align: left; color: var(--physanimator-text); background: transparent; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
-.physanimator-editor .physanimator-layer select { width: 76px; height: 20px; padding: 0; appearance: auto; }
-.physanimator-editor .physanimator-layer select[hidden] { display: none; }
+.physanimator-editor .physanimator-layer button.physanimator-layer-name[aria-pressed] { flex: 1 0 30%; touch-action: none; min-width: 0; display: block; text-align: left; color: var(--physanimator-text); background: transparent; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+.physanimator-editor .physanimator-layer button.physanimator-place { flex: none; min-width: 18px; }
+.physanimator-editor .physanimator-layer select { flex: 1 1 0; min-width: 0; height: 20px; padding: 0; appearance: auto; }
+.physanimator-list-only { display: flex; flex-direction: column; min-height: 120px; border: 1px solid var(--physanimator-rim); border-radius: 6px; background: var(--physanimator-back); overflow: hidden; }
+.physanimator-list-only .physanimator-layers { flex: 1; max-height: none; border-bottom: 0; }
+.physanimator-list-line { display: flex; align-items: center; justify-content: space-between; gap: 8px; padding: 4px 8px; color: var(--physanimator-dim); }
+.physanimator-editor .physanimator-list-line button { flex: none; color: #fff; background: var(--physanimator-accent); padding: 0 10px; }
+.physanimator-editor .physanimator-list-line button[hidden], .physanimator-list-line:has(> div:empty) { display: none; }
 .physanimator-layer input[type="checkbox"] { flex: none; margin: 0; }
 .physanimator-heading { margin: 2px 0 6px; font-weight: 600; }
 .physanimator-field { display: flex; align-items: center; justify-content: space-between; gap: 6px; min-height: 26px; }

@@ -28,6 +28,7 @@ export const ACTIONS = {
   "region-brush": { id: "region-brush", title: "Held area: paint it; Alt takes away, [ and ] change the size", key: "B", tool: true },
   stiffness: { id: "stiffness", title: "Stiffness: paint what is stiffer; Alt takes away, [ and ] change the size", key: "F", tool: true },
   erase: { id: "erase", title: "Erase what the pointer passes over", key: "E", tool: true },
+  hold: { id: "hold", title: "Hold every body where it is found to be held, instead of its pins", key: "T" },
   undo: { id: "undo", title: "Undo", key: "Ctrl+Z" },
   redo: { id: "redo", title: "Redo", key: "Ctrl+Shift+Z" },
   duplicate: { id: "duplicate", title: "Duplicate the selected item", key: "Ctrl+D" },
@@ -44,7 +45,7 @@ export const ACTIONS = {
 export const SCENE_GROUPS = [
   ["select", "erase"],
   ["wind", "repel", "attract"],
-  ["pin", "path", "wave"],
+  ["pin", "path", "wave", "hold"],
   ["region-circle", "region-polygon", "region-brush"],
   ["stiffness"],
   ["undo", "redo", "duplicate", "delete"],

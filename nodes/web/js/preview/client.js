@@ -86,6 +86,19 @@ export class PreviewClient {
   }
 
   /**
+   * Pins for each body of a run.
+   *
+   * @param {string} key
+   * @param {string} attach  where to hold them; "found" for where each is found to be held
+   * @returns {Promise<import("../scene/holds.js").Hold[]>}
+   */
+  async holds(key, attach) {
+    const answer = await this.fetch(`/physanimator/holds/${key}/${attach}`);
+    if (!answer.ok) throw await refusal(answer);
+    return answer.json();
+  }
+
+  /**
    * @param {string} key
    * @param {object} scene
    * @param {number} frames

@@ -21,6 +21,8 @@ export class LayeredPicture {
   constructor(gl, mesh, layers, upload) {
     this.mesh = mesh;
     this.layers = layers;
+    /** Numbers of the layers from back to front. */
+    this.order = layers.map((_, number) => number);
     this.textures = layers.map((layer) => upload(gl, layer.picture));
     this.corners = gl.createBuffer();
     gl.bindBuffer(gl.ARRAY_BUFFER, this.corners);
@@ -37,22 +39,33 @@ export class LayeredPicture {
    */
   draw(gl, unseen, { cover, still, moving }) {
     gl.enable(gl.BLEND);
-    this.layers.forEach((layer, number) => {
-      if (unseen.has(layer.layer)) return;
+    for (const number of this.order) {
+      const layer = this.layers[number];
+      if (unseen.has(layer.layer)) continue;
       blend(gl, layer.blend);
       cover(layer.box);
       gl.bindTexture(gl.TEXTURE_2D, this.textures[number]);
       if (layer.body === null) {
         still(this.corners, number * 32);
         gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
-        return;
+        continue;
       }
       moving();
       const [first, end] = this.mesh.bodies.subarray(2 * layer.body, 2 * layer.body + 2);
       gl.drawElements(gl.TRIANGLES, 3 * (end - first), gl.UNSIGNED_INT, 12 * first);
-    });
+    }
     blend(gl, "normal");
     gl.disable(gl.BLEND);
+  }
+
+  /** @param {number[]} indices  of layers from back to front */
+  arrange(indices) {
+    this.order.sort((one, other) => indices.indexOf(this.layers[one].layer) - indices.indexOf(this.layers[other].layer));
+  }
+
+  /** The layers as they lie now, from back to front. */
+  get stacked() {
+    return this.order.map((number) => this.layers[number]);
   }
 
   /** @param {WebGLRenderingContext} gl */

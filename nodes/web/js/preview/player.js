@@ -48,6 +48,8 @@ export class Player {
     this.layers = [];
     /** @type {LayeredPicture | null} */
     this.layered = null;
+    /** @type {number[]} indices of the layers as they lie, from back to front; empty for as they came */
+    this.arrangement = [];
     /** @type {Set<number>} indices of layers that are not drawn */
     this.unseen = new Set();
     this.ready = false;
@@ -135,6 +137,18 @@ export class Player {
       upload(one, made, picture);
       return made;
     });
+    this.arrange(this.arrangement);
+  }
+
+  /** @param {number[]} indices  of the layers from back to front */
+  arrange(indices) {
+    this.arrangement = indices;
+    if (indices.length) this.layered?.arrange(indices);
+  }
+
+  /** The layers as they lie, from back to front. */
+  get stacked() {
+    return this.layered?.stacked ?? this.layers;
   }
 
   /**

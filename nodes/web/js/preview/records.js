@@ -12,7 +12,7 @@
  * @typedef {object} Frame
  * @property {number} number
  * @property {Int16Array} displacements  of each vertex, x and y [unit]
- * @property {Int16Array} anchors  displacement of each rig point, x and y [unit]
+ * @property {Int16Array} anchors  displacement of each rig point of the document, x and y [unit]; 0 of those left out
  * @property {Int16Array} particles  x, y, radius [unit] and kind of each
  *
  * @typedef {object} Header
@@ -20,6 +20,7 @@
  * @property {number} frame_rate
  * @property {number} vertices
  * @property {number} rig_points
+ * @property {number[]} [points]  number of each in the document, -1 for none; the same where left out
  * @property {number} unit  [px]
  * @property {boolean} loop
  *
@@ -90,9 +91,22 @@ function frameOf(payload, header) {
   return {
     number: new DataView(buffer).getUint32(0, true),
     displacements: new Int16Array(buffer, 4, header.vertices * 2),
-    anchors: new Int16Array(buffer, anchors, header.rig_points * 2),
+    anchors: inDocument(new Int16Array(buffer, anchors, header.rig_points * 2), header.points),
     particles: new Int16Array(buffer, particles + 4, count * 4),
   };
+}
+
+/**
+ * Displacements of rig points by their numbers in the document: those of bodies that are not there move nothing.
+ *
+ * @param {Int16Array} anchors
+ * @param {number[]} [points]
+ */
+function inDocument(anchors, points) {
+  if (!points) return anchors;
+  const placed = new Int16Array(2 * (Math.max(-1, ...points) + 1));
+  points.forEach((number, i) => number >= 0 && placed.set(anchors.subarray(2 * i, 2 * i + 2), 2 * number));
+  return placed;
 }
 
 /**

@@ -31,6 +31,13 @@ export class History {
     this.key = key;
   }
 
+  /** @param {(state: T) => T} change  of every state */
+  amend(change) {
+    this.past = this.past.map(change);
+    this.future = this.future.map(change);
+    this.present = change(this.present);
+  }
+
   undo() {
     return this.#step(this.past, this.future);
   }

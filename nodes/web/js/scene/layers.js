@@ -1,5 +1,5 @@
 /**
- * What a scene document says of the layers of an artwork: which of them move, and of what they are made.
+ * What a scene document says of the layers of an artwork: which of them move, of what they are made, and their order.
  *
  * @typedef {import("./document.js").Item} Item
  * @typedef {import("./document.js").SceneDocument} SceneDocument
@@ -11,6 +11,9 @@
  * @property {boolean} moves  unless the document says otherwise
  * @property {boolean} moving  in the last run
  * @property {string} preset
+ * @property {string} attach  where it is held, or would be if it moved
+ * @property {string} [why]  it moves or does not
+ * @property {boolean} [fixed]  whether another input of the node says so, which stands above the document
  */
 
 /** Materials that a layer can be made of. */
@@ -33,6 +36,7 @@ export function bodyOf(document, name) {
  * @param {Layer} layer
  */
 export function movesIn(document, layer) {
+  if (layer.fixed) return layer.moves;
   if (!layer.shown) return false;
   return bodyOf(document, layer.name) >= 0 || (layer.moves && !(document.still ?? []).includes(layer.name));
 }
@@ -48,6 +52,15 @@ export function presetIn(document, layer) {
 }
 
 /**
+ * @param {SceneDocument} document
+ * @param {Layer} layer
+ * @returns {string} where it is held
+ */
+export function attachIn(document, layer) {
+  return document.bodies?.[bodyOf(document, layer.name)]?.attach ?? layer.attach;
+}
+
+/**
  * Whether what moves is what moved in the last run.
  *
  * @param {SceneDocument} document
@@ -55,6 +68,38 @@ export function presetIn(document, layer) {
  */
 export function isAsRun(document, layers) {
   return layers.every((layer) => movesIn(document, layer) === layer.moving);
+}
+
+/**
+ * The layers in the order of the document: those that it names change places among themselves.
+ *
+ * @param {SceneDocument} document
+ * @param {Layer[]} layers  from front to back
+ */
+export function inOrder(document, layers) {
+  const named = new Map(layers.map((layer) => [layer.name, layer]));
+  const wanted = [...new Set([...(document.order ?? [])].reverse())].filter((name) => named.has(name));
+  const among = new Set(wanted);
+  let next = 0;
+  return layers.map((layer) => (among.has(layer.name) ? /** @type {Layer} */ (named.get(wanted[next++])) : layer));
+}
+
+/**
+ * The document in which a layer lies so many places further to the front.
+ *
+ * @param {SceneDocument} document
+ * @param {Layer} layer
+ * @param {number} places  below 0 to the back
+ * @param {Layer[]} layers  all of them, from front to back
+ * @returns {SceneDocument}
+ */
+export function withPlace(document, layer, places, layers) {
+  const order = inOrder(document, layers);
+  const from = order.indexOf(layer);
+  const to = Math.min(Math.max(from - places, 0), order.length - 1);
+  if (from === to) return document;
+  order.splice(to, 0, ...order.splice(from, 1));
+  return { ...document, order: order.map((one) => one.name).reverse() };
 }
 
 /**
@@ -90,7 +135,7 @@ export function withMoves(document, layer, moves, layers) {
   const named = withNames(document, layers);
   const still = (named.still ?? []).filter((/** @type {string} */ name) => name !== layer.name);
   if (moves) {
-    const body = { name: layer.name, material: { preset: layer.preset } };
+    const body = { name: layer.name, material: { preset: layer.preset }, attach: layer.attach };
     return withStill({ ...named, bodies: [...(named.bodies ?? []), body] }, still);
   }
   const gone = bodyOf(named, layer.name);
@@ -105,11 +150,20 @@ export function withMoves(document, layer, moves, layers) {
  * @returns {SceneDocument}
  */
 export function withPreset(document, layer, preset, layers) {
-  const named = withNames(document, layers);
-  const bodies = [...(named.bodies ?? [])];
-  const number = bodyOf(named, layer.name);
-  bodies[number] = { ...bodies[number], material: { preset } };
-  return { ...named, bodies };
+  return withOfBody(withNames(document, layers), layer.name, { material: { preset } });
+}
+
+/**
+ * @param {SceneDocument} document
+ * @param {string} name  of a body that it has
+ * @param {Item} values
+ * @returns {SceneDocument}
+ */
+export function withOfBody(document, name, values) {
+  const bodies = [...(document.bodies ?? [])];
+  const number = bodyOf(document, name);
+  bodies[number] = { ...bodies[number], ...values };
+  return { ...document, bodies };
 }
 
 /**
