@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..pictures import nearest_pixels
 from .mask_edges import SQUARE
+from .random_walk import chance_of_core
 
 __all__ = ["explained", "found_shape"]
 
@@ -36,14 +37,7 @@ _DENIED = 2 / 3
 _BEHIND = 20
 # Distance from the mask's edge, as a share of the reach, at which the mask itself is e : 1 sure; and its weight.
 _UNSURE, _WEIGHT = 0.35, 0.5
-# Colours of neighbours that differ by this much are divided by an edge; what a wall of them still lets through; and
-# what the step of a mask does. How much what a pixel's colour tells counts beside what its neighbours say.
-_STEP = 0.05
-_LEAK = 0.002
-_MASK_STEP = 0.4
-_COLOUR = 0.05
 _SPECK = 12
-_NEIGHBOURS = ((0, 1, 1.0), (1, 0, 1.0), (1, 1, 0.7), (1, -1, 0.7))
 
 
 def found_shape(image: FloatImage, mask: FloatImage, reach: FloatImage) -> tuple[Mask, FloatImage]:
@@ -68,7 +62,7 @@ def found_shape(image: FloatImage, mask: FloatImage, reach: FloatImage) -> tuple
     way = np.clip((depth - away)[band] / (_UNSURE * reach[band]), -20, 20)
     odds = likely[band] / (1 - likely[band]) * np.exp(_WEIGHT * way)
     shape = inside.copy()
-    shape[band] = _walked(image, mask, band, core, odds / (1 + odds)) > _HALF
+    shape[band] = chance_of_core(image, mask, band, core, odds / (1 + odds)) > _HALF
     return _tidied(shape, core), likely
 
 
@@ -146,47 +140,6 @@ def explained(image: FloatImage, band: Mask, side: Mask) -> FloatImage:
         distances[number] = np.einsum("ij,ij->i", difference, difference)
     best = np.partition(distances, _BEST - 1, axis=0)[:_BEST]
     return np.asarray(np.exp(-best / (2 * _ALIKE**2)).mean(axis=0), dtype=np.float32)
-
-
-def _walked(
-    image: FloatImage, mask: FloatImage, band: Mask, core: Mask, wanted: NDArray[np.float32]
-) -> NDArray[np.float64]:
-    """Chance of a walk from each pixel of the band to end in the core, shape [n]."""
-    from scipy.sparse import coo_matrix, diags
-    from scipy.sparse.linalg import cg
-
-    count = int(band.sum())
-    number = np.full(band.shape, -1, dtype=np.int64)
-    number[band] = np.arange(count)
-    total, target = np.full(count, _COLOUR), _COLOUR * wanted.astype(np.float64)
-    system = coo_matrix((count, count))
-    for one, other, conductance in _pairs(image, mask):
-        first, second, sure = number[one], number[other], core[one] | core[other]
-        both = (first >= 0) & (second >= 0)
-        joined = coo_matrix((-conductance[both], (first[both], second[both])), shape=(count, count))
-        system = system + joined + joined.T
-        for own in (first, second):
-            total += np.bincount(own[own >= 0], conductance[own >= 0], count)
-            ends = (own >= 0) & ~both & sure
-            target += np.bincount(own[ends], conductance[ends], count)
-    chance, _ = cg((system + diags(total)).tocsr(), target, x0=wanted, rtol=1e-3, M=diags(1 / total), maxiter=300)
-    return np.asarray(chance)
-
-
-def _pairs(
-    image: FloatImage, mask: FloatImage
-) -> list[tuple[tuple[slice, slice], tuple[slice, slice], NDArray[np.float32]]]:
-    """Neighbouring pixels, as slices of either, with how easily a walk goes from one to the other."""
-    height, width = mask.shape
-    pairs = []
-    for down, right, near in _NEIGHBOURS:
-        one = slice(0, height - down), slice(max(0, -right), width - max(0, right))
-        other = slice(down, height), slice(max(0, right), width + min(0, right))
-        difference = image[one] - image[other]
-        alike = np.exp(np.einsum("ijk,ijk->ij", difference, difference) / np.float32(-2 * _STEP**2))
-        step = np.abs(mask[one] - mask[other]) > _MASK_STEP
-        pairs.append((one, other, np.float32(near) * (alike + _LEAK) * np.where(step, np.float32(_MASK_STEP), 1)))
-    return pairs
 
 
 def _tidied(shape: Mask, core: Mask) -> Mask:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .edge_search import explained
+from .like_regions import like_regions
 from .mask_edges import CROSS, SQUARE, grown, mean_near
 
 __all__ = ["lost_strands"]
@@ -92,23 +93,11 @@ def _going_on(image: FloatImage, shape: Mask, line: Mask) -> Mask:
 
 def _reached(image: FloatImage, core: Mask, free: Mask) -> Mask:
     """Free pixels that hang together with the core by steps between like colours."""
-    height, width = core.shape
-    # Pixels have even coordinates here, and the ways between them odd ones.
-    ways = np.zeros((2 * height - 1, 2 * width - 1), dtype=np.uint8)
-    ways[::2, ::2] = free
-    ways[::2, 1::2] = _alike(image[:, 1:], image[:, :-1]) & free[:, 1:] & free[:, :-1]
-    ways[1::2, ::2] = _alike(image[1:], image[:-1]) & free[1:] & free[:-1]
-    _, labels = cv2.connectedComponents(ways, connectivity=4)
-    labels = labels[::2, ::2]
+    labels = like_regions(image, free, step=_STEP)
     kept = np.zeros(int(labels.max()) + 1, dtype=bool)
     kept[labels[core & free]] = True
     kept[0] = False
     return kept[labels]
-
-
-def _alike(one: FloatImage, other: FloatImage) -> Mask:
-    difference = one - other
-    return np.einsum("ijk,ijk->ij", difference, difference) < _STEP**2
 
 
 def _thin(strands: Mask, shape: Mask, given: Mask, lost: int) -> Mask:
