@@ -23,10 +23,9 @@ from ..plate import fill_hole, spread_colours
 from .apron import ApronedMesh, canvas_of, usual_reach
 from .beyond import Beyond
 from .beyond_border import on_canvas
-from .folds import torn_tiles
 from .half_pixels import with_half_pixels
 from .places import NOWHERE
-from .slit_edges import slit_vertices, soften_slits
+from .sheet_edges import Slits, tiles_of, torn
 from .still_layers import StillLayer, still_layer
 
 if TYPE_CHECKING:
@@ -87,47 +86,40 @@ class Layer:
         if not (box.width and box.height):
             return box, np.zeros((box.height, box.width, self.texture.shape[2]), dtype=np.float32)
         x, y = self._places_at_rest(points, box)
+        drawn = self._read(x, y)
+        edges = self._slits.open(points[0] - self.mesh.rest, points[0], box)
         if self.fine:
-            drawn = self._read(x, y)
-            for tile, torn in torn_tiles(x, y):
-                self._smooth(drawn, points, box, tile, torn)
-            return box, self._softened(drawn, box, (x, y), points[0])
+            edges |= torn(x, y)
+        for tile in tiles_of(edges):
+            self._smooth(drawn, points, box, tile, edges)
+        return box, drawn
+
+    @cached_property
+    def _slits(self) -> Slits:
+        return Slits.of(self.mesh.rest, self.mesh.triangles)
+
+    def _read(self, x: FloatImage, y: FloatImage) -> FloatImage:
+        """The texture at places of it, shape [h, w, c]."""
+        if self.fine:
+            texture, border = self._finer
+            x, y = 2 * (x + border), 2 * (y + border)
+            return cv2.remap(texture, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT, borderValue=0)  # type: ignore[return-value]
         parts = [
             cv2.remap(part, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
             for part in self._parts
         ]
-        whole = parts[0] if len(parts) == 1 else np.dstack(parts)
-        return box, self._softened(whole, box, (x, y), points[0])
-
-    def _softened(
-        self, drawn: FloatImage, box: PixelBox, shown: tuple[FloatImage, FloatImage], points: NDArray[np.float64]
-    ) -> FloatImage:
-        """What is drawn in a box, with the edges of slits smoothed in place."""
-        if len(self._slit):
-            how = {"mesh": self.mesh, "points": points, "slit": self._slit, "canvas": self.canvas}
-            soften_slits(drawn, box, shown, parts=self._parts, **how)  # type: ignore[arg-type]
-        return drawn
-
-    @cached_property
-    def _slit(self) -> NDArray[np.int64]:
-        """Vertices along the slits of the mesh."""
-        return slit_vertices(self.mesh)
-
-    def _read(self, x: FloatImage, y: FloatImage) -> FloatImage:
-        """The finer texture at places of the texture."""
-        texture, border = self._finer
-        x, y = 2 * (x + border), 2 * (y + border)
-        return cv2.remap(texture, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT, borderValue=0)  # type: ignore[return-value]
+        return parts[0] if len(parts) == 1 else np.dstack(parts)  # type: ignore[return-value]
 
     def _smooth(
-        self, drawn: FloatImage, points: Sequence[NDArray[np.float64]], box: PixelBox, tile: PixelBox, torn: Mask
+        self, drawn: FloatImage, points: Sequence[NDArray[np.float64]], box: PixelBox, tile: PixelBox, edges: Mask
     ) -> None:
-        """Draw pixels of a tile of a box as the mean of several places, where the mesh lies over itself."""
+        """Draw pixels of a tile of a box as the mean of several places, where an edge of a sheet goes through them."""
         left, top = box.left + tile.left, box.top + tile.top
         sides = (left, top, left + tile.width, top + tile.height)
         x, y = self._places_at_rest(points, PixelBox(*(_FINE * side for side in sides)), scale=_FINE)
         mean = cv2.resize(self._read(x, y), (tile.width, tile.height), interpolation=cv2.INTER_AREA)
-        drawn[tile.slices][torn] = mean[torn]
+        there = edges[tile.slices]
+        drawn[tile.slices][there] = mean[there]
 
     def _places_at_rest(
         self, points: Sequence[NDArray[np.float64]], box: PixelBox, *, scale: int = 1

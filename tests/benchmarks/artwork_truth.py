@@ -84,6 +84,7 @@ class TrueArtwork:
             for k, b in self.bodies.items()
         }
         self.places = {k: _nearest(ids >= 0)[1] for k, ids in self.ids.items()}
+        self.depths = {k: _nearest(ids < 0)[0] for k, ids in self.ids.items()}
         seen = np.ones(next(iter(self.fine.values())).shape[:2], np.float32)
         self.hidden: dict[int, Image] = {}
         for k in reversed(self.drawn):
@@ -163,11 +164,12 @@ class TrueArtwork:
         drawn = cv2.remap(texture, x, y, cv2.INTER_LINEAR, borderValue=0)
         hidden = cv2.remap(self.hidden[k], x, y, cv2.INTER_LINEAR, borderValue=0)
         # What lies in the mesh in the drawing, or nearest to another strand of it there, is not this one's.
-        own = cv2.remap((self.ids[k] >= 0).astype(np.float32), x, y, cv2.INTER_NEAREST, borderValue=0)
+        depth = cv2.remap(self.depths[k], x, y, cv2.INTER_NEAREST, borderValue=0)
         expected = np.einsum("hwij,hwj->hwi", matrix[ids][..., :2], base) + matrix[ids][..., 2]
         found = cv2.remap(self.places[k].astype(np.float32), x, y, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE)
         other = np.linalg.norm(found - expected, axis=2) > _SAME * FINE + 0.5 * far
-        drawn[~inside & (far > 2) & ((own > 0) | other)] = 0
+        # Along a slit each strand ends at its own side; the outline is told no closer than a pixel's diagonal.
+        drawn[~inside & ((depth > 1.5) | other)] = 0
         return drawn, hidden, (count > 1).astype(np.float32)
 
 
@@ -212,7 +214,7 @@ def _triangles_of(points: Image, triangles: Image, shape: tuple[int, ...]) -> tu
         x, y = np.arange(low[0], high[0]) + 0.5, np.arange(low[1], high[1])[:, None] + 0.5
         v = ((x - a[0]) * (c[1] - a[1]) - (y - a[1]) * (c[0] - a[0])) / area
         w = ((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])) / area
-        within = (v >= 0) & (w >= 0) & (v + w <= 1)
+        within = (v >= -1e-9) & (w >= -1e-9) & (v + w <= 1 + 1e-9)
         part = slice(low[1], high[1]), slice(low[0], high[0])
         ids[part][within] = number
         # An edge that two triangles share is no fold.
