@@ -8,8 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics.mesh import PixelBox, TriangleMesh, barycentric, rasterise, triangle_ids
-from ...physics.mesh.boundary import half_edges, on_boundary
+from ...physics.mesh import PixelBox, TriangleMesh, barycentric, half_edges, on_boundary, rasterise, triangle_ids
 from ..pictures import nearest_pixels
 
 __all__ = ["SHARPEST_MITRE", "Boundary", "same_places"]
@@ -37,14 +36,14 @@ class Boundary:
         outer = on_boundary(half_edges(whole))
         self.edges = half_edges(mesh.triangles)[outer].astype(np.int64)
         self.next = _successors(half_edges(whole)[outer])
-        self.owners = mesh.triangles[np.tile(np.arange(len(whole)), 3)[outer]].astype(np.int64)
+        self.owner = np.tile(np.arange(len(whole)), 3)[outer]
         # A slit begins where an edge ends in one vertex and the next one starts in another.
         self.parted = np.flatnonzero(self.edges[:, 1] != self.edges[self.next, 0])
         self.start, self.end = (mesh.vertices[self.edges[:, k]] for k in (0, 1))
         along = self.end - self.start
         self.length = np.linalg.norm(along, axis=1)
         self.normal = np.stack([along[:, 1], -along[:, 0]], axis=1) / self.length[:, None]
-        inward = mesh.vertices[self.owners].mean(axis=1) - self.start
+        inward = mesh.vertices[mesh.triangles[self.owner]].mean(axis=1) - self.start
         self.normal *= -np.sign(np.einsum("ij,ij->i", inward, self.normal))[:, None]
         self.loop, self.place, self.circumference = self._walked()
 
@@ -79,16 +78,32 @@ class Boundary:
         outer_a, outer_b = first + previous, first + np.arange(len(self.edges))
         return np.concatenate([np.stack([a, b, outer_b], axis=1), np.stack([a, outer_b, outer_a], axis=1)])
 
+    def over(self) -> IndexArray:
+        """For each edge the first triangle of the strand that it is of, 0 where the boundary has no slits, shape [e].
+
+        A strand's edges are those between two slits. What belongs to the strand lies over all triangles before.
+        """
+        from scipy.sparse import coo_array
+        from scipy.sparse.csgraph import connected_components
+
+        count = len(self.edges)
+        joined = np.setdiff1d(np.arange(count), self.parted)
+        pairs = coo_array((np.ones(len(joined)), (joined, self.next[joined])), shape=(count, count))
+        _, strand = connected_components(pairs, directed=False)
+        first = np.full(count, len(self.mesh.triangles))
+        np.minimum.at(first, strand, self.owner)
+        return np.where(np.isin(self.loop, self.loop[self.parted]), first[strand], 0)
+
     def leading(self, outer: FloatArray) -> tuple[IndexArray, FloatArray]:
         """The vertices that each outer corner follows, shape [c, 6], and their weights, of sum 1.
 
         They are those of the triangles on both sides of the corner, by the mean of whose affine maps it moves; where a
         slit begins, those of the one side or of the other.
         """
-        before, after = self.owners.copy(), self.owners[self.next]
+        before, after = self.owner, self.owner[self.next]
         beyond = after[self.parted]
         after[self.parted] = before[self.parted]
-        corners = np.stack([np.concatenate([before, beyond]), np.concatenate([after, beyond])])
+        corners = self.mesh.triangles[[np.concatenate([before, beyond]), np.concatenate([after, beyond])]].astype(int)
         weights = np.stack([barycentric(outer, self.mesh.vertices[triangle]) for triangle in corners])
         return np.concatenate(list(corners), axis=1), np.concatenate(list(weights), axis=1) / 2
 
@@ -150,7 +165,7 @@ def same_places(points: FloatArray) -> IndexArray:
     return np.asarray(first[same.ravel()])
 
 
-def _successors(edges: IndexArray) -> IndexArray:
+def _successors(edges: NDArray[np.integer]) -> IndexArray:
     """Number of an edge that starts where each edge ends; every edge follows exactly one."""
     followers = np.empty(len(edges), dtype=np.int64)
     followers[np.argsort(edges[:, 1], kind="stable")] = np.argsort(edges[:, 0], kind="stable")

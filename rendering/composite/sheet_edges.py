@@ -6,15 +6,13 @@ there: with one place a pixel, both would be stepped.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics.mesh import PixelBox
-from ...physics.mesh.boundary import half_edges, on_boundary
+from ...physics.mesh import PixelBox, half_edges, on_boundary
 from .boundary import same_places
 from .places import NOWHERE
 
@@ -26,7 +24,6 @@ Mask = NDArray[np.bool_]
 
 # Neighbouring pixels that come from places farther apart than this are of different sheets [px].
 _APART = 4.0
-_TILE = 32
 _SHIFT = 4  # bits behind the point of places that OpenCV draws lines between
 
 
@@ -93,11 +90,9 @@ def torn(x: NDArray[np.float32], y: NDArray[np.float32]) -> Mask:
     return found
 
 
-def tiles_of(found: Mask) -> Iterator[PixelBox]:
-    """Tiles of a picture in which there are pixels."""
-    for top in range(0, found.shape[0], _TILE):
-        rows = found[top : top + _TILE]
-        for left in range(0, found.shape[1], _TILE) if rows.any() else ():
-            part = rows[:, left : left + _TILE]
-            if part.any():
-                yield PixelBox(left, top, left + part.shape[1], top + part.shape[0])
+def tiles_of(found: Mask, side: int) -> IndexArray:
+    """Left and top of the square tiles in which there are pixels, shape [k, 2]."""
+    height, width = (-(-size // side) * side for size in found.shape)
+    padded = np.pad(found, ((0, height - found.shape[0]), (0, width - found.shape[1])))
+    row, column = np.nonzero(padded.reshape(height // side, side, width // side, side).any(axis=(1, 3)))
+    return side * np.stack([column, row], axis=1)
