@@ -28,8 +28,8 @@ FloatArray = NDArray[np.float64]
 FloatImage = NDArray[np.float32]
 
 # Where an edge of a sheet goes through a pixel, that is the mean of so many places across and down.
-_FINE = 4
-_TILE = 8
+_FINE = 3
+_TILE = 4
 # Above this the sheet beneath does not show.
 _OPAQUE = 1 - 0.5 / 255
 
@@ -81,7 +81,7 @@ class Layer:
         drawn = self._read(sheets)
         edges = self._slits.open(points[0] - self.mesh.rest, points[0], box)
         if self.fine:
-            edges |= torn(sheets.x, sheets.y)
+            edges |= torn(sheets)
         tiles = tiles_of(edges, _TILE)
         if len(tiles):
             self._smooth(drawn, points, box, tiles, edges)
@@ -132,7 +132,10 @@ class Layer:
         how = {"borderMode": cv2.BORDER_CONSTANT, "borderValue": 0}
         if self.fine:
             texture, border = self._finer
-            return cv2.remap(texture, 2 * (x + border), 2 * (y + border), cv2.INTER_LINEAR, **how)
+            x, y = x + border, y + border
+            x *= 2
+            y *= 2
+            return cv2.remap(texture, x, y, cv2.INTER_LINEAR, **how)
         parts = [cv2.remap(part, x, y, cv2.INTER_CUBIC, **how) for part in self._parts]
         return parts[0] if len(parts) == 1 else np.dstack(parts)
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ...physics.mesh import PixelBox, half_edges, on_boundary
 from .boundary import same_places
 from .places import NOWHERE
+from .sheets import Sheets
 
 __all__ = ["Slits", "tiles_of", "torn"]
 
@@ -70,14 +71,14 @@ class Slits:
         return near > 0
 
 
-def torn(x: NDArray[np.float32], y: NDArray[np.float32]) -> Mask:
-    """Pixels beside others that come from far apart, shape [h, w].
-
-    Args:
-        x: column that each pixel shows, NOWHERE off the mesh, shape [h, w].
-        y: row, of the same shape.
-    """
-    found = np.zeros(x.shape, dtype=bool)
+def torn(sheets: Sheets) -> Mask:
+    """Pixels beside others that come from far apart, shape [h, w]: the ends of what lies over another sheet."""
+    found = np.zeros(sheets.x.shape, dtype=bool)
+    if not len(sheets.double):
+        return found
+    row, column = np.divmod(sheets.double, found.shape[1])
+    rows, columns = (slice(max(0, int(each.min()) - 1), int(each.max()) + 2) for each in (row, column))
+    x, y, part = sheets.x[rows, columns], sheets.y[rows, columns], found[rows, columns]
     there = x > NOWHERE / 2
     for before, after in (
         ((slice(None), slice(None, -1)), (slice(None), slice(1, None))),
@@ -85,14 +86,17 @@ def torn(x: NDArray[np.float32], y: NDArray[np.float32]) -> Mask:
     ):
         jump = (np.abs(x[after] - x[before]) > _APART) | (np.abs(y[after] - y[before]) > _APART)
         jump &= there[after] & there[before]
-        found[after] |= jump
-        found[before] |= jump
+        part[after] |= jump
+        part[before] |= jump
     return found
 
 
 def tiles_of(found: Mask, side: int) -> IndexArray:
     """Left and top of the square tiles in which there are pixels, shape [k, 2]."""
-    height, width = (-(-size // side) * side for size in found.shape)
-    padded = np.pad(found, ((0, height - found.shape[0]), (0, width - found.shape[1])))
-    row, column = np.nonzero(padded.reshape(height // side, side, width // side, side).any(axis=(1, 3)))
-    return side * np.stack([column, row], axis=1)
+    pixels = cv2.findNonZero(found.view(np.uint8))
+    if pixels is None:
+        return np.zeros((0, 2), dtype=np.int64)
+    across = found.shape[1] // side + 1
+    column, row = pixels.reshape(-1, 2).T // side
+    tile = np.unique(row * across + column).astype(np.int64)
+    return side * np.stack([tile % across, tile // across], axis=1)

@@ -18,6 +18,8 @@ IndexArray = NDArray[np.int64]
 
 # Two places that a pixel shows at once are of different sheets if they are farther apart than this [px].
 _APART = 2.0
+# Triangles are looked for around squares so large before they are for each tile [px].
+_BLOCK = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,9 +83,10 @@ def sheets_in_tiles(
         Places, shape [k side scale, side scale].
     """
     corners = positions[triangles]
-    low, high, starts = corners.min(axis=1).T, corners.max(axis=1).T, tiles.T[:, :, None]
-    across, down = ((high[k] > starts[k]) & (low[k] < starts[k] + side) for k in (0, 1))
-    tile, triangle = np.nonzero(across & down)
+    blocks = _BLOCK * np.array(sorted(set(map(tuple, (tiles // _BLOCK).tolist()))))
+    kept = _touching(corners, blocks, _BLOCK + side).any(axis=0)
+    triangles, corners = triangles[kept], corners[kept]
+    tile, triangle = np.nonzero(_touching(corners, tiles, side))
     fine = side * scale
     top = tile * fine
     points = (corners[triangle] - tiles[tile][:, None]) * scale
@@ -100,6 +103,21 @@ def sheets_in_tiles(
     return _sheets(fragments, shifts, *np.broadcast_arrays(np.repeat(x, fine, axis=0), y.reshape(-1, 1)))
 
 
+def _touching(corners: FloatArray, starts: IndexArray, side: int) -> NDArray[np.bool_]:
+    """Whether the box of each triangle reaches into each square, shape [k, t].
+
+    Args:
+        corners: of the triangles [px], shape [t, 3, 2].
+        starts: left and top of the squares [px], shape [k, 2].
+        side: of the squares [px].
+    """
+    near = np.ones((len(starts), len(corners)), dtype=bool)
+    for (a, b, c), start in zip(corners.T, starts.T[:, :, None], strict=True):
+        near &= np.maximum(np.maximum(a, b), c) > start
+        near &= np.minimum(np.minimum(a, b), c) < start + side
+    return near
+
+
 def _sheets(fragments: Fragments, shifts: FloatImage, x: FloatImage, y: FloatImage) -> Sheets:
     """The last fragment of each pixel, and the last one before that comes from elsewhere.
 
@@ -110,15 +128,19 @@ def _sheets(fragments: Fragments, shifts: FloatImage, x: FloatImage, y: FloatIma
         y: row, of the same shape.
     """
     pixels = fragments.pixels()
-    upper = np.full(x.size, -1, dtype=np.int32)
-    upper[pixels] = np.arange(len(pixels), dtype=np.int32)
-    there = upper >= 0
-    shown = [np.full(x.size, NOWHERE, dtype=np.float32) for _ in range(2)]
-    for place, shift, start in zip(shown, shifts, (x, y), strict=True):
-        place[there] = shift[upper[there]] + start.ravel()[there]
-    hidden = np.flatnonzero(upper[pixels] != np.arange(len(pixels)))
-    above = upper[pixels[hidden]]
-    hidden = hidden[(np.abs(shifts[:, hidden] - shifts[:, above]) > _APART).any(axis=0)]
-    double, last = np.unique(pixels[hidden][::-1], return_index=True)
-    under = shifts[:, hidden[::-1][last]] + np.stack([x.ravel()[double], y.ravel()[double]])
-    return Sheets(shown[0].reshape(x.shape), shown[1].reshape(x.shape), double, under)
+    planes = np.full((2, x.size), NOWHERE, dtype=np.float32)
+    for plane, shift in zip(planes, shifts, strict=True):
+        plane[pixels] = shift
+    hidden = np.flatnonzero(_apart(planes[0].take(pixels), shifts[0]) | _apart(planes[1].take(pixels), shifts[1]))[::-1]
+    double, last = np.unique(pixels[hidden], return_index=True)
+    beneath = shifts[:, hidden[last]] + np.stack([x.ravel()[double], y.ravel()[double]])
+    planes = planes.reshape(2, *x.shape)
+    planes[0] += x
+    planes[1] += y
+    return Sheets(planes[0], planes[1], double, beneath)
+
+
+def _apart(one: FloatImage, other: FloatImage) -> NDArray[np.bool_]:
+    """Whether values are of different sheets; the first ones are lost."""
+    one -= other
+    return np.asarray(np.abs(one, out=one) > _APART)
