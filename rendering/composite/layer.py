@@ -79,9 +79,7 @@ class Layer:
             return box, np.zeros((box.height, box.width, self.texture.shape[2]), dtype=np.float32)
         sheets = self._sheets(points, partial(sheets_at, box=box, canvas=self.canvas))
         drawn = self._read(sheets)
-        edges = self._slits.open(points[0] - self.mesh.rest, points[0], box)
-        if self.fine:
-            edges |= torn(sheets)
+        edges = self._slits.open(points[0] - self.mesh.rest, points[0], box) | torn(sheets)
         tiles = tiles_of(edges, _TILE)
         if len(tiles):
             self._smooth(drawn, points, box, tiles, edges)

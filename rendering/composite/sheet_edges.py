@@ -76,8 +76,8 @@ def torn(sheets: Sheets) -> Mask:
     found = np.zeros(sheets.x.shape, dtype=bool)
     if not len(sheets.double):
         return found
-    row, column = np.divmod(sheets.double, found.shape[1])
-    rows, columns = (slice(max(0, int(each.min()) - 1), int(each.max()) + 2) for each in (row, column))
+    places = np.divmod(sheets.double, sheets.x.shape[1])
+    rows, columns = (slice(max(0, int(each.min()) - 1), int(each.max()) + 2) for each in places)
     x, y, part = sheets.x[rows, columns], sheets.y[rows, columns], found[rows, columns]
     there = x > NOWHERE / 2
     for before, after in (
