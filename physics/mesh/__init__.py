@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from .boundary import boundary_edges
+from .boundary import boundary_edges, half_edges, on_boundary
 from .contours import area_of, contours_at_half, resampled
 from .cutting import cut_along
 from .masks import coverage_of, fitted, may_be_inverted, refuse_noise
 from .meshing import mesh_from_mask
 from .outline_distances import signed_distances, within_reach
 from .pixel_box import PixelBox, bounding_box
-from .raster import barycentric, interpolate, rasterise, triangle_ids
+from .raster import Fragments, affine_per_triangle, barycentric, interpolate, rasterise, triangle_ids
 from .run_lengths import mask_of, runs_of
 from .triangle_mesh import UNITS_ACROSS, TriangleMesh
 from .ways import ways_along, ways_from
 
 __all__ = [
     "UNITS_ACROSS",
+    "Fragments",
     "PixelBox",
     "TriangleMesh",
+    "affine_per_triangle",
     "area_of",
     "barycentric",
     "boundary_edges",
@@ -26,10 +28,12 @@ __all__ = [
     "coverage_of",
     "cut_along",
     "fitted",
+    "half_edges",
     "interpolate",
     "mask_of",
     "may_be_inverted",
     "mesh_from_mask",
+    "on_boundary",
     "rasterise",
     "refuse_noise",
     "resampled",

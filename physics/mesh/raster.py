@@ -82,21 +82,26 @@ class Fragments:
         return values
 
 
-def rasterise(points: ArrayLike, triangles: ArrayLike, box: PixelBox) -> Fragments:
+def rasterise(
+    points: ArrayLike, triangles: ArrayLike, box: PixelBox, *, rows: tuple[IndexArray, IndexArray] | None = None
+) -> Fragments:
     """Find the pixel centres inside each triangle.
 
     Args:
         points: vertex positions [px], shape [v, 2].
         triangles: vertex indices, shape [t, 3]; any winding.
         box: pixels to look at.
+        rows: for each triangle the first row of these that it may touch and the one after the last, shape [t] each;
+            None for those of the box.
     """
+    top, bottom = (box.top, box.bottom) if rows is None else rows
     corners = _sorted_by_height(np.asarray(points, dtype=np.float64), np.asarray(triangles))
     (xa, ya), (xb, yb), (xc, yc) = corners
-    first = np.maximum(np.ceil(ya - 0.5), box.top).astype(np.int64)
-    last = np.minimum(np.ceil(yc - 0.5), box.bottom).astype(np.int64)
-    rows = np.maximum(last - first, 0)
-    triangle = np.repeat(np.arange(len(rows)), rows)
-    row = np.arange(len(triangle)) + np.repeat(first - (np.cumsum(rows) - rows), rows)
+    first = np.maximum(np.ceil(ya - 0.5), top).astype(np.int64)
+    last = np.minimum(np.ceil(yc - 0.5), bottom).astype(np.int64)
+    count = np.maximum(last - first, 0)
+    triangle = np.repeat(np.arange(len(count)), count)
+    row = np.arange(len(triangle)) + np.repeat(first - (np.cumsum(count) - count), count)
     y = row + 0.5
     with np.errstate(divide="ignore", invalid="ignore"):
         slope_ab, slope_bc, slope_ac = (xb - xa) / (yb - ya), (xc - xb) / (yc - yb), (xc - xa) / (yc - ya)

@@ -6,7 +6,7 @@ from .apron import ApronedMesh, canvas_of
 from .artwork_layers import hidden_by, mask_of_layer, resting_on
 from .background import Background, background_of, renderer_of, shown_frame, shown_frame_and_alpha, usual_background
 from .beyond_border import on_canvas
-from .cutting import Layer
+from .layer import Layer
 from .layered_renderer import LayeredRenderer
 from .pixel_art import PixelArtRenderer
 from .pixel_blocks import pixel_art_hint

@@ -43,7 +43,8 @@ class ApronedMesh:
 
     Attributes:
         rest: positions at rest of the mesh's vertices, then of the apron's outer corners [px], shape [v + c, 2].
-        triangles: those of the apron first, so that the mesh's own win where both cover a pixel, shape [t, 3].
+        triangles: those of the apron first, so that the mesh's own win where both cover a pixel; of a mesh with slits
+            those of each strand's apron before that strand's, shape [t, 3].
         sources: mesh vertices that lead each outer corner, shape [c, 6].
         weights: their weights, of sum 1, shape [c, 6].
     """
@@ -73,7 +74,8 @@ class ApronedMesh:
         sources, weights = boundary.leading(outer)
         rest = np.concatenate([mesh.vertices, outer])
         triangles = np.concatenate([boundary.quads(len(mesh.vertices)), mesh.triangles])
-        return cls(rest, triangles, sources, weights)
+        order = np.argsort(np.concatenate([np.tile(boundary.over(), 2), np.arange(len(mesh.triangles))]), kind="stable")
+        return cls(rest, triangles[order], sources, weights)
 
     def positions(self, vertices: NDArray[np.float32]) -> FloatArray:
         """Positions of the vertices and outer corners [px], shape [v + c, 2], for moved mesh vertices [v, 2].
@@ -86,7 +88,7 @@ class ApronedMesh:
         return self.rest + np.concatenate([moved, led])
 
     def places_at_rest(
-        self, positions: FloatArray, box: PixelBox, canvas: PixelBox, *, scale: int = 1
+        self, positions: FloatArray, box: PixelBox, canvas: PixelBox
     ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Column and row of a canvas at rest that each pixel of a box shows, far off it where the mesh is not.
 
@@ -94,9 +96,8 @@ class ApronedMesh:
             positions: from ``positions`` [px], shape [v + c, 2].
             box: the pixels that are wanted.
             canvas: in whose pixels the places are told; pixel [0, 0] has its centre at (0, 0).
-            scale: how many pixels of the box a pixel of the picture is wide.
 
         Returns:
             Columns and rows, shape [box height, box width] each.
         """
-        return places(positions, self.triangles, self.rest, box, canvas, scale=scale)
+        return places(positions, self.triangles, self.rest, box, canvas)

@@ -20,7 +20,7 @@ from ..artwork import lay_over as blended
 from ..pictures import as_picture, straight
 from .apron import ApronedMesh, canvas_of, usual_reach
 from .beyond import Beyond
-from .cutting import Layer
+from .layer import Layer
 from .laying import lay_over
 from .pixel_boxes import around, shared, within
 from .still_layers import StillLayer

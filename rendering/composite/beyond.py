@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.mesh import PixelBox, TriangleMesh
-from .places import NOWHERE, places
+from .places import NOWHERE
 
 __all__ = ["Beyond"]
 
@@ -88,16 +88,15 @@ class Beyond:
         """Positions of the corners [px], shape [p, 2], for shifts of the mesh's vertices [px], shape [v, 2]."""
         return self.rest + np.einsum("pk,pkx->px", self.weights, shifts[self.sources])
 
-    def places_at_rest(
-        self, positions: FloatArray, box: PixelBox, canvas: PixelBox, *, scale: int = 1
+    def without_own(
+        self, x: NDArray[np.float32], y: NDArray[np.float32]
     ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        """Column and row of the canvas that each pixel of a box shows; see ``ApronedMesh.places_at_rest``."""
-        x, y = places(positions, self.triangles, self.rest, box, canvas, scale=scale)
+        """Columns and rows of the canvas, the columns NOWHERE where the mesh itself draws at rest."""
         row, column = np.rint(y).astype(np.int32), np.rint(x).astype(np.int32)
         height, width = self.own.shape
         there = (row >= 0) & (row < height) & (column >= 0) & (column < width)
-        x[there] = np.where(self.own[row[there], column[there]], np.float32(NOWHERE), x[there])
-        return x, y
+        there[there] = self.own[row[there], column[there]]
+        return np.where(there, np.float32(NOWHERE), x), y
 
 
 def _leading(vertices: NDArray[np.floating], points: FloatArray) -> tuple[IndexArray, FloatArray]:

@@ -1,14 +1,17 @@
-"""The boundary of a mesh: what lies ahead of each of its edges, and how wide an apron has room there."""
+"""The boundary of a mesh: what lies ahead of each of its edges, and how wide an apron has room there.
+
+The two sides of a slit have the same places at rest: nothing lies between them, and they are no boundary here.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics.mesh import PixelBox, TriangleMesh, barycentric, rasterise, triangle_ids
+from ...physics.mesh import PixelBox, TriangleMesh, barycentric, half_edges, on_boundary, rasterise, triangle_ids
 from ..pictures import nearest_pixels
 
-__all__ = ["SHARPEST_MITRE", "Boundary"]
+__all__ = ["SHARPEST_MITRE", "Boundary", "same_places"]
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
@@ -29,13 +32,18 @@ class Boundary:
 
     def __init__(self, mesh: TriangleMesh) -> None:
         self.mesh = mesh
-        self.edges = mesh.boundary_edges.astype(np.int64)
-        self.next = self._successors()
+        whole = same_places(mesh.vertices)[mesh.triangles]
+        outer = on_boundary(half_edges(whole))
+        self.edges = half_edges(mesh.triangles)[outer].astype(np.int64)
+        self.next = _successors(half_edges(whole)[outer])
+        self.owner = np.tile(np.arange(len(whole)), 3)[outer]
+        # A slit begins where an edge ends in one vertex and the next one starts in another.
+        self.parted = np.flatnonzero(self.edges[:, 1] != self.edges[self.next, 0])
         self.start, self.end = (mesh.vertices[self.edges[:, k]] for k in (0, 1))
         along = self.end - self.start
         self.length = np.linalg.norm(along, axis=1)
         self.normal = np.stack([along[:, 1], -along[:, 0]], axis=1) / self.length[:, None]
-        inward = mesh.vertices[mesh.triangles[mesh.boundary_triangles]].mean(axis=1) - self.start
+        inward = mesh.vertices[mesh.triangles[self.owner]].mean(axis=1) - self.start
         self.normal *= -np.sign(np.einsum("ij,ij->i", inward, self.normal))[:, None]
         self.loop, self.place, self.circumference = self._walked()
 
@@ -51,30 +59,51 @@ class Boundary:
         return np.maximum(np.minimum(needed, np.minimum(free, free[self.next])), _NARROWEST)
 
     def corners(self, widths: FloatArray) -> FloatArray:
-        """Outer corner at the end of each edge [px], mitred, shape [e, 2]."""
+        """Outer corner at the end of each edge [px], mitred, then those where slits begin once more, shape [c, 2]."""
         both = self.normal + self.normal[self.next]
         length = np.linalg.norm(both, axis=1)
         along = (self.end - self.start) / self.length[:, None]
         # At a spike's tip both normals cancel: the corner lies straight ahead.
         direction = np.where(length[:, None] > 1e-6, both / np.maximum(length, 1e-6)[:, None], along)
         mitre = np.minimum(2 / np.maximum(length, 1e-6), SHARPEST_MITRE)
-        return self.end + direction * (widths * mitre)[:, None]
+        corners = self.end + direction * (widths * mitre)[:, None]
+        return np.concatenate([corners, corners[self.parted]])
 
     def quads(self, first: int) -> IndexArray:
         """Two triangles for each edge; corner c has the number ``first`` + c."""
         previous = np.empty(len(self.edges), dtype=np.int64)
         previous[self.next] = np.arange(len(self.edges))
+        previous[self.next[self.parted]] = len(self.edges) + np.arange(len(self.parted))
         a, b = self.edges.T
         outer_a, outer_b = first + previous, first + np.arange(len(self.edges))
         return np.concatenate([np.stack([a, b, outer_b], axis=1), np.stack([a, outer_b, outer_a], axis=1)])
 
-    def leading(self, outer: FloatArray) -> tuple[IndexArray, FloatArray]:
-        """The vertices that each outer corner follows, shape [e, 6], and their weights, of sum 1.
+    def over(self) -> IndexArray:
+        """For each edge the first triangle of the strand that it is of, 0 where the boundary has no slits, shape [e].
 
-        They are those of the triangles on both sides of the corner, by the mean of whose affine maps it moves.
+        A strand's edges are those between two slits. What belongs to the strand lies over all triangles before.
         """
-        owners = self.mesh.boundary_triangles
-        corners = self.mesh.triangles[np.stack([owners, owners[self.next]])].astype(np.int64)
+        from scipy.sparse import coo_array
+        from scipy.sparse.csgraph import connected_components
+
+        count = len(self.edges)
+        joined = np.setdiff1d(np.arange(count), self.parted)
+        pairs = coo_array((np.ones(len(joined)), (joined, self.next[joined])), shape=(count, count))
+        _, strand = connected_components(pairs, directed=False)
+        first = np.full(count, len(self.mesh.triangles))
+        np.minimum.at(first, strand, self.owner)
+        return np.where(np.isin(self.loop, self.loop[self.parted]), first[strand], 0)
+
+    def leading(self, outer: FloatArray) -> tuple[IndexArray, FloatArray]:
+        """The vertices that each outer corner follows, shape [c, 6], and their weights, of sum 1.
+
+        They are those of the triangles on both sides of the corner, by the mean of whose affine maps it moves; where a
+        slit begins, those of the one side or of the other.
+        """
+        before, after = self.owner, self.owner[self.next]
+        beyond = after[self.parted]
+        after[self.parted] = before[self.parted]
+        corners = self.mesh.triangles[[np.concatenate([before, beyond]), np.concatenate([after, beyond])]].astype(int)
         weights = np.stack([barycentric(outer, self.mesh.vertices[triangle]) for triangle in corners])
         return np.concatenate(list(corners), axis=1), np.concatenate(list(weights), axis=1) / 2
 
@@ -113,12 +142,6 @@ class Boundary:
         distance, nearest = nearest_pixels(seeds >= 0)
         return distance, seeds.ravel()[nearest]
 
-    def _successors(self) -> IndexArray:
-        """Number of an edge that starts where each edge ends; every edge follows exactly one."""
-        followers = np.empty(len(self.edges), dtype=np.int64)
-        followers[np.argsort(self.edges[:, 1], kind="stable")] = np.argsort(self.edges[:, 0], kind="stable")
-        return followers
-
     def _walked(self) -> tuple[IndexArray, FloatArray, FloatArray]:
         """Loop of each edge, its place along it [px], and the loop's circumference [px]."""
         loop = np.full(len(self.edges), -1, dtype=np.int64)
@@ -134,3 +157,16 @@ class Boundary:
             ends = np.cumsum(self.length[chain])
             place[chain], circumference[chain] = ends, ends[-1]
         return loop, place, circumference
+
+
+def same_places(points: FloatArray) -> IndexArray:
+    """For each point the first one at the very same place, shape [n], of points of shape [n, 2]."""
+    _, first, same = np.unique(points, axis=0, return_index=True, return_inverse=True)
+    return np.asarray(first[same.ravel()])
+
+
+def _successors(edges: NDArray[np.integer]) -> IndexArray:
+    """Number of an edge that starts where each edge ends; every edge follows exactly one."""
+    followers = np.empty(len(edges), dtype=np.int64)
+    followers[np.argsort(edges[:, 1], kind="stable")] = np.argsort(edges[:, 0], kind="stable")
+    return followers

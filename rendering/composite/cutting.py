@@ -8,8 +8,6 @@ picture B beneath it.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import cv2
@@ -17,138 +15,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError
-from ...physics.mesh import PixelBox, TriangleMesh, bounding_box, triangle_ids
+from ...physics.mesh import PixelBox, TriangleMesh, triangle_ids
 from ..matting import fitting_plate, in_levels, mixed_rim, regular_mask, soft_alpha, with_outline
 from ..plate import fill_hole, spread_colours
 from .apron import ApronedMesh, canvas_of, usual_reach
-from .beyond import Beyond
 from .beyond_border import on_canvas
-from .folds import torn_tiles
-from .half_pixels import with_half_pixels
-from .places import NOWHERE
-from .slit_edges import slit_vertices, soften_slits
+from .layer import Layer
 from .still_layers import StillLayer, still_layer
 
 if TYPE_CHECKING:
-    from ..artwork import Blend
+    pass
 
-__all__ = ["Layer", "aproned", "picture_beneath", "take_apart"]
+__all__ = ["aproned", "picture_beneath", "take_apart"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
-# Along folds a pixel is the mean of so many places across and down.
-_FINE = 3
 # Pixels around a body that its faint edge may reach.
 _BESIDE = 2
-
-
-@dataclass(frozen=True, eq=False)
-class Layer:
-    """One body's picture.
-
-    Attributes:
-        mesh: the body's mesh with its apron.
-        canvas: the pixels that the texture covers; may exceed the picture.
-        texture: premultiplied RGB and alpha at rest, float32, shape [canvas height, canvas width, 4]; of a picture with
-            transparency premultiplied RGBA and coverage, 5 channels.
-        blend: how it is laid over what is behind it.
-        beyond: what leads the pixels that the mesh does not reach; None where there are none.
-        fine: whether places between the texture's pixels are read from a finer one, which takes four times the memory.
-    """
-
-    mesh: ApronedMesh
-    canvas: PixelBox
-    texture: FloatImage
-    blend: Blend = "normal"
-    beyond: Beyond | None = None
-    fine: bool = False
-
-    def points(self, vertices: NDArray[np.float32]) -> list[NDArray[np.float64]]:
-        """Positions of the mesh's vertices and outer corners [px], shape [v + c, 2], and of what is led beyond it."""
-        points = [self.mesh.positions(vertices)]
-        if self.beyond is not None:
-            points.append(self.beyond.positions(vertices - self.mesh.rest[: len(vertices)].astype(np.float32)))
-        return points
-
-    def drawn(self, vertices: NDArray[np.float32], width: int, height: int) -> tuple[PixelBox, FloatImage]:
-        """The layer with its mesh moved.
-
-        Args:
-            vertices: positions of the body's vertices [px], shape [v, 2].
-            width: of the picture [px].
-            height: of the picture [px].
-
-        Returns:
-            The box of the picture that the layer may touch, and the texture's channels there, shape [h, w, 4 or 5].
-        """
-        points = self.points(vertices)
-        box = bounding_box(np.concatenate(points)).clipped(width, height)
-        if not (box.width and box.height):
-            return box, np.zeros((box.height, box.width, self.texture.shape[2]), dtype=np.float32)
-        x, y = self._places_at_rest(points, box)
-        if self.fine:
-            drawn = self._read(x, y)
-            for tile, torn in torn_tiles(x, y):
-                self._smooth(drawn, points, box, tile, torn)
-            return box, self._softened(drawn, box, (x, y), points[0])
-        parts = [
-            cv2.remap(part, x, y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
-            for part in self._parts
-        ]
-        whole = parts[0] if len(parts) == 1 else np.dstack(parts)
-        return box, self._softened(whole, box, (x, y), points[0])
-
-    def _softened(
-        self, drawn: FloatImage, box: PixelBox, shown: tuple[FloatImage, FloatImage], points: NDArray[np.float64]
-    ) -> FloatImage:
-        """What is drawn in a box, with the edges of slits smoothed in place."""
-        if len(self._slit):
-            how = {"mesh": self.mesh, "points": points, "slit": self._slit, "canvas": self.canvas}
-            soften_slits(drawn, box, shown, parts=self._parts, **how)  # type: ignore[arg-type]
-        return drawn
-
-    @cached_property
-    def _slit(self) -> NDArray[np.int64]:
-        """Vertices along the slits of the mesh."""
-        return slit_vertices(self.mesh)
-
-    def _read(self, x: FloatImage, y: FloatImage) -> FloatImage:
-        """The finer texture at places of the texture."""
-        texture, border = self._finer
-        x, y = 2 * (x + border), 2 * (y + border)
-        return cv2.remap(texture, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT, borderValue=0)  # type: ignore[return-value]
-
-    def _smooth(
-        self, drawn: FloatImage, points: Sequence[NDArray[np.float64]], box: PixelBox, tile: PixelBox, torn: Mask
-    ) -> None:
-        """Draw pixels of a tile of a box as the mean of several places, where the mesh lies over itself."""
-        left, top = box.left + tile.left, box.top + tile.top
-        sides = (left, top, left + tile.width, top + tile.height)
-        x, y = self._places_at_rest(points, PixelBox(*(_FINE * side for side in sides)), scale=_FINE)
-        mean = cv2.resize(self._read(x, y), (tile.width, tile.height), interpolation=cv2.INTER_AREA)
-        drawn[tile.slices][torn] = mean[torn]
-
-    def _places_at_rest(
-        self, points: Sequence[NDArray[np.float64]], box: PixelBox, *, scale: int = 1
-    ) -> tuple[FloatImage, FloatImage]:
-        """Column and row of the texture that each pixel of a box shows, shape [h, w] each."""
-        x, y = self.mesh.places_at_rest(points[0], box, self.canvas, scale=scale)
-        if self.beyond is not None:
-            free = x <= NOWHERE / 2
-            others = self.beyond.places_at_rest(points[1], box, self.canvas, scale=scale)
-            for place, other in zip((x, y), others, strict=True):
-                np.copyto(place, other, where=free)
-        return x, y
-
-    @cached_property
-    def _finer(self) -> tuple[FloatImage, int]:
-        return with_half_pixels(self.texture)
-
-    @cached_property
-    def _parts(self) -> list[FloatImage]:
-        """The texture in the four channels at most that OpenCV resamples at once."""
-        return [np.ascontiguousarray(self.texture[..., k : k + 4]) for k in range(0, self.texture.shape[2], 4)]
 
 
 def take_apart(

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.mesh import TriangleMesh
-from .cutting import Layer
+from .layer import Layer
 from .still_layers import StillLayer
 
 __all__ = ["KEPT_BYTES", "KeptLayers", "apart"]

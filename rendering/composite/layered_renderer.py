@@ -16,8 +16,9 @@ from ...physics.mesh import PixelBox, coverage_of, fitted
 from ...physics.motion import Motion, layer_order
 from ...physics.progress import Progress
 from ..pictures import as_dtype, as_float, as_picture, is_transparent, straight
-from .cutting import Layer, take_apart
+from .cutting import take_apart
 from .kept_layers import apart
+from .layer import Layer
 from .laying import lay_over
 from .pixel_boxes import around, shared, within
 from .sprite_layers import take_sprite_apart

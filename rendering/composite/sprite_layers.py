@@ -19,7 +19,8 @@ from ..matting import FAINT, SQUARE, WIDE, fitting_plate, grown, mixed_rim, regu
 from ..pictures import carried_on, over, premultiplied
 from ..plate import fill_hole
 from .beyond_border import on_canvas
-from .cutting import Layer, aproned, picture_beneath
+from .cutting import aproned, picture_beneath
+from .layer import Layer
 from .silhouette import ALL, continued_silhouette, thrice
 from .still_layers import StillLayer, still_layer
 

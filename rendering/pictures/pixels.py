@@ -101,7 +101,10 @@ def as_uint8(image: ArrayLike, *, name: str = "image") -> NDArray[np.uint8]:
 def as_dtype(image: FloatImage, dtype: np.dtype[Any]) -> NDArray[Any]:
     """A float32 picture in 0 to 1, which may overshoot, as uint8 or in a floating-point type."""
     image = np.clip(image, 0, 1)
-    return np.rint(image * 255).astype(np.uint8) if dtype == np.uint8 else image.astype(dtype, copy=False)
+    if dtype != np.uint8:
+        return image.astype(dtype, copy=False)
+    image *= 255
+    return np.rint(image, out=image).astype(np.uint8)
 
 
 def _as_8_bits_or_float(values: NDArray[Any], name: str) -> NDArray[Any]:

@@ -4,9 +4,11 @@
 
 Each moving layer is enlarged four times so that its mean over each pixel is the layer again, bent there by the affine
 map of each triangle of its mesh, laid with the others in their order, and brought back to size by the mean over each
-pixel. What of a layer lies beyond its mesh follows the nearest triangle. Nothing of the renderer is used. Ours is
-compared with it, and beside it today's way for a flat picture: the same file flattened, with a mask of what is seen of
-each moving layer, and the same motion.
+pixel. What of a layer lies beyond its mesh follows the nearest triangle. Where a mesh lies over itself, what is beneath
+shows through what is not opaque. Strands, which slits part, are laid over one another, each with what lies beyond the
+mesh at it; along a slit each ends at its own side. Nothing of the renderer is used. Ours is compared with it, and
+beside it the way of a flat picture: the same file flattened, with a mask of what is seen of each moving layer, and the
+same motion.
 
 Prints ``{artwork: {region: {"layers": dB, "worst frame": dB, "flat": dB, "pixels": _}}}``; PSNR over all frames, and in
 the worst frame that has 50 such pixels or more. Regions: ``bared`` shows what was hidden in the drawing, ``covered``
@@ -33,6 +35,8 @@ from physanimator.rendering.options import AutomaticWind, Timing
 from physanimator.rendering.parts import arranged, picture_of
 from physanimator.rendering.pictures import over
 from physanimator.rendering.pipeline import animate
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 __all__ = ["TrueArtwork", "score"]
 
@@ -40,8 +44,10 @@ FINE = 4
 _BACK_PROJECTIONS = 8
 # Beyond so many pixels from its mesh a layer is moved along, and no longer bent along.
 _BENT = 12
+# So far around a strand is looked for what is beside it [px].
+_ROUND = 64
 # What lies beyond a mesh belongs to where it is nearest to in the drawing, and so far beside that [px].
-_SAME = 4
+_SAME = 1
 _FEWEST = 50
 EXAMPLE = Path(__file__).resolve().parents[2] / "workflows" / "example" / "illustration.psd"
 
@@ -84,6 +90,7 @@ class TrueArtwork:
             for k, b in self.bodies.items()
         }
         self.places = {k: _nearest(ids >= 0)[1] for k, ids in self.ids.items()}
+        self.depths = {k: _nearest(ids < 0)[0] for k, ids in self.ids.items()}
         seen = np.ones(next(iter(self.fine.values())).shape[:2], np.float32)
         self.hidden: dict[int, Image] = {}
         for k in reversed(self.drawn):
@@ -146,29 +153,83 @@ class TrueArtwork:
 
     def _bent(self, k: int, t: int) -> tuple[Image, Image, Image]:
         """A moving layer in a frame, how much of it was hidden, and where it lies over itself, at high resolution."""
-        mesh, body = self.motion.bodies[self.bodies[k]].mesh, self.bodies[k]
-        texture = self.fine[k]
-        moved = self.motion.of_body(body)[t].astype(np.float64) * FINE
-        triangles, count = _triangles_of(moved, mesh.triangles, texture.shape)
-        inside = triangles >= 0
+        texture, mesh = self.fine[k], self.motion.bodies[self.bodies[k]].mesh
+        moved = self.motion.of_body(self.bodies[k])[t].astype(np.float64) * FINE
+        drawn, hidden = np.zeros_like(texture), np.zeros(texture.shape[:2], np.float32)
+        sheets = np.zeros(texture.shape[:2], np.uint8)
+        strands = _strands(mesh.vertices, mesh.triangles)
+        for triangles in strands:
+            window = slice(0, texture.shape[0]), slice(0, texture.shape[1])
+            if len(strands) > 1:
+                low, high = moved[triangles].min(axis=(0, 1)), moved[triangles].max(axis=(0, 1))
+                window = tuple(
+                    slice(max(0, int(low[c]) - _ROUND * FINE), max(0, int(high[c]) + _ROUND * FINE)) for c in (1, 0)
+                )
+            part, below, count = self._strand(k, triangles, moved, window)
+            alpha = part[..., 3:]
+            drawn[window] = drawn[window] * (1 - alpha) + part
+            hidden[window] = np.where(alpha[..., 0] > 0.5, below, hidden[window])
+            sheets[window] += count
+        return drawn, hidden, (sheets > 1).astype(np.float32)
+
+    def _strand(
+        self, k: int, triangles: Image, moved: Image, window: tuple[slice, slice]
+    ) -> tuple[Image, Image, Image]:
+        """Triangles of a layer and what of it is beside them, in a window: colours, how much was hidden, how often."""
+        mesh, shape = self.motion.bodies[self.bodies[k]].mesh, self.fine[k][window].shape
+        corner = np.array([window[1].start, window[0].start], np.float64)
+        top, first, count = _triangles_of(moved - corner, triangles, shape)
+        inside = top >= 0
         far, base = _nearest(inside)
-        here = np.stack(np.meshgrid(np.arange(texture.shape[1]) + 0.5, np.arange(texture.shape[0]) + 0.5), axis=-1)
+        base = base + corner
+        here = np.stack(np.meshgrid(np.arange(shape[1]) + 0.5, np.arange(shape[0]) + 0.5), axis=-1) + corner
         # As far as it is bent along, it follows the nearest triangle's map; beyond that, its shift there.
         out = (here - base) * np.minimum(1, _BENT * FINE / np.maximum(far, 1e-6))[..., None]
         at = np.where(inside[..., None], here, base + out)
-        ids = np.where(inside, triangles, triangles[tuple((base - 0.5).astype(int)[..., ::-1].transpose(2, 0, 1))])
-        matrix = _affine(moved[mesh.triangles], mesh.vertices[mesh.triangles] * FINE)
-        source = np.einsum("hwij,hwj->hwi", matrix[ids][..., :2], at) + matrix[ids][..., 2] + (here - at)
-        x, y = (source[..., c].astype(np.float32) - 0.5 for c in (0, 1))
-        drawn = cv2.remap(texture, x, y, cv2.INTER_LINEAR, borderValue=0)
-        hidden = cv2.remap(self.hidden[k], x, y, cv2.INTER_LINEAR, borderValue=0)
-        # What lies in the mesh in the drawing, or nearest to another strand of it there, is not this one's.
-        own = cv2.remap((self.ids[k] >= 0).astype(np.float32), x, y, cv2.INTER_NEAREST, borderValue=0)
-        expected = np.einsum("hwij,hwj->hwi", matrix[ids][..., :2], base) + matrix[ids][..., 2]
-        found = cv2.remap(self.places[k].astype(np.float32), x, y, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE)
-        other = np.linalg.norm(found - expected, axis=2) > _SAME * FINE + 0.5 * far
-        drawn[~inside & (far > 2) & ((own > 0) | other)] = 0
-        return drawn, hidden, (count > 1).astype(np.float32)
+        nearest = tuple((base - corner - 0.5).astype(int)[..., ::-1].transpose(2, 0, 1))
+        ids = np.where(inside, top, top[nearest])
+        matrix = _affine(moved[triangles], mesh.vertices[triangles] * FINE)
+        source = _mapped(matrix, ids, at) + (here - at)
+        drawn, hidden = _read(self.fine[k], source), _read(self.hidden[k], source)
+        # What lies in the mesh in the drawing, or nearest to another strand of it there, is not this one's. Along a
+        # slit each strand ends at its own side; the outline is told no closer than a pixel's diagonal.
+        depth = _read(self.depths[k], source, cv2.INTER_NEAREST)
+        found = _read(self.places[k].astype(np.float32), source, cv2.INTER_NEAREST, cv2.BORDER_REPLICATE)
+        other = np.linalg.norm(found - _mapped(matrix, ids, base), axis=2) > _SAME * FINE + 0.5 * far
+        drawn[~inside & ((depth > 1.5) | other)] = 0
+        # Where a sheet lies over another one, that shows through what is not opaque.
+        lower = _mapped(matrix, first, here)
+        double = (count > 1) & (np.linalg.norm(lower - source, axis=2) > 2 * FINE)
+        drawn += np.where(double[..., None], (1 - drawn[..., 3:]) * _read(self.fine[k], lower), 0)
+        return drawn, hidden, count
+
+
+def _mapped(matrix: Image, ids: Image, at: Image) -> Image:
+    """Places [high-resolution px] by the map of a triangle each, shape [h, w, 2]."""
+    return np.einsum("hwij,hwj->hwi", matrix[ids][..., :2], at) + matrix[ids][..., 2]
+
+
+def _read(picture: Image, places: Image, how: int = cv2.INTER_LINEAR, border: int = cv2.BORDER_CONSTANT) -> Image:
+    """A picture at places [its px], whose first pixel is at (0.5, 0.5); nothing is beyond it."""
+    x, y = (places[..., c].astype(np.float32) - 0.5 for c in (0, 1))
+    return cv2.remap(picture, x, y, how, borderMode=border, borderValue=0)
+
+
+def _strands(vertices: Image, triangles: Image) -> list[Image]:
+    """The triangles of each strand, shape [t, 3]: of all that follow the first one beside an outline between slits."""
+    _, twin, many = np.unique(vertices, axis=0, return_inverse=True, return_counts=True)
+    twin = twin.ravel()
+    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    _, same, times = np.unique(np.sort(twin[sides], axis=1), axis=0, return_inverse=True, return_counts=True)
+    outline = np.flatnonzero(times[same.ravel()] == 1)
+    graph = coo_array((np.ones(len(outline)), tuple(sides[outline].T)), shape=(len(vertices),) * 2)
+    _, piece = connected_components(graph, directed=False)
+    begins = {}
+    for side in outline:
+        begins.setdefault(piece[sides[side, 0]], []).append(side % len(triangles))
+    at_slits = set(piece[many[twin] > 1])
+    starts = sorted(min(each) for name, each in begins.items() if name in at_slits)[1:]
+    return np.split(triangles, starts)
 
 
 def on_canvas(artwork: Artwork, layer: ArtLayer) -> Image:
@@ -200,9 +261,10 @@ def _shrunk(large: Image) -> Image:
     return cv2.resize(large, (large.shape[1] // FINE, large.shape[0] // FINE), interpolation=cv2.INTER_AREA)
 
 
-def _triangles_of(points: Image, triangles: Image, shape: tuple[int, ...]) -> tuple[Image, Image]:
-    """The last triangle at each pixel centre, -1 where there is none, and how many there are."""
-    ids, count = np.full(shape[:2], -1, np.int32), np.zeros(shape[:2], np.uint8)
+def _triangles_of(points: Image, triangles: Image, shape: tuple[int, ...]) -> tuple[Image, Image, Image]:
+    """The last and the first triangle at each pixel centre, -1 where there is none, and how many there are."""
+    last, first = (np.full(shape[:2], -1, np.int32) for _ in range(2))
+    count = np.zeros(shape[:2], np.uint8)
     for number, (a, b, c) in enumerate(points[triangles]):
         low = np.maximum(np.floor(np.min([a, b, c], axis=0)).astype(int), 0)
         high = np.minimum(np.ceil(np.max([a, b, c], axis=0)).astype(int) + 1, (shape[1], shape[0]))
@@ -212,12 +274,13 @@ def _triangles_of(points: Image, triangles: Image, shape: tuple[int, ...]) -> tu
         x, y = np.arange(low[0], high[0]) + 0.5, np.arange(low[1], high[1])[:, None] + 0.5
         v = ((x - a[0]) * (c[1] - a[1]) - (y - a[1]) * (c[0] - a[0])) / area
         w = ((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])) / area
-        within = (v >= 0) & (w >= 0) & (v + w <= 1)
+        within = (v >= -1e-9) & (w >= -1e-9) & (v + w <= 1 + 1e-9)
         part = slice(low[1], high[1]), slice(low[0], high[0])
-        ids[part][within] = number
+        last[part][within] = number
+        first[part][within & (first[part] < 0)] = number
         # An edge that two triangles share is no fold.
         count[part] += (v > 1e-6) & (w > 1e-6) & (v + w < 1 - 1e-6)
-    return ids, count
+    return last, first, count
 
 
 def _nearest(inside: Image) -> tuple[Image, Image]:

@@ -1,0 +1,151 @@
+"""One body's picture, drawn wherever its mesh has moved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from typing import TYPE_CHECKING
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from ...physics.mesh import PixelBox, bounding_box
+from .apron import ApronedMesh
+from .beyond import Beyond
+from .half_pixels import with_half_pixels
+from .places import NOWHERE
+from .sheet_edges import Slits, tiles_of, torn
+from .sheets import Sheets, sheets_at, sheets_in_tiles
+
+if TYPE_CHECKING:
+    from ..artwork import Blend
+
+__all__ = ["Layer"]
+
+FloatArray = NDArray[np.float64]
+FloatImage = NDArray[np.float32]
+
+# Where an edge of a sheet goes through a pixel, that is the mean of so many places across and down.
+_FINE = 3
+_TILE = 4
+# Above this the sheet beneath does not show.
+_OPAQUE = 1 - 0.5 / 255
+
+
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """One body's picture.
+
+    Attributes:
+        mesh: the body's mesh with its apron.
+        canvas: the pixels that the texture covers; may exceed the picture.
+        texture: premultiplied RGB and alpha at rest, float32, shape [canvas height, canvas width, 4]; of a picture with
+            transparency premultiplied RGBA and coverage, 5 channels.
+        blend: how it is laid over what is behind it.
+        beyond: what leads the pixels that the mesh does not reach; None where there are none.
+        fine: whether places between the texture's pixels are read from a finer one, which takes four times the memory.
+    """
+
+    mesh: ApronedMesh
+    canvas: PixelBox
+    texture: FloatImage
+    blend: Blend = "normal"
+    beyond: Beyond | None = None
+    fine: bool = False
+
+    def points(self, vertices: NDArray[np.float32]) -> list[FloatArray]:
+        """Positions of the mesh's vertices and outer corners [px], shape [v + c, 2], and of what is led beyond it."""
+        points = [self.mesh.positions(vertices)]
+        if self.beyond is not None:
+            points.append(self.beyond.positions(vertices - self.mesh.rest[: len(vertices)].astype(np.float32)))
+        return points
+
+    def drawn(self, vertices: NDArray[np.float32], width: int, height: int) -> tuple[PixelBox, FloatImage]:
+        """The layer with its mesh moved.
+
+        Args:
+            vertices: positions of the body's vertices [px], shape [v, 2].
+            width: of the picture [px].
+            height: of the picture [px].
+
+        Returns:
+            The box of the picture that the layer may touch, and the texture's channels there, shape [h, w, 4 or 5].
+        """
+        points = self.points(vertices)
+        box = bounding_box(np.concatenate(points)).clipped(width, height)
+        if not (box.width and box.height):
+            return box, np.zeros((box.height, box.width, self.texture.shape[2]), dtype=np.float32)
+        sheets = self._sheets(points, partial(sheets_at, box=box, canvas=self.canvas))
+        drawn = self._read(sheets)
+        edges = self._slits.open(points[0] - self.mesh.rest, points[0], box) | torn(sheets)
+        tiles = tiles_of(edges, _TILE)
+        if len(tiles):
+            self._smooth(drawn, points, box, tiles, edges)
+        return box, drawn
+
+    def _smooth(
+        self,
+        drawn: FloatImage,
+        points: Sequence[FloatArray],
+        box: PixelBox,
+        tiles: NDArray[np.int64],
+        edges: NDArray[np.bool_],
+    ) -> None:
+        """Draw pixels of tiles of a box as the mean of several places, where an edge of a sheet goes through them."""
+        corners = tiles + (box.left, box.top)
+        find = partial(sheets_in_tiles, tiles=corners, canvas=self.canvas, side=_TILE, scale=_FINE)
+        fine = self._read(self._sheets(points, find))
+        mean = cv2.resize(fine, (_TILE, _TILE * len(tiles)), interpolation=cv2.INTER_AREA)
+        beside = np.arange(_TILE)
+        rows = np.repeat(tiles[:, 1:] + beside, _TILE, axis=1).ravel()
+        columns = np.tile(tiles[:, :1] + beside, (1, _TILE)).ravel()
+        there = np.flatnonzero((rows < box.height) & (columns < box.width))
+        there = there[edges[rows[there], columns[there]]]
+        drawn[rows[there], columns[there]] = mean.reshape(len(rows), -1)[there]
+
+    def _sheets(self, points: Sequence[FloatArray], find: Callable[..., Sheets]) -> Sheets:
+        """The places of the texture that are shown."""
+        sheets = find(points[0], self.mesh.triangles, self.mesh.rest)
+        if self.beyond is None:
+            return sheets
+        free, other = sheets.x <= NOWHERE / 2, find(points[1], self.beyond.triangles, self.beyond.rest)
+        x, y = self.beyond.without_own(other.x, other.y)
+        return replace(sheets, x=np.where(free, x, sheets.x), y=np.where(free, y, sheets.y))
+
+    def _read(self, sheets: Sheets) -> FloatImage:
+        """The texture at places of it, with what shows through of sheets beneath, shape [h, w, c]."""
+        drawn = self._resampled(sheets.x, sheets.y)
+        flat = drawn.reshape(-1, drawn.shape[2])
+        through = 1 - np.clip(flat[sheets.double, -1:], 0, 1)
+        shown = np.flatnonzero(through > 1 - _OPAQUE)
+        if len(shown):
+            beneath = self._resampled(*sheets.beneath[:, shown, None])[:, 0]
+            flat[sheets.double[shown]] += through[shown] * beneath
+        return drawn
+
+    def _resampled(self, x: FloatImage, y: FloatImage) -> FloatImage:
+        """The texture at places of it, shape [h, w, c]."""
+        how = {"borderMode": cv2.BORDER_CONSTANT, "borderValue": 0}
+        if self.fine:
+            texture, border = self._finer
+            x, y = x + border, y + border
+            x *= 2
+            y *= 2
+            return cv2.remap(texture, x, y, cv2.INTER_LINEAR, **how)
+        parts = [cv2.remap(part, x, y, cv2.INTER_CUBIC, **how) for part in self._parts]
+        return parts[0] if len(parts) == 1 else np.dstack(parts)
+
+    @cached_property
+    def _slits(self) -> Slits:
+        return Slits.of(self.mesh.rest, self.mesh.triangles)
+
+    @cached_property
+    def _finer(self) -> tuple[FloatImage, int]:
+        return with_half_pixels(self.texture)
+
+    @cached_property
+    def _parts(self) -> list[FloatImage]:
+        """The texture in the four channels at most that OpenCV resamples at once."""
+        return [np.ascontiguousarray(self.texture[..., k : k + 4]) for k in range(0, self.texture.shape[2], 4)]
