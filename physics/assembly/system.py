@@ -146,8 +146,8 @@ class System:
             number = self.bodies[self.starts[stiffest, 0]]
             raise SimulationError(
                 f"time_step must be at most {named} for body number {number}, beyond which it would swing ever farther;"
-                " or set it to 0 for steps that follow from the mesh, give the body a softer material, or mesh it with a"
-                f" larger spacing. Got: {step:g} s"
+                " or set it to 0 for steps that follow from the mesh, give the body a softer material, or mesh it with"
+                f" a larger spacing. Got: {step:g} s"
             )
 
 
