@@ -9,7 +9,7 @@ import pytest
 from editor_page import EditorPage
 
 WIND = {"kind": "wind", "path": [[300, 420], [1000, 420]], "radius": 400, "speed": 900, "strength": 4}
-HAIR = (677, 228)
+HAIR = (676, 310)
 PIN = {
     "position": [790, 130],
     "region": {"type": "polygon", "points": [[490, 100], [970, 100], [970, 240], [490, 240]]},
@@ -68,6 +68,7 @@ def test_stiffness_is_given_by_sway_by_young_or_by_lame_parameters(editor: Edito
 
 def test_a_click_on_a_body_shows_its_material_first(editor: EditorPage) -> None:
     editor.press("select")
+    editor.ask("(editor.commands.seek(0), true)")
     first = "editor.inspector.root.querySelector('.physanimator-heading').textContent"
     assert editor.ask(first) == "Scene"
     editor.click(*HAIR)
