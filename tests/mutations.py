@@ -166,6 +166,10 @@ _KEYS = [
     "loop",
     "sag",
     "seed",
+    "mu",
+    "lambda",
+    "time_step",
+    "strokes_as",
 ]
 
 _FAR = {"type": "polygon", "points": [[0, 0], [1e6, 1], [1e6, 60]]}

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..physics_options import PhysicsOptions
 
-__all__ = ["add_physics", "physics_of"]
+__all__ = ["STROKES_AS", "add_physics", "physics_of"]
+
+STROKES_AS = ("acceleration", "force", "vertex_force")
+"""Choices of ``Scene.strokes_as``, without the time that it takes to load scenes."""
 
 _VALUES = {
     "mu": ("MU", "Lame parameter mu of the paper, with --lambda, instead of preset stiffness and sway"),
@@ -25,8 +28,6 @@ _VALUES = {
 
 def add_physics(parser: argparse.ArgumentParser) -> None:
     """Options of what parts are made of and of how their motion is computed."""
-    from ...physics.scene import StrokesAs
-
     made = parser.add_argument_group(
         "what parts are made of",
         "One number for all parts or one for each, instead of what --preset and --scene say. Young's modulus E and"
@@ -44,7 +45,7 @@ def add_physics(parser: argparse.ArgumentParser) -> None:
     )
     computed.add_argument(
         "--strokes-as",
-        choices=get_args(StrokesAs),
+        choices=STROKES_AS,
         help="what strengths of strokes and wind are: an acceleration (default), a force on the area, which moves"
         " density 4 a quarter as far, or a force on each vertex, as the paper writes",
     )

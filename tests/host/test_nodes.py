@@ -107,6 +107,26 @@ def test_own_materials_regions_and_paths(host: Any) -> None:
     assert path["motion"]["times"] == [0, 1]
 
 
+def test_lame_parameters_and_the_papers_integrator(host: Any) -> None:
+    material = {"preset": "lame", "preset.mu": 12.0, "preset.lambda": 0.0, "preset.density": 2.0, "preset.damping": 0.0}
+    prompt = ribbon(3) | {
+        "material": ours("Material", **material),
+        "seen": core("PreviewAny", source=["scene", 1]),
+        "frames": core("PreviewImage", images=["render", 0]),
+    }
+    prompt["simulate"]["inputs"] |= {"time_step": 0.001, "strokes_as": "force", "sag": True}
+    prompt["mesh"]["inputs"] |= {"spacing": 40.0, "uniform": True}
+    prompt["body"]["inputs"]["material"] = ["material", 0]
+    outputs = host.run(prompt)
+    document = json.loads(outputs["seen"]["text"][0])
+    found = document["bodies"][0]["material"]
+    assert (found["mu"], found["lambda"], found["density"]) == (12, 0, 2)
+    assert "youngs_modulus" not in found
+    assert len(outputs["frames"]["images"]) == 3
+    prompt["material"]["inputs"]["preset.mu"] = 9000.0
+    assert "time_step must be at most 0.000" in host.error_of(prompt)
+
+
 def test_rig_points_turn_ease_and_fade_out_and_paint_stiffens(host: Any) -> None:
     turned = {
         "region": "circle", "region.radius": 40.0, "motion": "path", "motion.points": "[[480, 90], [500, 90]]",

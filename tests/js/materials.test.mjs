@@ -81,6 +81,8 @@ test("another preset replaces all, and the fields are those of what says how sti
   assert.ok(paths({ preset: "hair" }).includes("sway_frequency"));
   assert.ok(paths({ mu: 1, lambda: 0 }).includes("lambda"));
   assert.ok(!paths({ mu: 1, lambda: 0 }).includes("youngs_modulus"));
+  const steps = materialFields(MATERIALS, { mu: 0.065, lambda: 0 }).filter((field) => ["mu", "lambda"].includes(field.path));
+  assert.deepEqual(steps.map((field) => field.step), [0.001, 0.001]);
 });
 
 test("layers keep their materials by name", () => {

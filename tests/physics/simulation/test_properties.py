@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import numpy as np
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -25,7 +27,7 @@ from physanimator.physics.rig import (
     Swing,
     Wave,
 )
-from physanimator.physics.scene import Body, Collider, Contact, Scene
+from physanimator.physics.scene import Body, Collider, Contact, Scene, StrokesAs
 from physanimator.physics.simulation import simulate
 
 WIDTH, HEIGHT = 96, 72
@@ -58,12 +60,18 @@ def masks(draw: st.DrawFn) -> np.ndarray:
 def materials(draw: st.DrawFn) -> Material:
     if draw(st.booleans()):
         return draw(st.sampled_from(list(PRESETS.values())))
+    if draw(st.booleans()):
+        stiffness = {"mu": 10.0 ** draw(st.floats(-9, 11)), "lambda_": draw(st.one_of(st.just(0.0), wide))}
+    else:
+        stiffness = {
+            "youngs_modulus": 10.0 ** draw(st.floats(-9, 12)),
+            "poisson_ratio": draw(st.floats(0, 0.4999)),
+            "sway_frequency": draw(st.one_of(st.none(), st.floats(0.001, 1000))),
+        }
     return Material(
-        youngs_modulus=10.0 ** draw(st.floats(-9, 12)),
-        poisson_ratio=draw(st.floats(0, 0.4999)),
+        **stiffness,
         density=10.0 ** draw(st.floats(-4, 4)),
         damping=draw(st.one_of(st.just(0.0), wide)),
-        sway_frequency=draw(st.one_of(st.none(), st.floats(0.001, 1000))),
     )
 
 
@@ -155,6 +163,8 @@ def scenes(draw: st.DrawFn) -> Scene | str:
             loop=draw(st.one_of(st.none(), st.none(), st.floats(0.1, 0.6))),
             contact=draw(st.one_of(st.none(), contacts)),
             colliders=tuple(draw(st.lists(colliders, max_size=2))),
+            time_step=draw(st.one_of(st.none(), st.none(), st.floats(1e-5, 1 / 240))),
+            strokes_as=draw(st.sampled_from(get_args(StrokesAs))),
         )
     except InvalidInputError as error:
         return str(error)

@@ -40,6 +40,7 @@ export class Inspector {
    * @param {{radius: number} | null} brush  while a tool paints
    */
   show(document, selection, brush) {
+    this.material.document = document;
     const active = this.root.contains(globalThis.document.activeElement) && globalThis.document.activeElement;
     // The field in which somebody types is left alone: it shows what is typed, not what became of it.
     const typing = active && active.type === "number" && this.subject === this.#subject(document, selection);
@@ -84,8 +85,8 @@ export class Inspector {
   #sceneRows(document) {
     /** @type {Change} */
     const change = (changes, key) => this.listener.change(null, changes, key && `scene.${key}`);
-    const material = this.material.rows(document, this.body);
-    const chosen = this.material.shows(document, this.body);
+    const material = this.material.rows(this.body);
+    const chosen = this.material.shows(this.body);
     return [
       ...(chosen ? material : []),
       this.#heading("Scene"),

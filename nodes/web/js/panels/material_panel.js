@@ -23,16 +23,18 @@ export class MaterialPanel {
     this.materials = null;
     /** @type {Layer[]} */
     this.layers = [];
+    /** As it is now: rows outlast changes while somebody types. @type {SceneDocument} */
+    this.document = {};
     /** Young's moduli that came of sways in the last preview, by body. @type {(number | null)[]} */
     this.moduli = [];
   }
 
   /**
-   * @param {SceneDocument} document
    * @param {{name: string, number: number}} chosen  body, by its name or its number
    * @returns {HTMLElement[]} none before the node has run
    */
-  rows(document, chosen) {
+  rows(chosen) {
+    const { document } = this;
     const targets = targetsOf(document, this.materials, this.layers);
     if (!this.materials || !targets.length) return [];
     const target = targetOf(targets, chosen) ?? targets[0];
@@ -40,7 +42,7 @@ export class MaterialPanel {
     const whole = { preset: "own", ...wholeOf(written, this.materials) };
     const change = (/** @type {[string, any][]} */ changes, /** @type {string} */ key) => {
       const materials = /** @type {Materials} */ (this.materials);
-      const made = withMaterial(document, target, changes, materials, this.layers, this.moduli[target.number]);
+      const made = withMaterial(this.document, target, changes, materials, this.layers, this.moduli[target.number]);
       this.change(made.bodies, key && `${target.label}.${key}`);
     };
     const fields = materialFields(this.materials, written);
@@ -48,12 +50,11 @@ export class MaterialPanel {
   }
 
   /**
-   * @param {SceneDocument} document
    * @param {{name: string, number: number}} chosen
    * @returns {boolean} whether it is a body that moves
    */
-  shows(document, chosen) {
-    return Boolean(targetOf(targetsOf(document, this.materials, this.layers), chosen));
+  shows(chosen) {
+    return Boolean(targetOf(targetsOf(this.document, this.materials, this.layers), chosen));
   }
 
   /**

@@ -81,6 +81,7 @@ export const STYLE = `
 .physanimator-editor input[aria-invalid] { border-color: #f44; }
 .physanimator-inputs input[type="number"] + input[type="number"] { margin-left: 0; }
 .physanimator-field[data-field="gravity"] input, .physanimator-field[data-field="motion.direction"] input { width: 44px; }
+.physanimator-field:is([data-field="mu"], [data-field="lambda"], [data-field="youngs_modulus"]) input { width: 78px; }
 .physanimator-table { display: block; padding: 1px 0; }
 .physanimator-key { display: flex; align-items: center; gap: 4px; margin-top: 2px; }
 .physanimator-keyhead { justify-content: space-between; }

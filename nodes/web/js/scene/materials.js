@@ -223,6 +223,14 @@ const OTHERS = [
   number("root_stiffness", "Root stiffness", "×", { default: 1, min: 1, max: 1000, step: 1, hint: "How many times as stiff it is where it is held as at its tip." }),
 ];
 
+/**
+ * @param {number} modulus
+ * @returns {number} a step of some hundredths of it: materials lie many powers of ten apart
+ */
+function stepOf(modulus) {
+  return 10 ** (Math.floor(Math.log10(modulus)) - 1);
+}
+
 /** Every field of a material, for the tests. */
 export const MATERIAL_FIELDS = [...Object.values(OF_STIFFNESS).flat(), ...OTHERS];
 
@@ -238,7 +246,7 @@ export function materialFields(materials, written) {
   return [
     { path: "preset", title: "Preset", kind: "choice", default: "own", choices: [...own, ...Object.keys(materials.presets)], hint: "What it is made of, with its usual values." },
     { path: "stiffness", title: "Stiffness by", kind: "choice", default: way, choices: STIFFNESS, hint: "How often it sways, Young's modulus and Poisson's ratio, or the Lame parameters mu and lambda." },
-    ...OF_STIFFNESS[way].map((field) => (field.unit === MODULUS ? { ...field, unit: SHOWN } : field)),
+    ...OF_STIFFNESS[way].map((field) => (field.unit === MODULUS ? { ...field, unit: SHOWN, step: stepOf(whole[field.path] || whole.mu) } : field)),
     ...OTHERS,
   ];
 }
