@@ -293,7 +293,7 @@ def _meshed(
 ) -> TriangleMesh:
     with about(name):
         if image is None:
-            fineness = {} if across is None else {"elements_across": across}
+            fineness: dict[str, Any] = {} if across is None else {"elements_across": across}
             return mesh_from_mask(part, spacing=spacing, **fineness)
         return part_mesh(image, part, spacing=spacing)
 

@@ -24,6 +24,7 @@ from ..physics.simulation import loop_frames, simulate
 from .animation import Animation, StageProgress, timed
 from .options import DEFAULT_FRAME_RATE, DEFAULT_FRAMES, AutomaticWind, LayerChoice, Timing, Touching, Watch
 from .parts import OF_STRANDS, about, coverage, coverages, parts_of_artwork, parts_of_picture
+from .physics_options import PhysicsOptions
 from .pictures import as_picture, over
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ Mask = NDArray[Any]
 
 _USUAL_WIND, _USUAL_TIMING, _AS_THE_SCENE_SAYS, _NOBODY = AutomaticWind(), Timing(), Touching(), Watch()
 _BY_THEIR_NAMES = LayerChoice()
+_USUAL_PHYSICS = PhysicsOptions()
 
 
 @working()
@@ -58,6 +60,7 @@ def animate(
     pixel_art: bool = False,
     strands: bool | None = None,
     max_minutes: float = DEFAULT_MINUTES,
+    physics: PhysicsOptions = _USUAL_PHYSICS,
     watch: Watch = _NOBODY,
 ) -> Animation:
     """Set parts of an illustration in motion.
@@ -91,6 +94,7 @@ def animate(
             pixel art, nor where parts touch.
         max_minutes: minutes that the simulation may take, by the estimate for one core of an ordinary machine; what
             would take longer is refused before it begins.
+        physics: what parts are made of and how their motion is computed, where not as presets and the scene say.
         watch: who hears of the work while it is done.
 
     Raises:
@@ -166,6 +170,7 @@ def animate(
             )
             whole = replace(whole, absent=absent)
         whole = replace(whole, still=parts.still) if parts.still else whole
+        whole = physics.applied(whole, sway=sway)
         whole = parts.covered(whole if timing.loop is None else replace(whole, loop=timing.loop))
         timing = _settled(timing, whole)
         whole = _touching(whole, touching.contact, _colliders(touching.colliders, parts.image, parts.layer_mask))

@@ -141,12 +141,13 @@ class System:
         stiffest = int(np.argmax(self.highest))
         limit = 2 / math.sqrt(max(self.highest[stiffest], 1e-300))
         if step > limit:
-            digits = 10 ** (math.floor(math.log10(limit)) - 1)  # two of them, rounded down
+            digits = math.floor(math.log10(limit)) - 1  # two of them, rounded down
+            named = f"{math.floor(limit / 10**digits) * 10**digits:.{max(-digits, 0)}f} s"
+            number = self.bodies[self.starts[stiffest, 0]]
             raise SimulationError(
-                f"time_step must be at most {math.floor(limit / digits) * digits:.2g} s for body number"
-                f" {self.bodies[self.starts[stiffest, 0]]}, beyond which it would swing ever farther; or set it to 0"
-                f" for steps that follow from the mesh, give the body a softer material, or mesh it with a larger"
-                f" spacing. Got: {step:g} s"
+                f"time_step must be at most {named} for body number {number}, beyond which it would swing ever farther;"
+                " or set it to 0 for steps that follow from the mesh, give the body a softer material, or mesh it with"
+                f" a larger spacing. Got: {step:g} s"
             )
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InvalidInputError
-from ..material import Material
+from ..material import Material, with_values
 from ..material import preset as preset_of
 from ..mesh import TriangleMesh
 from ..scene import Scene
@@ -60,7 +60,7 @@ def given_scene(
     if preset is not None:
         materials = materials_of(preset, None, len(meshes))
     if sway is not None:
-        materials = [replace(each, sway_frequency=sway, mu=None, lambda_=None) for each in materials]
+        materials = [with_values(each, sway_frequency=sway) for each in materials]
     bodies = tuple(replace(body, material=each) for body, each in zip(scene.bodies, materials, strict=True))
     return replace(scene, bodies=bodies, frame_rate=scene.frame_rate if frame_rate is None else frame_rate)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .changing import check_together, with_values
 from .elasticity import (
     RestShape,
     deformation_gradients,
@@ -26,6 +27,7 @@ __all__ = [
     "SCALES",
     "Material",
     "RestShape",
+    "check_together",
     "deformation_gradients",
     "elastic_constants",
     "energy",
@@ -45,4 +47,5 @@ __all__ = [
     "semi_implicit_euler",
     "stiffness_matrix",
     "stress",
+    "with_values",
 ]

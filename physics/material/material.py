@@ -200,7 +200,7 @@ class Material:
             " the paper's mu.",
             0.01,
             1_000_000.0,
-            step=10.0,
+            step=0.1,
         ),
     ] = None
     lambda_: Annotated[
@@ -217,7 +217,7 @@ class Material:
             " freely.",
             0.0,
             100_000_000.0,
-            step=10.0,
+            step=0.1,
         ),
     ] = None
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .names import named_as
+from .physics_options import physics_of
 
 if TYPE_CHECKING:
     from ...physics.scene import Contact
@@ -122,6 +123,7 @@ def read_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
         "sway": options.sway,
         "spacing": options.spacing,
         "strands": options.strands,
+        "physics": physics_of(options),
         "touching": Touching(
             _contact(options, scene), [_collider(path, image, width, height) for path in options.collider]
         ),

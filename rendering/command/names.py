@@ -14,12 +14,23 @@ __all__ = ["named_as", "named_by_options", "option_of"]
 _OPTIONS = {
     "every": "--interpolate",
     "frame_rate": "--fps",
+    "damping": "--damping",
+    "density": "--density",
     "image": "IMAGE",
     "in_front": "--in-front",
+    "lambda": "--lambda",
     "max_minutes": "--max-minutes",
+    "mu": "--mu",
+    "poisson_ratio": "--poisson-ratio",
+    "root_stiffness": "--root-stiffness",
+    "stretch_limit": "--stretch-limit",
+    "strokes_as": "--strokes-as",
     "sway_frequency": "--sway",
+    "time_step": "--time-step",
     "wind_angle": "--wind-angle",
+    "wind_response": "--wind-response",
     "wind_strength": "--wind",
+    "youngs_modulus": "--youngs-modulus",
 } | {name: f"--{name}" for name in ("attach", "background", "frames", "loop", "plate", "preset", "skip", "spacing")}
 _OPTIONS |= {"turbulence": "--turbulence", "width": "--width"}
 _LISTS = {"masks": ("mask", "--mask"), "colliders": ("collider", "--collider"), "points": ("points", "--points")}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from ...physics.limits import DEFAULT_MINUTES
+from .physics_options import add_physics
 
 __all__ = ["add_animate", "add_demo", "add_figure", "add_layers", "add_measure"]
 
@@ -197,6 +198,7 @@ def _add_direction(parser: argparse.ArgumentParser) -> None:
         " and ribbon; with --scene, as it says)",
     )
     how.add_argument("--spacing", metavar="PX", type=float, help="distance of mesh vertices (default: from the mask)")
+    add_physics(parser)
 
 
 def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:

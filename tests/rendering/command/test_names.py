@@ -20,10 +20,33 @@ USABLE = {
     "--wind-angle": ("0", "-1", "1e-300"),
     "--turbulence": ("0", "1e-300"),
     "--max-minutes": ("1e-300",),
+    "--mu": ("1e-300",),
+    "--lambda": ("0", "1e-300"),
+    "--youngs-modulus": ("1e-300",),
+    "--poisson-ratio": ("0", "1e-300"),
+    "--density": ("1e-300",),
+    "--damping": ("0", "1e-300"),
+    "--stretch-limit": ("0",),
+    "--wind-response": ("0", "1e-300"),
+    "--time-step": ("0",),
     "--skip": ("0",),
     "--track-static": ("0",),
 }
-FRACTIONS = ("--sway", "--wind", "--wind-angle", "--turbulence", "--spacing", "--loop", "--fps", "--max-minutes")
+LAME = ("--mu", "--lambda")
+MATERIAL = ("--youngs-modulus", "--poisson-ratio", "--density", "--damping", "--stretch-limit", "--wind-response",
+            "--root-stiffness", *LAME)  # fmt: skip
+FRACTIONS = (
+    *MATERIAL,
+    "--time-step",
+    "--sway",
+    "--wind",
+    "--wind-angle",
+    "--turbulence",
+    "--spacing",
+    "--loop",
+    "--fps",
+    "--max-minutes",
+)
 WHOLE = ("--frames", "--skip", "--interpolate", "--width", "--track-points", "--track-static", "--track-frames")
 
 
@@ -62,6 +85,8 @@ def animate(*arguments: str) -> int:
 @pytest.mark.parametrize("option", [*FRACTIONS, *WHOLE])
 def test_numbers_are_refused_by_the_options_name(option: str, capsys: Output) -> None:
     extra = ("--save-tracks", "t.json") if "track" in option else ()
+    if option in LAME:
+        extra = next((other, "1") for other in LAME if other != option)
     for value in NUMBERS:
         if value in USABLE.get(option, ()) or (option == "--interpolate" and value == "1"):
             continue
