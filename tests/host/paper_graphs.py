@@ -70,8 +70,8 @@ def paper_strict() -> tuple[Group, ...]:
 
 def _bodies() -> tuple[Node, ...]:
     cape, hair = (
-        _ELASTIC | {"preset.mu": 5.0, "preset.lambda": 7.0},
-        _ELASTIC | {"preset.mu": 5.0, "preset.lambda": 7.0},
+        _ELASTIC | {"preset.mu": 2.0, "preset.lambda": 3.0},
+        _ELASTIC | {"preset.mu": 2.0, "preset.lambda": 3.0},
     )
     return (
         ours("mesh_cape", "MaskToMesh", 340, "Mask to Mesh: cape", _MESHED, mask="segment.mask"),

@@ -62,11 +62,11 @@ _DOCUMENT = {
     "strokes": [
         {
             "kind": "wind",
-            "path": [[430, 250], [690, 190], [820, 300], [1080, 280]],
+            "path": [[620, 330], [820, 190], [950, 330], [1080, 240]],
             "radius": 220,
             "speed": 700,
-            "strength": 2,
-            "interval": 0.75,
+            "strength": 3,
+            "interval": 0.5,
         }
     ],
     "rig_points": [

@@ -66,7 +66,7 @@ def test_the_stand_in_s_nodes_have_the_inputs_and_outputs_of_the_host_s(host: An
 
         folder_paths.use(tmp_path)
         (ours,) = [kind.GET_NODE_INFO_V1() for kind in core_nodes.NODES if kind.GET_SCHEMA().node_id == name]
-    assert ours["output"] == told["output"]
+    assert told["output"][: len(ours["output"])] == ours["output"]  # newer hosts give more
     assert ours["output_node"] == told["output_node"]
     for group in ("required", "optional"):
         for key, (kind, options) in ours["input"].get(group, {}).items():
