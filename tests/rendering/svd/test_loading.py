@@ -143,7 +143,7 @@ def test_sizes_are_not_trusted(folder: Path, lvcd: Path, tmp_path: Path, part: s
         if name == "down_block_types" or fits or value == usual:
             continue
         file.write_text(json.dumps({**config, name: value}))
-        with pytest.raises(CheckpointError, match="svd.* does not fit"):
+        with pytest.raises(CheckpointError, match=r"svd.* does not fit"):
             load_models(copy, lvcd)
 
 
@@ -152,5 +152,5 @@ def test_documents_that_tell_nothing_are_named(folder: Path, lvcd: Path, tmp_pat
     copy = tmp_path / "svd"
     shutil.copytree(folder, copy)
     (copy / "vae" / "config.json").write_text(text)
-    with pytest.raises(CheckpointError, match="svd does not fit: a config.json"):
+    with pytest.raises(CheckpointError, match=r"svd does not fit: a config.json"):
         load_models(copy, lvcd)
