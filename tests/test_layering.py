@@ -98,7 +98,7 @@ MAY_IMPORT = {
         "physics/scene physics/simulation rendering rendering/composite rendering/pictures rendering/plate"
     ),
     "nodes/models": (
-        "nodes/host physics rendering/composite rendering/inbetweens rendering/networks "
+        "nodes/host physics rendering/composite rendering/inbetweens rendering/networks rendering/neural "
         "rendering/segmentation/sam rendering/sketch/drawings rendering/svd rendering/tooncrafter"
     ),
     "nodes": (
