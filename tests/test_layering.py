@@ -86,7 +86,7 @@ MAY_IMPORT = {
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
         "physics/scene rendering rendering/artwork rendering/composite rendering/figures rendering/files "
         "rendering/inbetweens rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "
-        "rendering/segmentation rendering/svd rendering/tooncrafter"
+        "rendering/segmentation"
     ),
     # nodes: the host
     "nodes/host": (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 import re
+from dataclasses import fields
 from pathlib import Path
 
 import av
@@ -12,7 +13,11 @@ import physanimator.rendering.pipeline
 import pytest
 import random_networks
 from command_status import status
+from physanimator.rendering.command import network_options
+from physanimator.rendering.neural import options
 from physanimator.rendering.pictures import save_image
+from physanimator.rendering.svd import SVDOptions
+from physanimator.rendering.tooncrafter import ToonCrafterOptions
 from random_networks import FORMATS, small_sizes
 
 WIDTH, HEIGHT = 96, 72
@@ -53,6 +58,17 @@ def unsimulated(monkeypatch: pytest.MonkeyPatch) -> None:
         raise AssertionError("simulated")
 
     monkeypatch.setattr(physanimator.rendering.pipeline, "simulate", refuse)
+
+
+def test_the_options_are_those_of_the_library() -> None:
+    """They are written down once more for the help text, which may not cost the import of the networks' rooms."""
+    assert network_options.CHOICES == options.CHOICES
+    assert network_options.DTYPES == options.DTYPES
+    for told, usual in (
+        (network_options.SVD_SETTINGS, SVDOptions()),
+        (network_options.TOONCRAFTER_SETTINGS, ToonCrafterOptions()),
+    ):
+        assert told == ", ".join(f"{each.name}={getattr(usual, each.name)}" for each in fields(usual))
 
 
 def given(files: dict[str, Path], *names: str) -> list[str]:
