@@ -86,7 +86,7 @@ MAY_IMPORT = {
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
         "physics/scene rendering rendering/artwork rendering/composite rendering/figures rendering/files "
         "rendering/inbetweens rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "
-        "rendering/segmentation rendering/svd rendering/tooncrafter"
+        "rendering/segmentation"
     ),
     # nodes: the host
     "nodes/host": (
@@ -98,7 +98,7 @@ MAY_IMPORT = {
         "physics/scene physics/simulation rendering rendering/composite rendering/pictures rendering/plate"
     ),
     "nodes/models": (
-        "nodes/host physics rendering/composite rendering/inbetweens rendering/networks "
+        "nodes/host physics rendering/composite rendering/inbetweens rendering/networks rendering/neural "
         "rendering/segmentation/sam rendering/sketch/drawings rendering/svd rendering/tooncrafter"
     ),
     "nodes": (

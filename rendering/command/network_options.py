@@ -3,12 +3,28 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import fields
 from typing import Any
 
 from .names import option_of
 
-__all__ = ["add_networks"]
+__all__ = ["CHOICES", "DTYPES", "SVD_SETTINGS", "TOONCRAFTER_SETTINGS", "add_networks"]
+
+# As in rendering/neural/options.py and in the settings of the video models, whose rooms cost more than a help text may.
+CHOICES = {
+    "renderer": ("composite", "svd"),
+    "interpolate_with": ("motion", "flow", "blend", "tooncrafter"),
+    "extractor": ("gaussians", "informative"),
+    "segmenter": ("grabcut", "sam"),
+}
+DTYPES = ("auto", "fp32", "fp16", "bf16")
+SVD_SETTINGS = (
+    "steps=25, motion_bucket=160, frames_per_second=6, picture_noise=0.0, overlap=4, area=184320, decoded_together=10,"
+    " seed=0"
+)
+TOONCRAFTER_SETTINGS = (
+    "steps=50, solver=ddim, eta=1.0, guidance=7.5, guidance_rescale=0.7, frame_rate=10, control_scale=0.1, area=163840,"
+    " pairs_together=1, decoded_together=3, seed=0"
+)
 
 _MEMORY = (
     "Weights are files that you have: nothing is downloaded, and nothing in them is run. All of them are opened before"
@@ -26,10 +42,6 @@ def add_networks(parser: argparse.ArgumentParser, *, points: bool, in_betweens: 
         points: it cuts parts out at points.
         in_betweens: it fills frames in.
     """
-    from ..neural import CHOICES
-    from ..neural.options import DTYPES
-    from ..svd import SVDOptions
-
     group = parser.add_argument_group("networks in place of what needs none", _MEMORY)
 
     def choice(name: str, text: str) -> None:
@@ -51,7 +63,7 @@ def add_networks(parser: argparse.ArgumentParser, *, points: bool, in_betweens: 
         "lvcd.ckpt from huggingface.co/luckyhzt/lvcd_pretrained_models, or lvcd-fp16.safetensors from"
         " huggingface.co/Kijai/LVCD-pruned",
     )
-    _add_settings(group, "--svd-options", SVDOptions())
+    _add_settings(group, "--svd-options", SVD_SETTINGS)
     group.add_argument(
         "--still-parts",
         action=argparse.BooleanOptionalAction,
@@ -91,8 +103,6 @@ def add_networks(parser: argparse.ArgumentParser, *, points: bool, in_betweens: 
 
 
 def _add_in_betweens(group: argparse._ArgumentGroup, choice: Any, file: Any) -> None:
-    from ..tooncrafter import ToonCrafterOptions
-
     choice("interpolate_with", "who fills frames in. tooncrafter: a video model, the paper's way")
     file(
         "tooncrafter",
@@ -102,13 +112,12 @@ def _add_in_betweens(group: argparse._ArgumentGroup, choice: Any, file: Any) -> 
     file("sketch_encoder", "ToonCrafter's sketch_encoder.ckpt, with which sketches lead the in-betweens")
     file("image_encoder", "CLIP-ViT-H-14's picture encoder, which the pruned file lacks")
     file("text_encoder", "Stable Diffusion 2.1's text encoder, which the pruned file lacks; needed once")
-    _add_settings(group, "--tooncrafter-options", ToonCrafterOptions())
+    _add_settings(group, "--tooncrafter-options", TOONCRAFTER_SETTINGS)
 
 
-def _add_settings(group: argparse._ArgumentGroup, option: str, usual: Any) -> None:
-    known = ", ".join(f"{each.name}={getattr(usual, each.name)}" for each in fields(usual))
+def _add_settings(group: argparse._ArgumentGroup, option: str, usual: str) -> None:
     group.add_argument(
         option,
         metavar="NAME=VALUE,...",
-        help=f"settings, such as steps=12,seed=7; an area also as 576x320 [px] (default: {known})",
+        help=f"settings, such as steps=12,seed=7; an area also as 576x320 [px] (default: {usual})",
     )

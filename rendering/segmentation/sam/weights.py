@@ -8,6 +8,8 @@ transformers; its sizes are read off its tensors.
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -75,10 +77,12 @@ def _transformers() -> Any:
 def _from_folder(folder: Path, name: str) -> nn.Module:
     if not any(folder.glob("*.safetensors")):
         raise CheckpointError(f"{folder} holds no .safetensors file. Wanted: {_FOLDER_WANTED}")
+    library = _transformers()
     try:
-        network, report = _transformers().AutoModelForMaskGeneration.from_pretrained(
-            folder, local_files_only=True, use_safetensors=True, trust_remote_code=False, output_loading_info=True
-        )
+        with _without_bars(library):
+            network, report = library.AutoModelForMaskGeneration.from_pretrained(
+                folder, local_files_only=True, use_safetensors=True, trust_remote_code=False, output_loading_info=True
+            )
     except Exception as error:  # damaged files and wrong configurations make the library raise nearly anything
         raise CheckpointError(
             f"{folder} cannot be loaded as {FAMILIES[name].title}: a file in it is missing, damaged, not downloaded to"
@@ -91,6 +95,19 @@ def _from_folder(folder: Path, name: str) -> nn.Module:
             f" {min(faults)}. Wanted: {_FOLDER_WANTED}"
         )
     return network
+
+
+@contextmanager
+def _without_bars(library: Any) -> Iterator[None]:
+    """Without bars of the library's own on standard error: whoever loads says what is shown there."""
+    bars = library.utils.logging
+    shown = bars.is_progress_bar_enabled()
+    bars.disable_progress_bar()
+    try:
+        yield
+    finally:
+        if shown:
+            bars.enable_progress_bar()
 
 
 def _from_file(path: Path) -> nn.Module:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 import re
+from dataclasses import fields
 from pathlib import Path
 
 import av
@@ -12,7 +13,11 @@ import physanimator.rendering.pipeline
 import pytest
 import random_networks
 from command_status import status
+from physanimator.rendering.command import network_options
+from physanimator.rendering.neural import options
 from physanimator.rendering.pictures import save_image
+from physanimator.rendering.svd import SVDOptions
+from physanimator.rendering.tooncrafter import ToonCrafterOptions
 from random_networks import FORMATS, small_sizes
 
 WIDTH, HEIGHT = 96, 72
@@ -55,6 +60,17 @@ def unsimulated(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(physanimator.rendering.pipeline, "simulate", refuse)
 
 
+def test_the_options_are_those_of_the_library() -> None:
+    """They are written down once more for the help text, which may not cost the import of the networks' rooms."""
+    assert network_options.CHOICES == options.CHOICES
+    assert network_options.DTYPES == options.DTYPES
+    for told, usual in (
+        (network_options.SVD_SETTINGS, SVDOptions()),
+        (network_options.TOONCRAFTER_SETTINGS, ToonCrafterOptions()),
+    ):
+        assert told == ", ".join(f"{each.name}={getattr(usual, each.name)}" for each in fields(usual))
+
+
 def given(files: dict[str, Path], *names: str) -> list[str]:
     return [word for name in names if name in files for word in (f"--{name.replace('_', '-')}", str(files[name]))]
 
@@ -90,7 +106,9 @@ def test_segment_anything_cuts_at_points(kind: str, files: dict[str, dict[str, P
     told = []
     for segmenter in ([], ["--segmenter", "sam", *given(files[kind], "sam")]):
         assert status(*usual, *segmenter) == 0
-        told.append(re.search(r"part 1: \d+ vertices", capsys.readouterr().err)[0])
+        said = capsys.readouterr().err
+        assert "Loading weights" not in said
+        told.append(re.findall(r"part 1: \d+ vertices", said))
     assert told[0] != told[1]
 
 

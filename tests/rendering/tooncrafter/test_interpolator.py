@@ -71,6 +71,25 @@ def test_one_and_two_frames_need_no_networks(models: ToonCrafterModels) -> None:
         np.testing.assert_array_equal(np.stack(frames), np.stack(given))
 
 
+def test_frames_around_the_keyframes_stay_as_given(models: ToonCrafterModels) -> None:
+    given, reports = pictures(9), []
+    backend = ToonCrafterInterpolator(models, options=ToonCrafterOptions(**{**QUICK, "control_scale": 2.0}))
+    frames = list(
+        interpolate(
+            [given[3], given[6]],
+            [3, 6],
+            backend=backend,
+            sketches=sketches(9),
+            before=given[:3],
+            after=given[7:],
+            progress=lambda *now: reports.append(now),
+        )
+    )
+    assert reports[-1] == (9, 9)
+    same = [bool((drawn == kept).all()) for drawn, kept in zip(frames, given, strict=True)]
+    assert same == [True, True, True, True, False, False, True, True, True]
+
+
 def never(_: Any) -> None:
     raise AssertionError("sampled")
 
