@@ -47,6 +47,7 @@ MAY_IMPORT = {
     "rendering/matting": "physics physics/mesh rendering/pictures",
     "rendering/metrics/learned": "physics rendering/files rendering/networks rendering/pictures",
     "rendering/svd": "physics rendering/networks rendering/pictures",
+    "rendering/inpainting": "physics rendering/files rendering/networks rendering/pictures",
     "rendering/plate": "physics physics/mesh rendering/matting rendering/pictures",
     "rendering/composite": (
         "physics physics/mesh physics/motion rendering/artwork rendering/matting rendering/pictures rendering/plate"
