@@ -28,6 +28,8 @@ from .host import (
 )
 from .host.wires import MaskedMotion, MotionWire
 from .models import find_model_file
+from .models.inpainting import inpainted_frames, refused_inpainting
+from .models.inpainting_inputs import inpainting_inputs
 from .models.svd import missing_svd_files, svd_frames
 from .models.svd_inputs import svd_inputs
 from .models.tooncrafter import missing_tooncrafter_files, tooncrafter_backend
@@ -43,7 +45,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Interpolate", "Render"]
 
-_COMPOSITE, _SVD = "composite", "sketch-guided SVD"
+_COMPOSITE, _SVD, _INPAINTING = "composite", "sketch-guided SVD", "soft inpainting"
 _TOONCRAFTER = "tooncrafter"
 _FRAMES, _ALPHA = 0, 1  # numbers of the outputs
 _IMAGES_ARE = ("all frames", "keyframes")
@@ -57,7 +59,7 @@ class Render(io.ComfyNode):
             display_name="Render",
             category="PhysAnimator/render",
             description="Paints the frames: each body stretched along with its mesh, over the picture without it; or by"
-            " a video model that follows sketches.",
+            " a video model that follows sketches; or with holes painted by an image model.",
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 MotionWire.Input("motion", tooltip="From Simulate; it carries the masks along."),
@@ -66,10 +68,12 @@ class Render(io.ComfyNode):
                     options=[
                         io.DynamicCombo.Option(_COMPOSITE, []),
                         io.DynamicCombo.Option(_SVD, svd_inputs()),
+                        io.DynamicCombo.Option(_INPAINTING, inpainting_inputs()),
                     ],
                     optional=True,
                     tooltip="composite: the illustration's own pixels, without any model."
-                    " sketch-guided SVD: the paper's renderer, for which two model files are needed.",
+                    " sketch-guided SVD: the paper's renderer, for which two model files are needed. soft inpainting:"
+                    " composite, with what the parts have uncovered painted by Stable Diffusion.",
                 ),
                 io.Image.Input(
                     "clean_plate",
@@ -95,7 +99,8 @@ class Render(io.ComfyNode):
         cls, renderer: dict[str, Any] | None = None, background: dict[str, Any] | None = None, **others: Any
     ) -> bool | str:
         # Before the simulation, not after it. The host hands over what a choice brings only if every input is taken.
-        return missing_svd_files(renderer or {}) or refusal(lambda: background_chosen(background))
+        refused = missing_svd_files(renderer or {}) or refused_inpainting(renderer or {})
+        return refused or refusal(lambda: background_chosen(background))
 
     @classmethod
     def fingerprint_inputs(cls, **inputs: Any) -> list[bool]:
@@ -115,12 +120,13 @@ class Render(io.ComfyNode):
     ) -> io.NodeOutput:
         from ..rendering.pictures import over
 
-        behind, by_model = background_chosen(background), renderer is not None and renderer["renderer"] == _SVD
+        name, choice = chosen(renderer, "renderer", (_COMPOSITE, _SVD, _INPAINTING)) if renderer else (_COMPOSITE, {})
+        behind, by_model = background_chosen(background), name != _COMPOSITE
         picture = picture_with_alpha(image, image_alpha)
         plate = None if clean_plate is None else picture_with_alpha(clean_plate, name="clean_plate")
         if by_model:
             transparent = behind.has_alpha or pixel_art
-            require("background", behind.kind, not transparent, "opaque, and pixel_art off, with sketch-guided SVD")
+            require("background", behind.kind, not transparent, f"opaque, and pixel_art off, with {name}")
             picture, plate = over(picture, behind.colour), plate if plate is None else over(plate, behind.colour)
         drawing = drawing_of(motion, picture, plate=plate, pixel_art=pixel_art, in_front=in_front)
         count, (height, width) = len(motion.motion), picture.shape[:2]
@@ -134,7 +140,9 @@ class Render(io.ComfyNode):
         told = all_told(told, told_of_another_picture(cls, motion, picture))
         layers = drawing(motion.motion)
         if by_model and frames is not None:
-            for frame in svd_frames(picture, layers, renderer):
+            by_svd = name == _SVD
+            drawn = svd_frames(picture, layers, choice) if by_svd else inpainted_frames(layers, behind, choice)
+            for frame in drawn:
                 frames.put(frame)
         _compose(layers, behind, None if by_model else frames, alpha)
         both = (("frames", frames), ("alpha", alpha))

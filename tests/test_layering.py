@@ -93,8 +93,8 @@ MAY_IMPORT = {
         "physics/scene physics/simulation rendering rendering/composite rendering/pictures rendering/plate"
     ),
     "nodes/models": (
-        "nodes/host physics rendering/composite rendering/inbetweens rendering/networks "
-        "rendering/segmentation/sam rendering/sketch/drawings rendering/svd rendering/tooncrafter"
+        "nodes/host physics rendering/composite rendering/inbetweens rendering/inpainting rendering/networks "
+        "rendering/pictures rendering/segmentation/sam rendering/sketch/drawings rendering/svd rendering/tooncrafter"
     ),
     "nodes": (
         "nodes/host nodes/models nodes/preview physics physics/document physics/forces physics/material "

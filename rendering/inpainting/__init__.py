@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .change_map import change_map
+from .change_maps import change_map
 from .options import InpaintingOptions
 
 __all__ = [
