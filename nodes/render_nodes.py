@@ -30,6 +30,8 @@ from .host import (
 from .host.running import is_linked
 from .host.wires import MaskedMotion, MotionWire
 from .models import find_model_file
+from .models.inpainting import inpainted_frames, refused_inpainting
+from .models.inpainting_inputs import inpainting_inputs
 from .models.svd import missing_svd_files, svd_frames
 from .models.svd_inputs import svd_inputs
 from .models.tooncrafter import missing_tooncrafter_files, tooncrafter_backend
@@ -45,7 +47,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Interpolate", "Render"]
 
-_COMPOSITE, _SVD = "composite", "sketch-guided SVD"
+_COMPOSITE, _SVD, _INPAINTING = "composite", "sketch-guided SVD", "soft inpainting"
 _TOONCRAFTER = "tooncrafter"
 _FRAMES, _ALPHA, _PLATE = 0, 1, 2  # numbers of the outputs
 _IMAGES_ARE = ("all frames", "keyframes")
@@ -59,7 +61,7 @@ class Render(io.ComfyNode):
             display_name="Render",
             category="PhysAnimator/render",
             description="Paints the frames: each body stretched along with its mesh, over the picture without it; or by"
-            " a video model that follows sketches.",
+            " a video model that follows sketches; or with holes painted by an image model.",
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 MotionWire.Input(
@@ -73,10 +75,12 @@ class Render(io.ComfyNode):
                     options=[
                         io.DynamicCombo.Option(_COMPOSITE, []),
                         io.DynamicCombo.Option(_SVD, svd_inputs()),
+                        io.DynamicCombo.Option(_INPAINTING, inpainting_inputs()),
                     ],
                     optional=True,
                     tooltip="composite: the illustration's own pixels, without any model."
-                    " sketch-guided SVD: the paper's renderer, for which two model files are needed.",
+                    " sketch-guided SVD: the paper's renderer, for which two model files are needed. soft inpainting:"
+                    " composite, with what the parts have uncovered painted by Stable Diffusion.",
                 ),
                 io.Image.Input(
                     "clean_plate",
@@ -106,7 +110,8 @@ class Render(io.ComfyNode):
         checks = [lambda: background_chosen(background)]
         if "motion" not in sent:
             checks.append(lambda: _check_without_motion(renderer, plate="clean_plate" in sent))
-        return missing_svd_files(renderer or {}) or refusal(*checks)
+        refused = missing_svd_files(renderer or {}) or refused_inpainting(renderer or {})
+        return refused or refusal(*checks)
 
     @classmethod
     def fingerprint_inputs(cls, **inputs: Any) -> list[bool]:
@@ -127,12 +132,13 @@ class Render(io.ComfyNode):
     ) -> io.NodeOutput:
         from ..rendering.pictures import over
 
-        behind, by_model = background_chosen(background), renderer is not None and renderer["renderer"] == _SVD
+        name, choice = chosen(renderer, "renderer", (_COMPOSITE, _SVD, _INPAINTING)) if renderer else (_COMPOSITE, {})
+        behind, by_model = background_chosen(background), name != _COMPOSITE
         picture = picture_with_alpha(image, image_alpha)
         plate = None if clean_plate is None else picture_with_alpha(clean_plate, name="clean_plate")
         if by_model:
             transparent = behind.has_alpha or pixel_art
-            require("background", behind.kind, not transparent, "opaque, and pixel_art off, with sketch-guided SVD")
+            require("background", behind.kind, not transparent, f"opaque, and pixel_art off, with {name}")
             picture, plate = over(picture, behind.colour), plate if plate is None else over(plate, behind.colour)
         if motion is None:
             _check_without_motion(renderer, plate=plate is not None)
@@ -148,8 +154,13 @@ class Render(io.ComfyNode):
             told = all_told(told, hint_of_pixel_art(cls, picture))
         told = all_told(told, told_of_another_picture(cls, motion, picture))
         layers = drawing(motion.motion)
-        if renderer is not None and by_model and frames is not None:
-            for frame in svd_frames(picture, _sketches_of(renderer), layers, renderer):
+        if by_model and frames is not None:
+            of_svd = name == _SVD
+            for frame in (
+                svd_frames(picture, _sketches_of(choice), layers, choice)
+                if of_svd
+                else inpainted_frames(layers, behind, choice)
+            ):
                 frames.put(frame)
         _compose(layers, behind, None if by_model else frames, alpha)
         both = (("frames", frames), ("alpha", alpha))
@@ -166,8 +177,9 @@ def _check_without_motion(renderer: dict[str, Any] | None, *, plate: bool) -> No
         plate: a clean plate is connected.
     """
     choice = renderer or {"renderer": _COMPOSITE}
+    name = choice.get("renderer")
     wants = {
-        "for the renderer composite, which moves the picture's own pixels": choice.get("renderer") != _SVD,
+        f"for the renderer {name}, which moves the picture's own pixels": name != _SVD,
         "or keep_still_parts switched off, as it tells which parts are still": choice.get("keep_still_parts"),
         "where alpha is, which shows the moving parts": is_linked(_ALPHA) is True,
         "where the output clean_plate is, or the input clean_plate": is_linked(_PLATE) is True and not plate,

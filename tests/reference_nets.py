@@ -60,6 +60,11 @@ def inputs(case: str) -> dict[str, Tensor]:
     return as_tensors(fixtures().inputs(case))
 
 
+def outputs(case: str) -> dict[str, Tensor]:
+    """What a case must give, and summaries of what is between, by name."""
+    return as_tensors(fixtures().expected(case))
+
+
 def as_tensors(arrays: Mapping[str, np.ndarray]) -> dict[str, Tensor]:
     return {name: torch.from_numpy(np.ascontiguousarray(array)) for name, array in arrays.items()}
 

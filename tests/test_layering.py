@@ -47,6 +47,7 @@ MAY_IMPORT = {
     "rendering/matting": "physics physics/mesh rendering/pictures",
     "rendering/metrics/learned": "physics rendering/files rendering/networks rendering/pictures",
     "rendering/svd": "physics rendering/networks rendering/pictures",
+    "rendering/inpainting": "physics rendering/files rendering/networks rendering/pictures",
     "rendering/plate": "physics physics/mesh rendering/matting rendering/pictures",
     "rendering/composite": (
         "physics physics/mesh physics/motion rendering/artwork rendering/matting rendering/pictures rendering/plate"
@@ -98,8 +99,9 @@ MAY_IMPORT = {
         "physics/scene physics/simulation rendering rendering/composite rendering/pictures rendering/plate"
     ),
     "nodes/models": (
-        "nodes/host physics rendering/composite rendering/inbetweens rendering/networks rendering/neural "
-        "rendering/segmentation/sam rendering/sketch/drawings rendering/svd rendering/tooncrafter"
+        "nodes/host physics rendering/composite rendering/inbetweens rendering/inpainting rendering/networks "
+        "rendering/neural rendering/pictures rendering/segmentation/sam rendering/sketch/drawings rendering/svd "
+        "rendering/tooncrafter"
     ),
     "nodes": (
         "nodes/host nodes/models nodes/preview physics physics/document physics/forces physics/material "

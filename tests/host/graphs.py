@@ -122,6 +122,20 @@ LOOP_NOTE = """\
 The *Rig Point* swings and turns the bow itself; the ribbons follow, overlap and settle.
 """
 
+INPAINT_NOTE = """\
+## What the parts uncover, painted by a model
+
+*Render* moves the hair and the plant, and Stable Diffusion paints what they leave behind: fully in the hole, less and \
+less in a soft edge around it. Everything else is the illustration to the pixel.
+
+**Model files:** the folder *stable-diffusion-inpainting* (unet, vae, text_encoder, tokenizer, scheduler) in \
+`models/diffusers`, from https://huggingface.co/stable-diffusion-v1-5/stable-diffusion-inpainting
+
+**More of the clean plate:** lower *strength*. **More blending:** widen *soft_edge*.
+
+Without the files, set *renderer* to *composite*: holes are then filled with the colours and lines around them.
+"""
+
 EDITOR_NOTE = """\
 ## Draw what moves it
 
@@ -230,6 +244,13 @@ Renderer = tuple[dict[str, Any], dict[str, str]]
 
 _COMPOSITE: Renderer = ({}, {})
 _SKETCH_GUIDED: Renderer = ({"renderer": "sketch-guided SVD"}, {"renderer.sketches": "warp.sketches"})
+_PAINTED = {
+    "renderer": "soft inpainting",
+    "renderer.prompt": "anime illustration, a girl outdoors, blue sky, clean lines, flat colours",
+    "renderer.negative_prompt": "blurry, photographic, text",
+    "renderer.strength": 0.75,
+}
+_INPAINTED: Renderer = (_PAINTED, {})
 
 CAPE_POINTS = """\
 [[680, 540, 1], [640, 480, 1], [700, 590, 1],
@@ -405,6 +426,20 @@ def seamless_loop() -> tuple[Group, ...]:
     )
 
 
+def soft_inpaint() -> tuple[Group, ...]:
+    """The quickstart's wind, with holes painted by Stable Diffusion."""
+    return (
+        _illustration(380, core("note", "MarkdownNote", 420, "Soft inpainting", {"": INPAINT_NOTE})),
+        _bodies(("hair", "hair", "left"), ("plant", "leaf", "auto")),
+        Group(
+            "3 · Physics simulation",
+            ORANGE,
+            (_simulated(420, ours("scene", "AutomaticScene", bodies="body_1.bodies"), {"frames": 24}),),
+        ),
+        _video("soft_inpaint", 520, "render.frames", renderer=_INPAINTED),
+    )
+
+
 def _illustration(width: int, note: Node, *more: Node) -> Group:
     nodes = (note, ours("example", "ExampleIllustration", 370), *more)
     return Group("1 · Illustration and masks", BLUE, (Column(width, nodes),))
@@ -514,6 +549,7 @@ WORKFLOWS = {
     "contact": contact,
     "seamless_loop": seamless_loop,
     "scene_editor": scene_editor,
+    "soft_inpaint": soft_inpaint,
 }
 
 
