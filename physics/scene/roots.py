@@ -74,8 +74,9 @@ def end_in_contact(part: PartRaster) -> BoolArray:
     top = part.inside & (np.arange(len(part.inside))[:, None] <= rows[0] + _TOP * (rows[-1] - rows[0]))
     if not contact.any() or not free.any():
         return _knot(part.inside)
-    if (contact & top).sum() >= _TOUCHING * top.sum():
-        return contact & top
+    for touching in (contact, part.resting):  # an arm in front of the ends of a bow says nothing of its knot
+        if (touching & top).sum() >= _TOUCHING * top.sum():
+            return touching & top
     largest = _largest_patch(contact)
     depth = cv2.distanceTransform((~free).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
     return largest & (depth >= _DEEP * float(depth[largest].max()))

@@ -97,3 +97,14 @@ def test_what_is_found_is_in_the_scene_as_pins_that_can_be_changed(animation: An
     assert {point.body for point in animation.scene.rig_points} == set(range(len(bodies)))
     assert [body.material.root_stiffness > 1 for body in bodies] == [True] * 5
     assert all(3 <= len(point.region.points) < 80 for point in animation.scene.rig_points)
+
+
+def test_a_ribbon_on_a_chest_hangs_from_its_knot_where_an_arm_passes_in_front_of_its_ends() -> None:
+    whole = figure()
+    tie = layer("ribbon", (30, 140, 140), [(190, 170), (210, 170), (215, 330), (185, 330)])
+    arm = layer("腕", (245, 215, 195), [(170, 290), (230, 290), (230, 312), (170, 312)])
+    artwork = Artwork(WIDTH, HEIGHT, (*whole.layers, tie, arm))
+    made = animate(artwork, wind=AutomaticWind(1.5), timing=Timing(frames=12))
+    places, moves = moves_of(made, "ribbon")
+    assert moves[places[:, 1] < 180].max() < 1e-3
+    assert moves[places[:, 1] > 320].min() > 1
