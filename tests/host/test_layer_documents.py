@@ -92,8 +92,7 @@ def test_sixteen_bits_stay(host: Any) -> None:
         (
             [("face", filled((1, 2, 3), 5, 5, 50, 50))],
             {},
-            "type their names into the node's input move, one on each line, or give them on the command line as"
-            ' --move "face"',
+            'give them on the command line as --move "face". Got the layers, from back to front: "face"',
         ),
         (bust(), {"move": "hairr"}, "there must be a layer hairr"),
         (bust(), {"move": "face", "still": "face"}, "layer face must either move or stand still"),

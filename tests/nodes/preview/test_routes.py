@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from physanimator.nodes.preview import FRAME, HEADER, guard, routes, split_records
+from physanimator.nodes.preview import FRAME, HEADER, PreviewBodies, guard, routes, split_records
 from physanimator.nodes.preview.limits import MAX_EDITORS, MAX_REQUEST_BYTES
 from physanimator.nodes.preview.records import END, ERROR
 from physanimator.physics.errors import InvalidInputError
@@ -219,6 +219,58 @@ def test_a_body_that_never_ends_is_given_up(monkeypatch: pytest.MonkeyPatch) -> 
         headers = {"Content-Type": "application/json"}
         answer = await server.client.post("/physanimator/preview", data=parts(), headers=headers)
         assert answer.status == 413
+
+    in_a_server(test)
+
+
+def test_rig_points_of_bodies_that_are_not_there_shift_no_others() -> None:
+    """The document has three; the first is of a body that is missing. A body that says so is held besides."""
+    wave = {"motion": {"type": "wave", "amplitude": 8}, "region": {"type": "circle", "radius": 3}}
+    points = [
+        {"position": [5, 5], "body": 0, **wave},
+        {"position": [22, 22], **wave},
+        {"position": [40, 30], "body": 1, **wave},
+    ]
+    entries = [{"name": "tail"}, {"name": "hair"}, {"name": "cape", "attach": "top"}]
+    scene = {**SCENE, "bodies": entries, "rig_points": points}
+    (body,) = bodies().bodies
+    named = PreviewBodies((replace(body, name="hair"), replace(body, name="cape")))
+
+    async def test(server: Served) -> None:
+        key = server.routes.store.put(named)
+        records = await server.stream(scene=scene, key=key)
+        header = json.loads(records[0][1])
+        assert header["rig_points"] == 3
+        assert header["points"] == [-1, 1, 2]
+
+    in_a_server(test)
+
+
+@pytest.mark.parametrize(
+    ("attach", "top", "bottom"), [("found", 20, 26), ("top", 20, 26), ("bottom", 34, 40), ("none", 0, 0)]
+)
+def test_where_bodies_are_held_is_asked_for(attach: str, top: float, bottom: float) -> None:
+    async def test(server: Served) -> None:
+        answer = await server.client.get(f"/physanimator/holds/{server.key}/{attach}")
+        (entry,) = await answer.json()
+        assert (entry["body"], entry["name"]) == (0, "")
+        if attach == "none":
+            assert entry["points"] == []
+            return
+        (point,) = entry["points"]
+        assert set(point) == {"position", "region"}
+        down = [y for _, y in point["region"]["points"]]
+        assert top - 8 <= min(down) <= max(down) <= bottom + 8
+
+    in_a_server(test)
+
+
+def test_sides_that_are_none_and_bodies_that_are_gone_are_refused() -> None:
+    async def test(server: Served) -> None:
+        answer = await server.client.get(f"/physanimator/holds/{server.key}/sideways")
+        assert answer.status == 422
+        assert "attach must be one of found, none, auto" in (await answer.json())["error"]
+        assert (await server.client.get(f"/physanimator/holds/{'0' * 64}/found")).status == 404
 
     in_a_server(test)
 

@@ -14,6 +14,7 @@ from physanimator.physics.document import (
     dumps,
     given_scene,
     loads,
+    rig_points_kept,
     scene_from_dict,
     scene_over,
     scene_to_dict,
@@ -183,3 +184,13 @@ def test_still_layers_are_kept() -> None:
 
 def test_a_collider_of_a_mask_has_no_name() -> None:
     assert not isinstance(Collider.from_mask(np.pad(np.ones((20, 20), bool), 40)).region, LayerRegion)
+
+
+def test_rig_points_that_are_left_keep_their_numbers() -> None:
+    points = [{"position": [1, 1], "body": 0}, {"position": [2, 2]}, {"position": [3, 3], "body": 1}]
+    size = {"version": 2, "width": 9, "height": 9}
+    document = {**size, "bodies": [{"name": "tail"}, {"name": "hair"}], "rig_points": points}
+    assert rig_points_kept(document, ["hair"]) == [1, 2]
+    assert rig_points_kept(document, ["hair", "tail"]) == [0, 1, 2]
+    assert rig_points_kept(document, ["", ""]) == [0, 1, 2]
+    assert rig_points_kept(size, ["hair"]) == []

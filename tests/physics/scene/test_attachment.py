@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import preset
 from physanimator.physics.mesh import mesh_from_mask
-from physanimator.physics.rig import vertices_of
-from physanimator.physics.scene import Body, automatic_scene
-from physanimator.physics.scene.attachment import pins
+from physanimator.physics.rig import Circle, Polygon, RigPoint, vertices_of
+from physanimator.physics.scene import Body, Scene, automatic_scene, held_where_said, pins
 
 SIZE = (600, 500)
 
@@ -136,3 +137,24 @@ def test_every_part_of_any_shape_is_held_and_moves(seed: int, attach: str) -> No
 def test_only_known_sides_are_taken() -> None:
     with pytest.raises(InvalidInputError, match="attach must be one of auto, top, bottom, left, right"):
         held_of(painted([(200, 100), (240, 100), (240, 500)]), "waist")
+
+
+def test_bodies_that_say_where_are_held_unless_a_rig_point_is_for_them_alone() -> None:
+    mesh = mesh_from_mask(np.pad(np.ones((60, 30)), 20), spacing=6)
+    bodies = tuple(Body(mesh, preset("cloth"), attach=side) for side in ("top", "none", "bottom", "left"))
+    drawn = RigPoint((35.0, 50.0), Circle(5.0)), RigPoint((35.0, 75.0), Circle(5.0), body=2)
+    scene = held_where_said(Scene(bodies, rig_points=drawn))
+    assert scene.rig_points[-2:] == drawn, "what was drawn comes last, so that it leads"
+    assert [point.body for point in scene.rig_points] == [0, 3, None, 2]
+    top = scene.rig_points[0].region
+    assert isinstance(top, Polygon)
+    assert max(y for _, y in top.points) < 32
+    free = Scene(bodies[1:3], rig_points=(replace(drawn[1], body=1),))
+    assert held_where_said(free) is free
+    assert pins(bodies[0], 0, attach="none") == []
+
+
+def test_scenes_of_bodies_that_nothing_holds_can_be_made() -> None:
+    mesh = mesh_from_mask(np.pad(np.ones((60, 30)), 20), spacing=6)
+    scene = automatic_scene([Body(mesh, preset("hair")), Body(mesh, preset("hair"))], attach=["none", "top"])
+    assert {point.body for point in scene.rig_points} == {1}

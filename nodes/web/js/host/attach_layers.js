@@ -17,7 +17,7 @@ import { chain, hide, tell } from "./widgets.js";
 const LOOKS = 500;
 const SHORTEST = 120;
 /** @type {[number, number]} of a new node, at least */
-const SIZE = [400, 560];
+const SIZE = [400, 660];
 const OUTPUT = "physanimator_layers";
 const NOT_YET = "The layers are listed here once this node has run.";
 const NONE = "No layer moves by its name: switch on what is to move, then run.";
@@ -135,6 +135,8 @@ export class NodeLayers {
   #choose(name) {
     this.chosen = name;
     this.look();
+    const layer = this.list.layers.find((one) => one.name === name);
+    if (layer) this.list.reveal(layer);
   }
 
   /**

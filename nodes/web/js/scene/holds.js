@@ -24,7 +24,7 @@ export const SIDES = {
   head: "head",
   crown: "forehead",
   covered: "behind head",
-  end: "where it touches",
+  end: "at its end",
 };
 
 /**
