@@ -8,7 +8,7 @@ from physanimator.physics.mesh import PixelBox, TriangleMesh, cut_along
 from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
 from physanimator.rendering.artwork import ArtLayer, Artwork
-from physanimator.rendering.composite import ApronedMesh, LayeredRenderer
+from physanimator.rendering.composite import ApronedMesh, LayeredRenderer, layer
 from physanimator.rendering.composite.boundary import Boundary
 from physanimator.rendering.composite.sheets import sheets_at, sheets_in_tiles
 
@@ -169,3 +169,30 @@ def test_tiles_show_what_the_picture_shows_there_at_one_place_a_pixel() -> None:
     inside = {(x, y) for left, top in tiles for x in range(left, left + 4) for y in range(top, top + 4)}
     assert there == {(k % SIZE, k // SIZE) for k in whole.double.tolist()} & inside
     assert len(there) > 10
+
+
+def test_many_edges_are_read_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """OpenCV reads so many rows at once; more tiles and pixels than that make the same picture."""
+    pixels = dark()
+    pixels[56:72, 50:58] = 0
+    motion = motion_of(slit_mesh(), -0.5)
+    whole = LayeredRenderer.of_artwork(plain(pixels), [1], motion).frame(1)
+    monkeypatch.setattr(layer, "_AT_ONCE", 3)
+    assert np.array_equal(LayeredRenderer.of_artwork(plain(pixels), [1], motion).frame(1), whole)
+
+
+def test_a_layer_longer_than_a_texture_at_twice_its_size_may_be() -> None:
+    height, wide = 17_000, 24
+    pixels = np.zeros((height, wide, 4), dtype=np.uint8)
+    pixels[8:-8, 8:16] = (*DARK, 255)
+    y = np.arange(8, height - 7, 16)
+    left = np.arange(0, 2 * len(y) - 2, 2)
+    triangles = np.concatenate([left[:, None] + (0, 1, 3), left[:, None] + (0, 3, 2)])
+    mesh = TriangleMesh(np.stack([np.tile([8, 16], len(y)), np.repeat(y, 2)], axis=1), triangles, wide, height)
+    rest = mesh.vertices.astype(np.float32)
+    motion = Motion((Body(mesh),), np.stack([rest, rest + np.float32((4, 0))]), 24.0)
+    paper = ArtLayer("paper", np.full((height, wide, 4), 255, dtype=np.uint8))
+    whole = Artwork(wide, height, (paper, ArtLayer("hair", pixels)))
+    frame = LayeredRenderer.of_artwork(whole, [1], motion).frame(1)
+    assert np.abs(frame[100:-100, 13:19].astype(int) - DARK).max() <= 1
+    assert frame[100:-100, 9:11].min() >= 254
