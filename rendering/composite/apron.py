@@ -44,7 +44,7 @@ class ApronedMesh:
     Attributes:
         rest: positions at rest of the mesh's vertices, then of the apron's outer corners [px], shape [v + c, 2].
         triangles: those of the apron first, so that the mesh's own win where both cover a pixel; of a mesh with slits
-            those of each strand's apron before that strand's, shape [t, 3].
+            those of each strand's apron before that strand's own, shape [t, 3].
         sources: mesh vertices that lead each outer corner, shape [c, 6].
         weights: their weights, of sum 1, shape [c, 6].
     """

@@ -36,6 +36,9 @@ _BYTES = 16
 MAX_FINE_PIXELS = 2**24
 """Up to so many pixels of moving layers, these are held at twice their resolution, which is 1 GiB."""
 
+LONGEST_FINE = 16_000
+"""Layers with longer sides [px] are not, since OpenCV reads from textures of up to 32,766 pixels a side."""
+
 MAX_HELD_GIB = 6
 """Moving layers and what is between them are refused beyond this, as floating-point numbers in memory [GiB]."""
 
@@ -196,7 +199,7 @@ def _moving(artwork: Artwork, index: int, mover: Mover, *, fine: bool) -> Layer:
     texture = texture_over(layer, box)
     covered = triangle_ids(wider.rest, wider.triangles, box) >= 0
     beyond = Beyond.of(mesh, (texture[..., 3] > 0) & ~covered, covered, box)
-    return Layer(wider, box, texture, layer.blend, beyond, fine)
+    return Layer(wider, box, texture, layer.blend, beyond, fine and max(box.width, box.height) <= LONGEST_FINE)
 
 
 def _kept(artwork: Artwork, layer: ArtLayer, mover: Mover) -> PixelBox:

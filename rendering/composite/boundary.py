@@ -23,6 +23,9 @@ _NARROWEST = 1.0
 SHARPEST_MITRE = 2.0
 """A mitred corner lies at most this many apron widths from the boundary, however sharp the boundary turns."""
 
+# Triangles that are at most so many steps from an edge are nearby.
+_NEARBY = 2
+
 # Along the boundary, pixels of edges closer than this many apron widths count as the same strand's.
 _NEAR = 3.0
 
@@ -79,20 +82,18 @@ class Boundary:
         return np.concatenate([np.stack([a, b, outer_b], axis=1), np.stack([a, outer_b, outer_a], axis=1)])
 
     def over(self) -> IndexArray:
-        """For each edge the first triangle of the strand that it is of, 0 where the boundary has no slits, shape [e].
+        """For each edge the triangle before which its quads are drawn, 0 where the boundary has no slits, shape [e].
 
-        A strand's edges are those between two slits. What belongs to the strand lies over all triangles before.
+        A strand's triangles follow one another. Its quads lie over the strands before, and under its own triangles
+        nearby, which they overlap where it is bent.
         """
-        from scipy.sparse import coo_array
-        from scipy.sparse.csgraph import connected_components
-
-        count = len(self.edges)
-        joined = np.setdiff1d(np.arange(count), self.parted)
-        pairs = coo_array((np.ones(len(joined)), (joined, self.next[joined])), shape=(count, count))
-        _, strand = connected_components(pairs, directed=False)
-        first = np.full(count, len(self.mesh.triangles))
-        np.minimum.at(first, strand, self.owner)
-        return np.where(np.isin(self.loop, self.loop[self.parted]), first[strand], 0)
+        triangles = self.mesh.triangles
+        lowest = np.full(len(self.mesh.vertices), len(triangles))
+        for _ in range(_NEARBY):
+            np.minimum.at(
+                lowest, triangles, np.minimum(lowest[triangles].min(axis=1), np.arange(len(triangles)))[:, None]
+            )
+        return np.where(np.isin(self.loop, self.loop[self.parted]), lowest[self.edges].min(axis=1), 0)
 
     def leading(self, outer: FloatArray) -> tuple[IndexArray, FloatArray]:
         """The vertices that each outer corner follows, shape [c, 6], and their weights, of sum 1.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
@@ -30,6 +30,8 @@ FloatImage = NDArray[np.float32]
 # Where an edge of a sheet goes through a pixel, that is the mean of so many places across and down.
 _FINE = 3
 _TILE = 4
+# OpenCV reads at most 32766 rows of places at once, and a tile has twelve.
+_AT_ONCE = 2048
 # Above this the sheet beneath does not show.
 _OPAQUE = 1 - 0.5 / 255
 
@@ -80,8 +82,7 @@ class Layer:
         sheets = self._sheets(points, partial(sheets_at, box=box, canvas=self.canvas))
         drawn = self._read(sheets)
         edges = self._slits.open(points[0] - self.mesh.rest, points[0], box) | torn(sheets)
-        tiles = tiles_of(edges, _TILE)
-        if len(tiles):
+        for tiles in _at_once(tiles_of(edges, _TILE)):
             self._smooth(drawn, points, box, tiles, edges)
         return box, drawn
 
@@ -119,8 +120,7 @@ class Layer:
         drawn = self._resampled(sheets.x, sheets.y)
         flat = drawn.reshape(-1, drawn.shape[2])
         through = 1 - np.clip(flat[sheets.double, -1:], 0, 1)
-        shown = np.flatnonzero(through > 1 - _OPAQUE)
-        if len(shown):
+        for shown in _at_once(np.flatnonzero(through > 1 - _OPAQUE)):
             beneath = self._resampled(*sheets.beneath[:, shown, None])[:, 0]
             flat[sheets.double[shown]] += through[shown] * beneath
         return drawn
@@ -149,3 +149,8 @@ class Layer:
     def _parts(self) -> list[FloatImage]:
         """The texture in the four channels at most that OpenCV resamples at once."""
         return [np.ascontiguousarray(self.texture[..., k : k + 4]) for k in range(0, self.texture.shape[2], 4)]
+
+
+def _at_once(rows: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:
+    """An array in parts of so many rows as can be read at once; none where it is empty."""
+    return (rows[start : start + _AT_ONCE] for start in range(0, len(rows), _AT_ONCE))

@@ -35,8 +35,6 @@ from physanimator.rendering.options import AutomaticWind, Timing
 from physanimator.rendering.parts import arranged, picture_of
 from physanimator.rendering.pictures import over
 from physanimator.rendering.pipeline import animate
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 __all__ = ["TrueArtwork", "score"]
 
@@ -216,19 +214,18 @@ def _read(picture: Image, places: Image, how: int = cv2.INTER_LINEAR, border: in
 
 
 def _strands(vertices: Image, triangles: Image) -> list[Image]:
-    """The triangles of each strand, shape [t, 3]: of all that follow the first one beside an outline between slits."""
-    _, twin, many = np.unique(vertices, axis=0, return_inverse=True, return_counts=True)
-    twin = twin.ravel()
-    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    _, same, times = np.unique(np.sort(twin[sides], axis=1), axis=0, return_inverse=True, return_counts=True)
-    outline = np.flatnonzero(times[same.ravel()] == 1)
-    graph = coo_array((np.ones(len(outline)), tuple(sides[outline].T)), shape=(len(vertices),) * 2)
-    _, piece = connected_components(graph, directed=False)
-    begins = {}
-    for side in outline:
-        begins.setdefault(piece[sides[side, 0]], []).append(side % len(triangles))
-    at_slits = set(piece[many[twin] > 1])
-    starts = sorted(min(each) for name, each in begins.items() if name in at_slits)[1:]
+    """The triangles of each strand, shape [t, 3]: between those on either side of a slit another strand begins."""
+    _, place = np.unique(vertices, axis=0, return_inverse=True)
+    sides: dict[tuple[int, int], list[tuple[int, tuple[int, int]]]] = {}
+    for number, triangle in enumerate(triangles.tolist()):
+        for side in zip(triangle, triangle[1:] + triangle[:1], strict=True):
+            there = tuple(sorted(place.ravel()[list(side)].tolist()))
+            sides.setdefault(there, []).append((number, tuple(sorted(side))))
+    slits = [each for each in sides.values() if len(each) == 2 and each[0][1] != each[1][1]]
+    starts: list[int] = []
+    for last, first in sorted(((one[0], other[0]) for one, other in slits), key=lambda each: each[1]):
+        if not any(last < start <= first for start in starts):
+            starts.append(first)
     return np.split(triangles, starts)
 
 
