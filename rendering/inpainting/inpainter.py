@@ -156,7 +156,7 @@ class SoftInpainter:
         change = change.to(device)
         # A place may change as much as the pixel in it that may change most.
         places = functional.max_pool2d(change, self.models.pixels_per_latent)
-        seen = ()
+        seen: tuple[Tensor, ...] = ()
         if self.models.sees_holes:
             shown = self._encoded(torch.where(change.to(picture) < _HOLE, picture, picture.new_tensor(_GREY)))
             seen = ((places >= _HOLE).to(original), shown)

@@ -434,7 +434,7 @@ def soft_inpaint() -> tuple[Group, ...]:
         Group(
             "3 · Physics simulation",
             ORANGE,
-            (_simulated(420, ours("scene", "AutomaticScene", bodies="body_1.bodies"), {"frames": 24}),),
+            (_simulated(420, ours("scene", "AutomaticScene", bodies="body_1.bodies"), {"frames": 48}),),
         ),
         _video("soft_inpaint", 520, "render.frames", renderer=_INPAINTED),
     )

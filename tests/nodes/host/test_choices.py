@@ -94,7 +94,8 @@ def test_a_choice_that_the_host_has_dropped_is_found_in_the_prompt(sent: dict[st
     values = {"image": object(), "motion": object()}
     check_choices(described, values, None)
     check_choices(described, values, {"image": ["1", 0], "motion": ["2", 0]})
-    with pytest.raises(InvalidInputError, match=r"^renderer must be one of composite, sketch-guided SVD\. Got: "):
+    offered = "composite, sketch-guided SVD, soft inpainting"
+    with pytest.raises(InvalidInputError, match=rf"^renderer must be one of {offered}\. Got: "):
         check_choices(described, values, sent)
 
 
