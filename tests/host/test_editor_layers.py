@@ -152,7 +152,9 @@ def test_layers_are_held_from_the_start_and_their_pins_are_moved_and_put_back(ed
     editor.wait("editor.live.playback.frames.length > 30")
     assert editor.ask("editor.live.measured.largest") < 1, "nothing acts, and all is held"
     editor.press("select")
-    number, (x, y) = min(enumerate(point["position"] for point in found), key=lambda each: each[1][1])
+    bodies = editor.value()["bodies"]
+    number = next(n for n, point in enumerate(found) if bodies[point["body"]]["name"] == "skirt")
+    x, y = found[number]["position"]
     editor.drag((x, y), (x + 30, y))
     assert editor.value()["rig_points"][number]["position"][0] > x + 15
     for number in range(len(found)):

@@ -92,6 +92,24 @@ def test_strands_follow_the_layer_that_has_them() -> None:
     assert [(body.name, body.strands) for body in scene.bodies] == [("ribbon", False), ("hair", True), ("tail", False)]
 
 
+def test_a_scene_says_where_layers_are_held_and_in_which_order_they_lie(tmp_path: Path) -> None:
+    made: dict[str, Any] = {**document(), "strokes": [], "rig_points": [], "order": ["hair", "face"]}
+    made["bodies"] = [{"name": "hair", "attach": "bottom"}, {"name": "tail"}]
+    over = replace(layer("face"), left=PLACES["hair"][0], top=PLACES["hair"][1] + 12)
+    drawn = Artwork(WIDTH, HEIGHT, (layer("paper"), layer("tail"), over, layer("hair")))
+    animation = animate(drawn, timing=Timing(frames=2), spacing=8, scene=made)
+    scene, (frame, *_) = animation.scene, list(animation.frames())
+    assert {scene.bodies[point.body].name for point in scene.rig_points if point.body is not None} == {"hair"}
+    lowest = max(y for point in scene.rig_points for _, y in point.region.points)  # type: ignore[union-attr]
+    assert lowest >= PLACES["hair"][1] + 23
+    assert frame[22, 16].tolist() == over.pixels[0, 0, :3].tolist(), "the face lies over the hair"
+    assert next(iter(animate(drawn, timing=Timing(frames=1), spacing=8).frames()))[22, 16, 0] == 0
+    animation.save_scene(tmp_path / "scene.json")
+    written = json.loads((tmp_path / "scene.json").read_text("utf-8"))
+    assert written["order"] == ["hair", "face"]
+    assert {body["name"]: body.get("attach") for body in written["bodies"]} == {"hair": "bottom", "tail": None}
+
+
 def test_hidden_layers_stay_hidden_whatever_a_scene_says() -> None:
     hidden = replace(artwork(["paper", "hair"]), layers=(layer("paper"), layer("hair"), layer("thing", visible=False)))
     plans = planned_layers(hidden, document={"bodies": [{"name": "thing"}]})
