@@ -7,27 +7,28 @@ animate(picture, [mask], preset="hair").save("girl.mp4")
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
 from ..physics.assembly import work_of_minutes
-from ..physics.document import LayerMasks, arranged_for, check_document, given_scene, materials_of
+from ..physics.document import LayerMasks, check_document
 from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
 from ..physics.process_end import working
-from ..physics.scene import Attachment, Collider, Contact, Scene, automatic_scene, held_where_said
+from ..physics.scene import Attachment, Collider, Contact, Scene, held_where_said
 from ..physics.simulation import simulate
 from .animation import Animation, timed
 from .drawing_checks import check_drawing
+from .flat_pictures import FlatPicture
+from .movement import Movement
 from .neural import NetworkOptions
-from .neural.checking import check_networks, naming_files
-from .options import DEFAULT_FRAME_RATE, AutomaticWind, LayerChoice, Timing, Touching, Watch
-from .parts import OF_STRANDS, Parts, about, coverage, coverages, parts_of_artwork, parts_of_picture
+from .neural.checking import check_networks
+from .options import AutomaticWind, LayerChoice, Timing, Touching, Watch
+from .parts import coverage, parts_of_artwork
 from .physics_options import PhysicsOptions
-from .pictures import as_picture, over
 from .stages import stage_of
 
 if TYPE_CHECKING:
@@ -132,7 +133,8 @@ def animate(
             said = None if isinstance(scene, Scene) else scene
             parts = parts_of_artwork(image, move=layers.move, still=layers.still, spacing=spacing, document=said)
     else:
-        flat = _Flat.of(image, masks, points, plate, in_front, touching)
+        flat = FlatPicture.of(image, masks, points, plate, in_front)
+        _colliders(touching.colliders, flat.image)
         with timed(seconds, "segment"):
             cut = flat.cut(networks, watch)
         with timed(seconds, "mesh"):
@@ -141,7 +143,7 @@ def animate(
         for note in parts.notes:
             watch.on_note(note)
     with timed(seconds, "scene"):
-        how = _Movement(preset, sway, attach, wind, timing, strands, pixel_art)
+        how = Movement(preset, sway, attach, wind, timing, strands, pixel_art)
         parts, whole = how.automatic(parts) if scene is None else how.given(parts, scene)
         whole = replace(whole, still=parts.still) if parts.still else whole
         whole = physics.applied(whole, sway=sway)
@@ -159,157 +161,10 @@ def animate(
     return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds, parts.own, networks)
 
 
-@dataclass(frozen=True, eq=False)
-class _Flat:
-    """A flat picture and what was said of it, in forms that suit each other."""
-
-    image: Image
-    masks: Sequence[Mask]
-    points: Sequence[Any]
-    plate: Image | None
-    front: Mask | None
-
-    @classmethod
-    def of(
-        cls,
-        image: Image,
-        masks: Sequence[Mask] | None,
-        points: Sequence[Any] | None,
-        plate: Image | None,
-        in_front: Mask | None,
-        touching: Touching,
-    ) -> _Flat:
-        picture = as_picture(image, alpha=True)
-        plate = _checked_plate(plate, picture)
-        covered = coverages("masks", () if masks is None else masks, picture)
-        front = None if in_front is None else coverage("in_front", in_front, picture)
-        _colliders(touching.colliders, picture)
-        return cls(picture, covered, points or (), plate, front)
-
-    def cut(self, networks: NetworkOptions, watch: Watch) -> tuple[Mask, ...]:
-        """The masks of all parts; somebody may look at those that were cut from points."""
-        cut = tuple(_segmented(over(self.image), self.points, networks))
-        _check_parts((*self.masks, *cut))
-        if watch.on_cut is not None:
-            watch.on_cut(cut)
-        return (*self.masks, *cut)
-
-    def parts(self, cut: Sequence[Mask], *, spacing: float | None, pixel_art: bool) -> Parts:
-        names = _part_names(len(self.masks), len(cut))
-        return parts_of_picture(
-            self.image, cut, names, spacing=spacing, plate=self.plate, in_front=self.front, pixel_art=pixel_art
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class _Movement:
-    """What was said of how parts move, and whether it moves as pixel art, which has no slits."""
-
-    preset: str | Sequence[str] | None
-    sway: float | None
-    attach: Attachment
-    wind: AutomaticWind
-    timing: Timing
-    strands: bool | None
-    pixel_art: bool
-
-    def automatic(self, parts: Parts) -> tuple[Parts, Scene]:
-        """The parts, slit where that suits them, and the scene where none is given."""
-        suiting = [each or "hair" for each in parts.presets]
-        materials = materials_of(self.preset or suiting, self.sway, len(parts.meshes))
-        sides = parts.attachments if self.attach == "auto" else (self.attach,) * len(parts.meshes)
-        split = _split(self.strands, [each.name in OF_STRANDS for each in materials], self.pixel_art)
-        parts = parts.in_strands(split, sides)
-        rate = self.timing.frame_rate
-        return parts, automatic_scene(
-            parts.bodies(materials, split),
-            attach=sides,
-            frame_rate=DEFAULT_FRAME_RATE if rate is None else rate,
-            wind_strength=self.wind.strength,
-            wind_angle=self.wind.angle,
-            turbulence=self.wind.turbulence,
-            sway_by_size=self.sway is None,
-        )
-
-    def given(self, parts: Parts, scene: Scene | Mapping[str, Any]) -> tuple[Parts, Scene]:
-        """The parts, slit where the scene says so, and the scene with them."""
-        absent: tuple[str, ...] = ()
-        if not isinstance(scene, Scene):
-            scene, absent = arranged_for(scene, parts.names)
-        split = _split(self.strands, _split_by(scene, len(parts.meshes)), self.pixel_art)
-        parts = parts.in_strands(split, parts.attachments)
-        whole = given_scene(
-            scene,
-            list(parts.meshes),
-            names=parts.names,
-            layers=parts.layer_mask,
-            preset=self.preset,
-            sway=self.sway,
-            frame_rate=self.timing.frame_rate,
-        )
-        return parts, replace(whole, absent=absent)
-
-
-def _split(asked: bool | None, suiting: list[bool], pixel_art: bool) -> list[bool]:
-    """Which parts are slit: as asked, or else those that it suits; none in pixel art, through whose blocks slits go."""
-    if asked and pixel_art:
-        raise InvalidInputError("strands must be left out, or off, with pixel_art. Got: both")
-    if pixel_art:
-        return [False] * len(suiting)
-    return suiting if asked is None else [asked] * len(suiting)
-
-
-def _split_by(scene: Scene | Mapping[str, Any], count: int) -> list[bool]:
-    """Which parts a scene, or a checked document, wants slit between their strands."""
-    if isinstance(scene, Scene):
-        said = [body.strands for body in scene.bodies]
-    else:
-        said = [bool(body.get("strands")) for body in scene.get("bodies", [])]
-    return [*said, *[False] * count][:count]
-
-
 def _check_length(timing: Timing, scene: Scene, networks: NetworkOptions) -> None:
     """Refuse a clip of nothing but the illustration where a video model draws it."""
     alone = networks.draws_all and scene.loop is None and timing.frames == 1
     require("frames", timing.frames, not alone, "at least 2 where a video model draws them")
-
-
-def _checked_plate(plate: Image | None, image: Image) -> Image | None:
-    """The plate as an array, which suits the picture: the renderer, which needs it, comes after the simulation."""
-    if plate is None:
-        return None
-    plate = as_picture(plate, name="plate", alpha=True)
-    if plate.shape[:2] != image.shape[:2]:
-        raise InvalidInputError(f"plate must have the picture's size, {image.shape[:2]}. Got: {plate.shape[:2]}")
-    return plate
-
-
-def _segmented(image: Image, points: Sequence[Any], networks: NetworkOptions) -> Iterator[Mask]:
-    if not points:
-        return
-    from ..physics.document import parse_points
-    from .neural.cutting import segmenter_of
-    from .pictures import as_uint8
-    from .segmentation import Prompt, segment
-
-    height, width = image.shape[:2]
-    with naming_files(networks):
-        network = segmenter_of(networks)
-    for each, name in zip(points, _part_names(0, len(points)), strict=True):
-        with about(name):
-            clicked = parse_points(each, width=width, height=height)
-            places, labels = [(p.x, p.y) for p in clicked], [int(p.positive) for p in clicked]
-            if network is None:
-                yield segment(image, places, labels)
-            else:
-                yield network.segment(as_uint8(image), [Prompt(places, labels)])[0][0]
-
-
-def _part_names(masks: int, parts: int) -> list[str]:
-    """What the parts come from, where there are several."""
-    if parts == 1:
-        return [""]
-    return [f"masks[{number}]" if number < masks else f"points[{number - masks}]" for number in range(parts)]
 
 
 def _check_layers_alone(**given: Any) -> None:
@@ -317,11 +172,6 @@ def _check_layers_alone(**given: Any) -> None:
     for name, value in given.items():
         if value is not None and not (isinstance(value, Sequence) and not value):
             raise InvalidInputError(f"{name} must be left out where the picture is in layers. Got: a value")
-
-
-def _check_parts(parts: Sequence[Mask]) -> None:
-    if not parts:
-        raise InvalidInputError("an animation needs at least one mask, or points on a part. Got: neither")
 
 
 def _colliders(given: Sequence[Mask | str], image: Image, layers: LayerMasks | None = None) -> list[Collider]:

@@ -75,7 +75,8 @@ def keyframe_indices(count: int, every: int = DEFAULT_GAP, *, at: Sequence[int] 
     """
     require("count", count, count >= 1, "at least 1 frame")
     require("every", every, every >= 1, "at least 1 frame")
-    require("keyframes", list(at), all(0 <= index < count for index in at), f"frame numbers from 0 to {count - 1}")
+    known = all(isinstance(index, int | np.integer) and 0 <= index < count for index in at)
+    require("keyframes", list(at), known, f"frame numbers from 0 to {count - 1}")
     if at:
         return sorted({*at})
     return sorted({*range(0, count, every), count - 1})

@@ -76,8 +76,9 @@ def psnr(a: NDArray[Any], b: NDArray[Any]) -> float:
 
 def test_keyframes_may_be_listed() -> None:
     assert keyframe_indices(31, at=[12, 5, 12]) == [5, 12]
-    with pytest.raises(InvalidInputError, match="frame numbers from 0 to 30"):
-        keyframe_indices(31, at=[31])
+    for wrong in (31, -1, 1.5):
+        with pytest.raises(InvalidInputError, match="frame numbers from 0 to 30"):
+            keyframe_indices(31, at=[wrong])  # type: ignore[list-item]
 
 
 def test_keyframes_are_every_nth_and_the_last() -> None:
