@@ -18,6 +18,8 @@ alpha, each made regular and matted as the renderer does it:
 
 - "ghost": pixels within ten of the edge where the picture behind the moved sprite is darker than the true background by
   --darker 8-bit steps and as dark as the drawing was there, once with the mask as given and once made regular;
+- "marks": those of them that stand out as much from what is around them as well, more than in the true background:
+  an eye sees these, and not that a whole cloud has been painted darker;
 - "mask": pixels further than one from the edge that the mask has wrong, before and after.
 """
 
@@ -39,6 +41,7 @@ from PIL import Image
 
 MASKS = {"exact": 0, "shrunk": -1, "grown": 1}
 SQUARE = np.ones((3, 3), np.uint8)
+AROUND = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (21, 21))
 
 
 def read(folder: Path) -> tuple[np.ndarray, ...]:
@@ -101,6 +104,11 @@ def behind(image: np.ndarray, mask: np.ndarray) -> np.ndarray:
     return fitting_plate(image, plate, soft_alpha(image, plate, mask, support))
 
 
+def standing_out(lightness: np.ndarray) -> np.ndarray:
+    """How much darker than what is around them pixels are."""
+    return cv2.morphologyEx(lightness, cv2.MORPH_CLOSE, AROUND) - lightness
+
+
 def ghosts(folder: Path, darker: float) -> dict[str, Any]:
     """What stays behind of the sprite's outline, and what masks have wrong, by mask."""
     image, _, alpha, background = read(folder)
@@ -109,11 +117,13 @@ def ghosts(folder: Path, darker: float) -> dict[str, Any]:
     table = {}
     for name, change in mask_variants.VARIANTS.items():
         given = change(alpha)
-        row: dict[str, Any] = {"ghost": [], "mask": []}
+        row: dict[str, Any] = {"ghost": [], "marks": [], "mask": []}
         for mask in (given, regular_mask(image, given)):
             left = behind(image, mask) @ light
-            dark = (left < background @ light - darker / 255) & (np.abs(left - image @ light) < 0.1)
-            row["ghost"].append(int((dark & near).sum()))
+            dark = near & (left < background @ light - darker / 255) & (np.abs(left - image @ light) < 0.1)
+            row["ghost"].append(int(dark.sum()))
+            seen = standing_out(left) - standing_out(background @ light) > darker / 255
+            row["marks"].append(int((dark & seen).sum()))
             row["mask"].append(int((((mask > 0.5) != (alpha > 0.5)) & ~beside).sum()))
         table[name] = row
     return table

@@ -1,0 +1,169 @@
+"""Edges of masks moved to where the picture has a stronger one, and to where they are expected."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from ..pictures import nearest_pixels, window_around
+from .edge_search import found_shape
+from .lost_strands import lost_strands
+from .mask_edges import CROSS, SQUARE, edge_strength, grown, mean_near
+from .mask_forms import MaskEdge, edge_of, from_edge
+
+__all__ = [
+    "LEAST_STEP",
+    "NEARER",
+    "REACH",
+    "WIDEST",
+    "displacement",
+    "expected",
+    "searched",
+    "share_moved",
+    "with_all_strands",
+]
+
+FloatImage = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+REACH = 10.0
+"""The edge may lie this far from the mask's, and as far again as half of a soft transition is wide [px]."""
+
+NEARER = 5.0
+"""The same for a mask whose edge has been moved before [px]."""
+
+WIDEST = 30.0
+"""Transitions wider than this count no more [px]."""
+
+LEAST_STEP = 0.04
+"""An edge that is found elsewhere must differ by this much in colour."""
+
+_HALF = 0.5
+# And be this much stronger than the mask's own.
+_STRONGER = 1.15
+# So far from an edge its strength is not seen [px].
+_APART = 8.0
+# An edge this strong is a clear one; the middle half of these must lie within this range of distances [px].
+_CLEAR = 2 * LEAST_STEP
+_CONSISTENT = 2.5
+# Strands are looked for so many times, and their edges near by.
+_PIECES = 8
+_AROUND_STRANDS = np.ones((11, 11), np.uint8)
+_NARROW = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (9, 9))
+_TOUCHING = np.ones((5, 5), np.uint8)
+_MARGIN = 40
+
+
+def searched(image: FloatImage, mask: FloatImage, edge: MaskEdge, *, reach: float) -> tuple[Mask, Mask]:
+    """The shape with its edge moved where the picture has a stronger one, and where that is.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3], or with opacity as a further channel.
+        mask: soft mask in 0 to 1, shape [h, w].
+        edge: the mask's.
+        reach: how far the edge may lie from the mask's, where that is hard [px].
+    """
+    limit = np.asarray(reach + _HALF * np.minimum(edge.width, WIDEST), dtype=np.float32)
+    shape, likely = found_shape(image, mask, limit)
+    changed = shape != edge.inside
+    agreed = mean_near(np.where(shape, likely, 1 - likely), changed, sigma=3.0)[0]
+    strength = edge_strength(image, shape)
+    given = edge_strength(image, edge.inside)
+    better = strength > np.maximum(_STRONGER * given, LEAST_STEP)
+    better |= _closed(shape & ~edge.inside, shape, given)
+    moved = changed & better & (agreed > _HALF)
+    # Changes as thin as one pixel are left to the matting.
+    thick = cv2.morphologyEx(moved.astype(np.uint8), cv2.MORPH_OPEN, np.ones((2, 2), np.uint8)) > 0
+    moved &= grown(thick, SQUARE)
+    return np.where(moved, shape, edge.inside), moved
+
+
+def displacement(image: FloatImage, shape: Mask, given: Mask) -> tuple[float, float]:
+    """How far outside of a mask's edge the clear edges of a found shape lie.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3], or with opacity as a further channel.
+        shape: what has been found, shape [h, w].
+        given: the mask before, shape [h, w].
+
+    Returns:
+        Median, negative where the mask is too wide, and the range of the middle half [px]; 0 without clear edges.
+    """
+    away = _outside(given)[_clear(image, shape)]
+    if not away.size:
+        return 0.0, 0.0
+    low, middle, high = np.percentile(away, (25, 50, 75))
+    return float(middle), float(high - low)
+
+
+def expected(image: FloatImage, shape: Mask, given: Mask) -> Mask:
+    """A shape that has been found, and where the picture shows no clear edge the mask as it probably was.
+
+    A mask that has been grown or shrunk misses by about the same everywhere. Where it ends within one colour, the
+    picture does not show by how much; the edges that it does show tell. For the arguments see ``displacement``.
+    """
+    middle, spread = displacement(image, shape, given)
+    if spread > _CONSISTENT or abs(middle) < 1:
+        return shape
+    line = shape & grown(~shape, CROSS)
+    unsure = (line & ~_clear(image, shape)).ravel()[nearest_pixels(line)[1]]
+    return np.where(unsure, _outside(given) <= middle, shape)
+
+
+def with_all_strands(image: FloatImage, shape: Mask, given: Mask) -> Mask:
+    """The shape with the strands that the mask has lost, and what nothing else of a picture with opacity holds."""
+    if image.shape[2] > 3:
+        shape = shape | _hanging(image[..., 3], shape)
+    return _with_strands(image, shape, given)
+
+
+def share_moved(moved: Mask, line: Mask) -> float:
+    """How much of an edge moves."""
+    return int((grown(moved, _TOUCHING) & line).sum()) / max(1, int(line.sum()))
+
+
+def _clear(image: FloatImage, shape: Mask) -> Mask:
+    """The outermost pixels of a shape where the picture has a clear edge."""
+    return shape & grown(~shape, CROSS) & (edge_strength(image, shape) > _CLEAR)
+
+
+def _outside(given: Mask) -> FloatImage:
+    """How far outside of a mask's outermost pixels each pixel lies [px], shape [h, w]."""
+    return np.asarray(np.where(given, 1 - from_edge(given), from_edge(given)), dtype=np.float32)
+
+
+def _closed(added: Mask, shape: Mask, strength: FloatImage) -> Mask:
+    """Where an edge of the mask that the picture does not show is gone, as of holes made wider than they are."""
+    count, labels = cv2.connectedComponents(added.astype(np.uint8), connectivity=8)
+    is_open = np.zeros(count, dtype=bool)
+    is_open[labels[added & grown(~shape, SQUARE)]] = True
+    far = ~is_open[labels] | (from_edge(shape) > _APART)
+    return added & far & (strength < LEAST_STEP)
+
+
+def _with_strands(image: FloatImage, shape: Mask, given: Mask) -> Mask:
+    """The shape with the strands that the mask has lost; a strand of several colours is found piece by piece."""
+    for _ in range(_PIECES):
+        strands = lost_strands(image, shape, given)
+        if not strands.any():
+            break
+        near = grown(strands, _AROUND_STRANDS)
+        window = window_around(strands, margin=_MARGIN)
+        start = (shape | strands)[window].astype(np.float32)
+        edged, _ = searched(image[window], start, edge_of(start), reach=REACH)
+        joined = shape | strands
+        joined[window] = np.where(near[window], edged | strands[window], joined[window])
+        shape = joined
+    return shape
+
+
+def _hanging(opacity: FloatImage, shape: Mask) -> Mask:
+    """Narrow pieces of a picture with opacity that nothing but the part holds, as the tips of strands."""
+    rest = (opacity > _HALF) & ~shape
+    count, labels = cv2.connectedComponents(rest.astype(np.uint8), connectivity=8)
+    hanging, wide = np.zeros(count, dtype=bool), cv2.erode(rest.astype(np.uint8), _NARROW) > 0
+    hanging[labels[rest & grown(shape, SQUARE)]] = True
+    hanging[labels[wide]] = False
+    hanging[0] = False
+    return hanging[labels]
