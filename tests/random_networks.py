@@ -15,7 +15,6 @@ from physanimator.rendering.networks.checkpoints import build_without_storage
 from physanimator.rendering.sketch.drawings import InformativeDrawingsConfiguration
 from physanimator.rendering.sketch.drawings.informative_drawings import InformativeDrawings
 from physanimator.rendering.svd import svd_weights
-from physanimator.rendering.tooncrafter import models as tooncrafter_models
 from safetensors.torch import save_file
 
 __all__ = ["FORMATS", "small_sizes", "write"]
@@ -25,19 +24,25 @@ FORMATS = ("folder", "single", "bin")
 
 
 def small_sizes(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let files that do not tell their sizes have those of our small networks instead of the public ones."""
+    """Let a single file of Stable Video Diffusion, which tells no sizes, have those of our small networks."""
     of_svd = svd_weights.ModelSizes
     monkeypatch.setattr(svd_weights, "ModelSizes", lambda *told: of_svd(*told) if told else random_svd.TINY)
-    monkeypatch.setattr(tooncrafter_models, "ModelSizes", lambda: random_tooncrafter.TINY)
 
 
 def write(folder: Path, kind: str) -> dict[str, Path]:
-    """One file or folder for each option that names weights.
+    """One file or folder for each option that names weights, and beside ToonCrafter's their sizes.
 
     Args:
         folder: where to; made.
         kind: one of ``FORMATS``.
     """
+    files = _written(folder, kind)
+    for name in ("tooncrafter", "sketch_encoder"):
+        random_tooncrafter.write_sizes(files[name])
+    return files
+
+
+def _written(folder: Path, kind: str) -> dict[str, Path]:
     folder.mkdir(parents=True, exist_ok=True)
     svd, tooncrafter, lines, sam = _weights()
     if kind == "single":
