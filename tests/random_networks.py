@@ -28,7 +28,7 @@ def small_sizes(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let files that do not tell their sizes have those of our small networks instead of the public ones."""
     of_svd = svd_weights.ModelSizes
     monkeypatch.setattr(svd_weights, "ModelSizes", lambda *told: of_svd(*told) if told else random_svd.TINY)
-    monkeypatch.setattr(tooncrafter_models, "ModelSizes", lambda: random_tooncrafter.TINY)
+    monkeypatch.setattr(tooncrafter_models, "sizes_beside", lambda *files: random_tooncrafter.TINY)
 
 
 def write(folder: Path, kind: str) -> dict[str, Path]:

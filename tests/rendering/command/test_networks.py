@@ -164,7 +164,7 @@ def test_keyframes_may_be_listed_and_frames_around_them_are_drawn() -> None:
         (["--inpainting", "m"], "--inpainting must be left out unless --renderer is inpainting. Got: m"),
         (["--renderer", "inpainting"], "--inpainting must be a folder where --renderer is inpainting. Got: none"),
         (["--renderer", "inpainting", "--inpainting", "no"], "--inpainting: no is no folder. Wanted: the diffusers"),
-        (["--renderer", "inpainting", "--inpainting", "./"], "--inpainting: vae/config.json is missing"),
+        (["--renderer", "inpainting", "--inpainting", "girl.png"], "--inpainting: girl.png is no folder."),
         (["--soft-edge", "3"], "--soft-edge needs --renderer svd or inpainting. Got: without"),
         (["--lines-size", "30"], "--lines-size needs --extractor informative. Got: without"),
         (["--device", "cpu"], "--device needs a network, such as --renderer svd. Got: none"),
