@@ -10,9 +10,14 @@ import numpy as np
 import physanimator.rendering.pipeline
 import pytest
 from command_status import status
+from physanimator.physics.errors import InvalidInputError
+from physanimator.rendering.artwork import ArtLayer, Artwork
 from physanimator.rendering.command.networks import _settings
 from physanimator.rendering.inpainting import InpaintingOptions
+from physanimator.rendering.neural import NetworkOptions
+from physanimator.rendering.options import Timing
 from physanimator.rendering.pictures import load_image, save_image
+from physanimator.rendering.pipeline import animate
 
 WIDTH, HEIGHT, FRAMES = 96, 72, 6
 BAR = np.s_[10:58, 30:54]
@@ -139,6 +144,26 @@ def test_part_of_a_model_that_is_damaged_is_named(model: Path, capsys: Output) -
         told = capsys.readouterr().err
         assert told.count("--inpainting: ") == len(told.splitlines()) == 1
         assert part in told
+
+
+def test_layers_are_refused_and_transparent_pictures_become_opaque(model: Path) -> None:
+    networks = NetworkOptions(
+        renderer="inpainting", inpainting=model, inpainting_options=InpaintingOptions(steps=1, guidance=1), device="cpu"
+    )
+    image = load_image("girl.png")
+    pixels = np.dstack([image, np.full(image.shape[:2], 255, np.uint8)])
+    layers = Artwork(WIDTH, HEIGHT, (ArtLayer("hair", pixels),))
+    with pytest.raises(InvalidInputError, match=r"^image must be flat where renderer is inpainting, .* Got: layers"):
+        animate(layers, networks=networks)
+    pixels[:, :10, 3] = 0
+    mask = np.zeros(image.shape[:2])
+    mask[BAR] = 1
+    animation = animate(pixels, [mask], strands=False, timing=Timing(frames=3, skip=1), networks=networks)
+    drawn = list(animation.frames())
+    assert [frame.shape for frame in drawn] == [(HEIGHT, WIDTH, 3)] * 2
+    assert (drawn[-1][:, :10] == 1).all(), "white is behind a transparent picture"
+    with pytest.raises(InvalidInputError, match="must be opaque"):
+        animation.frames(transparent=True)
 
 
 def test_texts_may_have_commas() -> None:
