@@ -92,9 +92,9 @@ class Animation:
         """
         if text is not None:
             chosen = background_of(text)
-            check_drawing(transparent=chosen.has_alpha, by_model=self.networks.draws_all)
+            check_drawing(transparent=chosen.has_alpha, by_model=self.networks.draws_opaque)
             return chosen
-        held = file_has_alpha and not self.networks.draws_all
+        held = file_has_alpha and not self.networks.draws_opaque
         return usual_background(transparent_picture=is_transparent(self.image), file_has_alpha=held)
 
     def frames(
@@ -111,16 +111,16 @@ class Animation:
         Args:
             transparent: short for the background "transparent".
             every: draw each so many-th frame anew and fill in the others from the known motion, or as ``networks`` say.
-            progress: called after each frame with the stage "render", and with each step of a video model with "svd" or
-                "tooncrafter".
+            progress: called after each frame with the stage "render", and with each step of a model with "svd",
+                "inpainting" or "tooncrafter".
             background: what is there where nothing moves: "picture", "transparent", "parts" or a colour (see
                 :mod:`~physanimator.rendering.composite.background`); None keeps the transparency that the picture has,
-                if it is not drawn by a video model.
+                if it is not drawn by a model.
             keyframes_at: numbers of the frames that are drawn, from 0, instead of each so many-th; frames before the
                 first and after the last of them are drawn as well.
 
         Raises:
-            InvalidInputError: in-betweens, or a video model's frames, and transparency are asked for together, the
+            InvalidInputError: in-betweens, or a model's frames, and transparency are asked for together, the
                 background is unknown, or there is no such frame.
         """
         check_drawing(every=every)
@@ -236,7 +236,7 @@ class Animation:
         """
         check_drawing(every=every)
         name = "transparent" if transparent and background is None else background
-        if name is None and (every > 1 or keyframes_at or self.networks.draws_all or not holds_alpha(path)):
+        if name is None and (every > 1 or keyframes_at or self.networks.draws_opaque or not holds_alpha(path)):
             name = "picture"
         check_output(path, alpha=self.background(name).has_alpha)
         pictures = self.frames(every=every, progress=progress, background=name, keyframes_at=keyframes_at)

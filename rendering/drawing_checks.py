@@ -44,16 +44,16 @@ def check_drawing(
         every: draw each so many-th frame anew and fill in the others.
         pixel_art: pixels are moved whole, and no colours mixed.
         in_betweens: frames are filled in, whatever ``every`` is.
-        by_model: a video model draws the frames.
+        by_model: a model draws the frames, or paints in them.
 
     Raises:
-        InvalidInputError: ``every`` is no number of frames, or in-betweens or a video model are asked for together with
+        InvalidInputError: ``every`` is no number of frames, or in-betweens or a model are asked for together with
             transparency or with pixel art.
     """
     check_count("every", every)
     if by_model and (pixel_art or transparent):
         got = "pixel art" if pixel_art else "transparency"
-        raise InvalidInputError(f"frames that a video model draws must be opaque, and no pixel art. Got: {got}")
+        raise InvalidInputError(f"frames that a model draws must be opaque, and no pixel art. Got: {got}")
     if every == 1 and not in_betweens:
         return
     if pixel_art:

@@ -56,7 +56,7 @@ class FrameDrawing:
     def frames(self, background: Background, progress: StageProgress | None) -> Iterable[Image]:
         """All frames, each drawn anew."""
         if not self.networks.draws_all:
-            return (shown_frame(self.renderer, t, background) for t in self.shown)
+            return self._composed(self.shown, background, progress)
         return self._sketch_guided(self._guides(), background, progress)
 
     def with_in_betweens(
@@ -67,7 +67,7 @@ class FrameDrawing:
         Args:
             at: numbers of the keyframes among the frames that are shown, increasing.
             background: what is there where nothing moves; opaque.
-            progress: called with the steps of video models.
+            progress: called with the steps of models.
         """
         led = self.networks.sketch_encoder is not None
         guides = self._guides() if led or self.networks.draws_all else []
@@ -80,12 +80,36 @@ class FrameDrawing:
     def _kept(
         self, at: Sequence[int], guides: list[Image], background: Background, progress: StageProgress | None
     ) -> Callable[[int], Image]:
-        """What gives each frame that is no in-between; a video model draws all of them at once."""
-        if not self.networks.draws_all:
+        """What gives each frame that is no in-between; a model draws all of them at once."""
+        if not self.networks.draws_opaque:
             return lambda t: shown_frame(self.renderer, self.first + t, background)
-        wanted = {*at, *range(at[0]), *range(at[-1], len(self.shown))}
+        wanted = sorted({*at, *range(at[0]), *range(at[-1], len(self.shown))})
+        if not self.networks.draws_all:
+            painted = self._composed([self.first + t for t in wanted], background, progress)
+            return dict(zip(wanted, painted, strict=True)).__getitem__
         frames = enumerate(self._sketch_guided(guides, background, progress))
         return {t: frame for t, frame in frames if t in wanted}.__getitem__
+
+    def _composed(
+        self, numbers: Sequence[int], background: Background, progress: StageProgress | None
+    ) -> Iterator[Image]:
+        """Frames of the illustration's own pixels, with holes painted where that is chosen."""
+        if not self.networks.draws_opaque:
+            return (shown_frame(self.renderer, t, background) for t in numbers)
+        from .neural.soft_inpainting import changes_of_holes, load_inpainting, painted_frames
+
+        layers: Any = self.renderer
+        models, placement = load_inpainting(self.networks)
+        return painted_frames(
+            models,
+            layers,
+            background,
+            changes_of_holes(layers, grow=self.networks.grow, soft_edge=self.networks.edge_width),
+            options=self.networks.inpainting_options,
+            placement=placement,
+            numbers=numbers,
+            progress=stage_of("inpainting", progress),
+        )
 
     def _between(
         self, keyframes: list[Image], at: Sequence[int], guides: list[Image], progress: StageProgress | None
@@ -135,7 +159,7 @@ class FrameDrawing:
             options=self.networks.svd_options,
             placement=placement,
             alphas=map(self.renderer.alpha, self.shown) if self.networks.still_parts else None,
-            soft_edge=self.networks.soft_edge,
+            soft_edge=self.networks.edge_width,
             progress=stage_of("svd", progress),
         )
         return itertools.islice(frames, 0 if begins_at_rest else 1, None)

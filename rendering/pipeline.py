@@ -123,7 +123,9 @@ def animate(
     work_of_minutes(max_minutes)
     if scene is not None and not isinstance(scene, Scene):
         check_document(scene)
-    check_drawing(pixel_art=pixel_art, by_model=networks.draws_all)
+    check_drawing(pixel_art=pixel_art, by_model=networks.draws_opaque)
+    if networks.renderer == "inpainting":
+        _check_unknown_behind(image, plate)
     if networks.uses_networks:
         with timed(seconds, "check"):
             check_networks(networks)
@@ -165,6 +167,15 @@ def _check_length(timing: Timing, scene: Scene, networks: NetworkOptions) -> Non
     """Refuse a clip of nothing but the illustration where a video model draws it."""
     alone = networks.draws_all and scene.loop is None and timing.frames == 1
     require("frames", timing.frames, not alone, "at least 2 where a video model draws them")
+
+
+def _check_unknown_behind(image: Image | Artwork, plate: Image | None) -> None:
+    """Refuse to paint what parts uncover where somebody has drawn it."""
+    from .artwork import Artwork
+
+    where = "where renderer is inpainting, which paints what is behind the parts"
+    require("plate", "a picture", plate is None, f"left out {where}")
+    require("image", "layers", not isinstance(image, Artwork), f"flat {where}")
 
 
 def _check_layers_alone(**given: Any) -> None:

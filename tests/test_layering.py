@@ -74,8 +74,8 @@ MAY_IMPORT = {
         "physics rendering/files rendering/inbetweens rendering/networks rendering/pictures rendering/svd"
     ),
     "rendering/neural": (
-        "physics rendering/composite rendering/networks rendering/pictures rendering/segmentation/sam rendering/sketch "
-        "rendering/sketch/drawings rendering/svd rendering/tooncrafter"
+        "physics rendering/composite rendering/inpainting rendering/networks rendering/pictures "
+        "rendering/segmentation/sam rendering/sketch rendering/sketch/drawings rendering/svd rendering/tooncrafter"
     ),
     "rendering": (
         "physics physics/assembly physics/document physics/material physics/mesh physics/motion physics/rig "
@@ -100,7 +100,7 @@ MAY_IMPORT = {
     ),
     "nodes/models": (
         "nodes/host physics rendering/composite rendering/inbetweens rendering/inpainting rendering/networks "
-        "rendering/neural rendering/pictures rendering/segmentation/sam rendering/sketch/drawings rendering/svd "
+        "rendering/neural rendering/segmentation/sam rendering/sketch/drawings rendering/svd "
         "rendering/tooncrafter"
     ),
     "nodes": (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError, require
-from ...rendering.composite import Background, shown_frame_and_alpha
-from ...rendering.inpainting import InpaintingOptions, change_map
-from ...rendering.pictures import as_float
+from ...rendering.composite import Background
+from ...rendering.inpainting import InpaintingOptions
+from ...rendering.neural.soft_inpainting import Change, changes_of_holes, painted_frames
 from ..host import dtype_of, host_progress, mask_of, refusal
 from .inpainting_files import inpainting_folder, missing_inpainting_model
 from .inpainting_inputs import INPAINTING_AREAS
@@ -39,7 +39,6 @@ def inpainted_frames(layers: LayeredRenderer, background: Background, choice: di
     """
     from comfy import model_management
 
-    from ...rendering.inpainting.inpainter import SoftInpainter
     from ...rendering.inpainting.models import load_inpainting_models
 
     change = _change(layers, choice)
@@ -50,9 +49,16 @@ def inpainted_frames(layers: LayeredRenderer, background: Background, choice: di
     dtype, options = dtype_of(choice["precision"], device), _options(choice)
     key = folder, _changed(folder), dtype
     networks = kept_networks("soft inpainting", key, lambda: load_inpainting_models(folder, dtype=dtype))
-    inpainter = SoftInpainter(networks.held, options=options, placement=networks.placement(device))
-    drawn = (_with_change(layers, number, background, change) for number in range(len(layers)))
-    return inpainter.frames(drawn, len(layers), progress=host_progress())
+    return painted_frames(
+        networks.held,
+        layers,
+        background,
+        change,
+        options=options,
+        placement=networks.placement(device),
+        numbers=range(len(layers)),
+        progress=host_progress(),
+    )
 
 
 def refused_inpainting(choice: dict[str, Any]) -> str:
@@ -76,7 +82,7 @@ def _options(choice: dict[str, Any]) -> InpaintingOptions:
     return InpaintingOptions(area=INPAINTING_AREAS[choice["working_size"]], seed=choice["noise_from"], **chosen)
 
 
-def _change(layers: LayeredRenderer, choice: dict[str, Any]) -> Callable[[int, FloatImage], FloatImage]:
+def _change(layers: LayeredRenderer, choice: dict[str, Any]) -> Change:
     """How much each pixel may change, by the number and the alpha of a frame."""
     given = choice.get("change")
     if given is None:
@@ -84,21 +90,13 @@ def _change(layers: LayeredRenderer, choice: dict[str, Any]) -> Callable[[int, F
             raise InvalidInputError(
                 "change must be connected where a clean_plate or layers say what is behind the parts. Got: nothing"
             )
-        edges = {name: choice[name] for name in ("grow", "soft_edge")}
-        return lambda _, alpha: change_map(layers.uncovered_by(alpha), np.maximum(alpha, layers.in_front), **edges)
+        return changes_of_holes(layers, grow=choice["grow"], soft_edge=choice["soft_edge"])
     count, frames = given.shape[0] if given.ndim == 3 else 1, len(layers)
     require("change", f"{count} masks", count in (1, frames), f"one mask, or one for each of {frames} frames")
     got, size = mask_of(given, name="change").shape, layers.plate.shape[:2]
     expected = f"of the illustration's size, {size[1]} x {size[0]} px"
     require("change", f"{got[1]} x {got[0]} px", got == size, expected)
     return lambda number, _: mask_of(given, index=number % count, name="change")
-
-
-def _with_change(
-    layers: LayeredRenderer, number: int, background: Background, change: Callable[[int, FloatImage], FloatImage]
-) -> tuple[FloatImage, FloatImage]:
-    frame, alpha = shown_frame_and_alpha(layers, number, background)
-    return as_float(frame), change(number, alpha)
 
 
 def _changed(folder: Path) -> float:

@@ -30,6 +30,7 @@ INPUTS = (
     "video_score",
     "svd",
     "lvcd",
+    "inpainting",
     "tooncrafter",
     "sketch_encoder",
     "image_encoder",

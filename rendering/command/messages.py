@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 __all__ = ["printable_streams", "progress_bars", "say", "show", "warn"]
 
-_OF_STEPS = ("svd", "tooncrafter")
-"""Stages of video models, which advance by steps of sampling."""
+_OF_STEPS = ("svd", "inpainting", "tooncrafter")
+"""Stages of models, which advance by steps of sampling."""
 
 
 @contextmanager

@@ -33,17 +33,17 @@ _OPTIONS = {
     "youngs_modulus": "--youngs-modulus",
 } | {name: f"--{name}" for name in ("attach", "background", "frames", "loop", "plate", "preset", "skip", "spacing")}
 _OPTIONS |= {"turbulence": "--turbulence", "width": "--width"}
-_FILES = ("svd", "lvcd", "tooncrafter", "sketch_encoder", "image_encoder", "text_encoder", "lines", "sam")
+_FILES = ("svd", "lvcd", "inpainting", "tooncrafter", "sketch_encoder", "image_encoder", "text_encoder", "lines", "sam")
 _CHOICES = ("renderer", "interpolate_with", "extractor", "segmenter")
 _OPTIONS |= {
     name: f"--{name.replace('_', '-')}"
-    for name in (*_FILES, *_CHOICES, "device", "dtype", "soft_edge", "lines_size", "keyframes_at")
+    for name in (*_FILES, *_CHOICES, "device", "dtype", "grow", "soft_edge", "lines_size", "keyframes_at")
 }
 _OPTIONS["keyframes"] = "--keyframes-at"
 _LISTS = {"masks": ("mask", "--mask"), "colliders": ("collider", "--collider"), "points": ("points", "--points")}
 
 _ITEM = re.compile(r"(masks|colliders|points)\[(\d+)\](?=:| must)")
-_FILE = re.compile(rf"({'|'.join(_FILES)})(?=: )")
+_FILE = re.compile(rf"({'|'.join(_FILES)}|inpainting_options)(?=: )")
 _HEAD = re.compile(r"(?P<before>|.*?: )(?P<name>[a-z_]+)(?= must )", re.DOTALL)
 _REMEDIES = (
     ("max_minutes", re.compile(r"\bset max_minutes\b"), "set --max-minutes"),

@@ -7,11 +7,11 @@ from typing import Any
 
 from .names import option_of
 
-__all__ = ["CHOICES", "DTYPES", "SVD_SETTINGS", "TOONCRAFTER_SETTINGS", "add_networks"]
+__all__ = ["CHOICES", "DTYPES", "INPAINTING_SETTINGS", "SVD_SETTINGS", "TOONCRAFTER_SETTINGS", "add_networks"]
 
-# As in rendering/neural/options.py and in the settings of the video models, whose rooms cost more than a help text may.
+# As in rendering/neural/options.py and in the settings of the models, whose rooms cost more than a help text may.
 CHOICES = {
-    "renderer": ("composite", "svd"),
+    "renderer": ("composite", "svd", "inpainting"),
     "interpolate_with": ("motion", "flow", "blend", "tooncrafter"),
     "extractor": ("gaussians", "informative"),
     "segmenter": ("grabcut", "sam"),
@@ -20,6 +20,9 @@ DTYPES = ("auto", "fp32", "fp16", "bf16")
 SVD_SETTINGS = (
     "steps=25, motion_bucket=160, frames_per_second=6, picture_noise=0.0, overlap=4, area=184320, decoded_together=10,"
     " seed=0"
+)
+INPAINTING_SETTINGS = (
+    "prompt=, negative_prompt=, steps=25, strength=1.0, guidance=7.5, seed=0, shared_noise=True, area=None"
 )
 TOONCRAFTER_SETTINGS = (
     "steps=50, solver=ddim, eta=1.0, guidance=7.5, guidance_rescale=0.7, frame_rate=10, control_scale=0.1, area=163840,"
@@ -51,7 +54,9 @@ def add_networks(parser: argparse.ArgumentParser, *, points: bool, in_betweens: 
         group.add_argument(option_of(name), metavar="FILE", help=text)
 
     choice(
-        "renderer", "who draws frames. svd: sketch-guided Stable Video Diffusion, the paper's way, on opaque pictures"
+        "renderer",
+        "who draws frames. svd: sketch-guided Stable Video Diffusion, the paper's way, on opaque pictures; inpainting:"
+        " composite, with what the parts have uncovered painted by Stable Diffusion, on opaque flat pictures",
     )
     file(
         "svd",
@@ -71,8 +76,13 @@ def add_networks(parser: argparse.ArgumentParser, *, points: bool, in_betweens: 
         " (default: yes)",
     )
     group.add_argument(
-        "--soft-edge", metavar="PX", type=float, help="width of the transition to still parts (default: 24)"
+        "--soft-edge",
+        metavar="PX",
+        type=float,
+        help="width of the transition to still parts with svd (default: 24), around holes with inpainting (default:"
+        " 16)",
     )
+    _add_inpainting(group)
     if in_betweens:
         _add_in_betweens(group, choice, file)
     choice("extractor", "who draws the lines of sketches. informative: a network that draws them")
@@ -102,6 +112,28 @@ def add_networks(parser: argparse.ArgumentParser, *, points: bool, in_betweens: 
     )
 
 
+def _add_inpainting(group: argparse._ArgumentGroup) -> None:
+    group.add_argument(
+        "--inpainting",
+        metavar="FOLDER",
+        help="Stable Diffusion 1 or 2 in diffusers' format, best one for inpainting, such as"
+        " huggingface.co/stable-diffusion-v1-5/stable-diffusion-inpainting; needs the package transformers",
+    )
+    _add_settings(
+        group,
+        "--inpainting-options",
+        INPAINTING_SETTINGS,
+        "; a prompt may have commas; less strength keeps holes closer to what composite shows there; without an area,"
+        " that of the picture",
+    )
+    group.add_argument(
+        "--grow",
+        metavar="PX",
+        type=float,
+        help="with inpainting: how far holes reach beyond what parts have uncovered (default: 4)",
+    )
+
+
 def _add_in_betweens(group: argparse._ArgumentGroup, choice: Any, file: Any) -> None:
     choice("interpolate_with", "who fills frames in. tooncrafter: a video model, the paper's way")
     file(
@@ -115,9 +147,9 @@ def _add_in_betweens(group: argparse._ArgumentGroup, choice: Any, file: Any) -> 
     _add_settings(group, "--tooncrafter-options", TOONCRAFTER_SETTINGS)
 
 
-def _add_settings(group: argparse._ArgumentGroup, option: str, usual: str) -> None:
+def _add_settings(group: argparse._ArgumentGroup, option: str, usual: str, more: str = "") -> None:
     group.add_argument(
         option,
         metavar="NAME=VALUE,...",
-        help=f"settings, such as steps=12,seed=7; an area also as 576x320 [px] (default: {usual})",
+        help=f"settings, such as steps=12,seed=7; an area also as 576x320 [px]{more} (default: {usual})",
     )

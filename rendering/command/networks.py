@@ -17,6 +17,8 @@ __all__ = ["check_keyframes", "check_networks_used", "keyframes_of", "networks_o
 
 Settings = TypeVar("Settings")
 
+_YES_OR_NO = {"true": True, "yes": True, "false": False, "no": False}
+
 
 def networks_of(options: argparse.Namespace) -> NetworkOptions:
     """The networks that a command is told to use.
@@ -28,7 +30,7 @@ def networks_of(options: argparse.Namespace) -> NetworkOptions:
 
     given = {each.name: getattr(options, each.name, None) for each in fields(NetworkOptions)}
     told = {name: value for name, value in given.items() if value is not None}
-    for name in ("svd_options", "tooncrafter_options"):
+    for name in ("svd_options", "inpainting_options", "tooncrafter_options"):
         if name in told:
             with named_as(option_of(name)):
                 told[name] = _settings(getattr(NetworkOptions(), name), told[name])
@@ -36,23 +38,41 @@ def networks_of(options: argparse.Namespace) -> NetworkOptions:
 
 
 def _settings(usual: Settings, text: str) -> Settings:
-    """Settings with some of their values said as ``NAME=VALUE,...``."""
+    """Settings with some of their values said as ``NAME=VALUE,...``, of which texts may have commas."""
     from ...physics.errors import InvalidInputError
 
-    said: dict[str, Any] = {}
-    known = {each.name: type(getattr(usual, each.name)) for each in fields(usual)}  # type: ignore[arg-type]
+    known = {each.name: getattr(usual, each.name) for each in fields(usual)}  # type: ignore[arg-type]
+    texts: dict[str, str] = {}
+    last = ""
     for part in text.split(","):
         name, equals, value = (each.strip() for each in part.partition("="))
+        if not equals and isinstance(known.get(last), str):
+            texts[last] += f",{part}"
+            continue
         if not equals or name not in known:
             raise InvalidInputError(f"settings must be NAME=VALUE with {', '.join(known)}. Got: {part[:60]!r}")
-        if name in said:
+        if name in texts:
             raise InvalidInputError(f"settings must each be given once. Got: {name} twice")
-        try:
-            said[name] = _area(value) if name == "area" else known[name](value)
-        except (ValueError, OverflowError):
-            kind = "a whole number" if known[name] is int else "a number"
-            raise InvalidInputError(f"{name} must be {kind}. Got: {value[:60]!r}") from None
-    return replace(usual, **said)  # type: ignore[type-var]
+        texts[name], last = value, name
+    return replace(usual, **{name: _value(name, known[name], said) for name, said in texts.items()})  # type: ignore[type-var]
+
+
+def _value(name: str, usual: Any, text: str) -> Any:
+    """The value of a setting, of the kind that the usual one is."""
+    from ...physics.errors import InvalidInputError
+
+    text = text.strip()
+    if isinstance(usual, bool):
+        if text.lower() not in _YES_OR_NO:
+            raise InvalidInputError(f"{name} must be yes or no. Got: {text[:60]!r}")
+        return _YES_OR_NO[text.lower()]
+    if usual is None and text.lower() == "none":
+        return None
+    try:
+        return _area(text) if name == "area" else type(usual)(text)
+    except (ValueError, OverflowError):
+        kind = "a number" if isinstance(usual, float) else "a whole number"
+        raise InvalidInputError(f"{name} must be {kind}. Got: {text[:60]!r}") from None
 
 
 def _area(text: str) -> int:
@@ -89,12 +109,15 @@ def check_networks_used(options: argparse.Namespace) -> None:
     for name, choice, kind in (
         ("svd_options", "renderer", "svd"),
         ("still_parts", "renderer", "svd"),
-        ("soft_edge", "renderer", "svd"),
+        ("inpainting_options", "renderer", "inpainting"),
+        ("grow", "renderer", "inpainting"),
         ("tooncrafter_options", "interpolate_with", "tooncrafter"),
         ("lines_size", "extractor", "informative"),
     ):
         if getattr(options, name, None) is not None and getattr(options, choice) != kind:
             raise InvalidInputError(f"{option_of(name)} needs {option_of(choice)} {kind}. Got: without")
+    if options.soft_edge is not None and not networks.draws_opaque:
+        raise InvalidInputError("--soft-edge needs --renderer svd or inpainting. Got: without")
     for name in ("device", "dtype"):
         if getattr(options, name) is not None and not networks.uses_networks:
             raise InvalidInputError(f"{option_of(name)} needs a network, such as --renderer svd. Got: none")

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..animation import Animation
     from ..stages import StageProgress
 
-__all__ = ["background_for", "check_layers", "check_outputs", "check_sizes", "draws_all", "report", "write_outputs"]
+__all__ = ["background_for", "check_layers", "check_outputs", "check_sizes", "draws_opaque", "report", "write_outputs"]
 
 _TRACKED = ("--track-points", "--track-static", "--track-frames")
 _TEXTS = {"save_tracks": ".json", "save_motion": ".json", "save_svg": ".svg", "save_scene": ".json"}
@@ -48,7 +48,7 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
 
     check_apart(options, bundled=bundled)
     # Frames in .webm have an alpha channel whatever the illustration is, unless something else is said.
-    by_model = draws_all(options)
+    by_model = draws_opaque(options)
     usual = Background("parts" if suffix_of(options.output) == ".webm" and not by_model else "picture")
     said = background_of(options.background) if options.background and not in_layers(options) else usual
     if in_layers(options) and not is_folder_name(options.output):
@@ -78,9 +78,9 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
             check_track_options(**{name: number})
 
 
-def draws_all(options: argparse.Namespace) -> bool:
-    """Whether a video model draws whole opaque frames."""
-    return getattr(options, "renderer", None) == "svd"
+def draws_opaque(options: argparse.Namespace) -> bool:
+    """Whether a model draws frames, or paints in them: they are opaque then."""
+    return getattr(options, "renderer", None) not in (None, "composite")
 
 
 def in_layers(options: argparse.Namespace) -> bool:
@@ -240,7 +240,7 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
         return "transparent"
     if options.background is not None:
         return str(options.background)
-    if draws_all(options):
+    if draws_opaque(options):
         return "picture"
     usual = usual_background(
         transparent_picture=is_transparent(image),

@@ -76,9 +76,7 @@ class SoftInpainter:
         Raises:
             InvalidInputError: there are too many steps; or, in its turn, a change map does not fit its frame.
         """
-        options = self.options
-        most = self.models.schedule.get("num_train_timesteps", 1000)
-        require("steps", options.steps, options.steps <= most, f"{most} or less with this model")
+        self.models.check_steps(self.options.steps)
         return self._frames(frames, count, progress)
 
     def _frames(
@@ -102,11 +100,10 @@ class SoftInpainter:
                     generator.manual_seed(options.seed)
                 context = self._context() if context is None else context
                 place = _working_frame(picture, options.area, self.models.pixels_per_latent)
-                yield self._painted(picture, change, place, context, generator, report)
-            else:
-                yield picture
+                picture = self._painted(picture, change, place, context, generator, report)
             done += options.steps_done
             report(0)
+            yield picture
 
     def _context(self) -> Tensor:
         """The prompts, shape [1 or 2, tokens, channels]: the negative one first, where guidance needs it."""

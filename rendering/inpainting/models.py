@@ -17,9 +17,10 @@ import torch
 from diffusers import AutoencoderKL, DDIMScheduler, UNet2DConditionModel
 from torch import Tensor, nn
 
-from ...physics.errors import InvalidInputError
+from ...physics.errors import InvalidInputError, require
 from ..files import check_regular
 from ..networks.checkpoints import CheckpointError, network_of, read_checkpoint
+from ..networks.library_bars import without_bars
 
 __all__ = ["WANTED_INPAINTING", "InpaintingModels", "load_inpainting_models"]
 
@@ -71,6 +72,15 @@ class InpaintingModels:
         """A new one."""
         return DDIMScheduler.from_config(dict(self.schedule))
 
+    def check_steps(self, steps: int) -> None:
+        """Refuse more steps than the model was trained with.
+
+        Raises:
+            InvalidInputError: there are more.
+        """
+        most = self.schedule.get("num_train_timesteps", 1000)
+        require("steps", steps, steps <= most, f"{most} or less with this model")
+
     @torch.no_grad()
     def embedded(self, prompt: str) -> Tensor:
         """A prompt as the UNet takes it, shape [1, tokens, channels]; what is too long is cut off."""
@@ -82,12 +92,12 @@ class InpaintingModels:
         return embedding
 
 
-def load_inpainting_models(folder: Path, *, dtype: torch.dtype = torch.float32) -> InpaintingModels:
+def load_inpainting_models(folder: Path, *, dtype: torch.dtype | None = torch.float32) -> InpaintingModels:
     """Load all networks.
 
     Args:
         folder: of a diffusers pipeline.
-        dtype: in which the UNet computes.
+        dtype: in which the UNet computes; None for that of its file.
 
     Raises:
         CheckpointError: something is missing, damaged or made for something else; it tells what, and what is wanted.
@@ -117,7 +127,7 @@ def _check_fit(folder: Path, unet: Any, autoencoder: Any, text_encoder: Any) -> 
         raise CheckpointError(f"{folder} holds another kind of model. Wanted: {WANTED_INPAINTING}")
 
 
-def _part(folder: Path, kind: Any, dtype: torch.dtype) -> Any:
+def _part(folder: Path, kind: Any, dtype: torch.dtype | None) -> Any:
     config = _document(folder / "config.json")
     channels, layers = config.get("block_out_channels"), config.get("layers_per_block", 1)
     layers = layers if isinstance(layers, list) else [layers]
@@ -131,7 +141,8 @@ def _part(folder: Path, kind: Any, dtype: torch.dtype) -> Any:
     )
     if not plausible:
         raise CheckpointError(f"{folder / 'config.json'} tells no sizes of a network. Wanted: {WANTED_INPAINTING}")
-    tensors = {_name(name): _shaped(name, tensor).to(dtype) for name, tensor in _weights(folder).items()}
+    found = {_name(name): _shaped(name, tensor) for name, tensor in _weights(folder).items()}
+    tensors = {name: tensor.to(dtype or tensor.dtype) for name, tensor in found.items()}
 
     def build() -> Any:
         return _built(folder, lambda: kind.from_config(config))
@@ -193,19 +204,22 @@ def _document(file: Path) -> dict[str, Any]:
 def _text_encoder(folder: Path) -> tuple[Any, Any]:
     """Text encoder and tokenizer, without a look at what their documents say of code."""
     try:
+        import transformers
         from transformers import CLIPTextModel, CLIPTokenizer
     except ImportError as error:
         raise CheckpointError("The package transformers is missing: pip install 'transformers>=4.56'.") from error
     _document(folder / "text_encoder" / "config.json")
     only = {"local_files_only": True, "trust_remote_code": False}
     try:
-        network, report = CLIPTextModel.from_pretrained(
-            folder / "text_encoder", use_safetensors=True, output_loading_info=True, **only
-        )
+        with without_bars(transformers):
+            network, report = CLIPTextModel.from_pretrained(
+                folder / "text_encoder", use_safetensors=True, output_loading_info=True, **only
+            )
         tokenizer = CLIPTokenizer.from_pretrained(folder / "tokenizer", **only)
     except Exception as error:  # damaged files and wrong configurations make the library raise nearly anything
         raise CheckpointError(
-            f"text_encoder or tokenizer in {folder} cannot be loaded: a file is missing, damaged, or no .safetensors."
+            f"{folder} holds a text_encoder or tokenizer that cannot be loaded: a file is missing, damaged, or no"
+            " .safetensors."
             f" Wanted: {WANTED_INPAINTING}"
         ) from error
     if report["missing_keys"] or report["mismatched_keys"] or len(tokenizer) > network.config.vocab_size:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 from ...physics.errors import InvalidInputError
 from .options import FILES, NetworkOptions
@@ -18,16 +19,19 @@ def check_networks(options: NetworkOptions) -> None:
 
     Raises:
         CheckpointError: the message names the file and what is wanted.
-        InvalidInputError: there is no such device.
+        InvalidInputError: there is no such device, or a model has fewer steps than are wanted.
     """
     from .devices import device_of, dtype_of
     from .drawing import load_svd, load_tooncrafter
     from .line_drawing import line_extractor
+    from .soft_inpainting import load_inpainting
 
     dtype_of(options.dtype, device_of(options.device))
     with naming_files(options):
         if options.renderer == "svd":
             load_svd(options, as_saved=True)
+        if options.renderer == "inpainting":
+            load_inpainting(options, as_saved=True)
         if options.interpolate_with == "tooncrafter":
             load_tooncrafter(options, as_saved=True)
         line_extractor(options)
@@ -39,7 +43,7 @@ def naming_files(options: NetworkOptions) -> Iterator[None]:
     try:
         yield
     except InvalidInputError as error:
-        given = {name: str(getattr(options, name)) for name in FILES if getattr(options, name) is not None}
+        given = {name: str(Path(getattr(options, name))) for name in FILES if getattr(options, name) is not None}
         name = next((name for name, path in given.items() if str(error).startswith(path)), None)
         if name is None:
             raise

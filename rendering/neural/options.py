@@ -7,36 +7,39 @@ from dataclasses import dataclass
 
 from ...physics.checks import check_number, check_whole, require_kind
 from ...physics.errors import InvalidInputError, require
+from ..inpainting import InpaintingOptions
 from ..svd import SVDOptions
 from ..tooncrafter import ToonCrafterOptions
 
 __all__ = ["CHOICES", "DTYPES", "FILES", "NetworkOptions", "StrPath"]
 
 CHOICES = {
-    "renderer": ("composite", "svd"),
+    "renderer": ("composite", "svd", "inpainting"),
     "interpolate_with": ("motion", "flow", "blend", "tooncrafter"),
     "extractor": ("gaussians", "informative"),
     "segmenter": ("grabcut", "sam"),
 }
-"""What can be chosen, first what is usual; the last of each is a network."""
+"""What can be chosen, first what is usual."""
 
 FILES = {
-    "svd": ("renderer", True),
-    "lvcd": ("renderer", True),
-    "tooncrafter": ("interpolate_with", True),
-    "sketch_encoder": ("interpolate_with", False),
-    "image_encoder": ("interpolate_with", False),
-    "text_encoder": ("interpolate_with", False),
-    "lines": ("extractor", True),
-    "sam": ("segmenter", True),
+    "svd": ("renderer", "svd", True),
+    "lvcd": ("renderer", "svd", True),
+    "inpainting": ("renderer", "inpainting", True),
+    "tooncrafter": ("interpolate_with", "tooncrafter", True),
+    "sketch_encoder": ("interpolate_with", "tooncrafter", False),
+    "image_encoder": ("interpolate_with", "tooncrafter", False),
+    "text_encoder": ("interpolate_with", "tooncrafter", False),
+    "lines": ("extractor", "informative", True),
+    "sam": ("segmenter", "sam", True),
 }
-"""For each file the choice whose network it belongs to, and whether that cannot do without it."""
+"""For each file the choice and its network that it belongs to, and whether that cannot do without it."""
 
 DTYPES = ("auto", "fp32", "fp16", "bf16")
 
 StrPath = str | os.PathLike[str]
 
-_USUAL_SVD, _USUAL_TOONCRAFTER = SVDOptions(), ToonCrafterOptions()
+_USUAL_SVD, _USUAL_INPAINTING, _USUAL_TOONCRAFTER = SVDOptions(), InpaintingOptions(), ToonCrafterOptions()
+_SOFT_EDGES = {"svd": 24.0, "inpainting": 16.0}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,12 +48,17 @@ class NetworkOptions:
 
     Attributes:
         renderer: "composite" moves the illustration's own pixels; "svd" has sketch-guided Stable Video Diffusion draw
-            every frame, the paper's way.
+            every frame, the paper's way; "inpainting" is composite with what the parts have uncovered painted by Stable
+            Diffusion, the paper's ablation, for flat pictures without a clean plate.
         svd: Stable Video Diffusion, image to video, 14 frames: svd.safetensors, or the folder of its diffusers version.
         lvcd: lvcd.ckpt or lvcd-fp16.safetensors.
         svd_options: settings of the renderer.
         still_parts: take what no part ever covers from the illustration, as video models repaint all of it.
-        soft_edge: width of the transition to it [px].
+        inpainting: Stable Diffusion 1 or 2, best one for inpainting, as a diffusers folder.
+        inpainting_options: settings of the painting.
+        grow: with inpainting, how far holes reach beyond what parts have uncovered [px].
+        soft_edge: width of the transition to still parts, or around holes [px]; None for 24 with svd and 16 with
+            inpainting.
         interpolate_with: who draws in-betweens: "motion", "flow", "blend", or "tooncrafter", the paper's way.
         tooncrafter: model.ckpt, or its pruned fp16 safetensors.
         sketch_encoder: sketch_encoder.ckpt, with which sketches lead the in-betweens; without it nothing does.
@@ -86,7 +94,10 @@ class NetworkOptions:
     lvcd: StrPath | None = None
     svd_options: SVDOptions = _USUAL_SVD
     still_parts: bool = True
-    soft_edge: float = 24.0
+    inpainting: StrPath | None = None
+    inpainting_options: InpaintingOptions = _USUAL_INPAINTING
+    grow: float = 4.0
+    soft_edge: float | None = None
     interpolate_with: str = "motion"
     tooncrafter: StrPath | None = None
     sketch_encoder: StrPath | None = None
@@ -104,27 +115,39 @@ class NetworkOptions:
     def __post_init__(self) -> None:
         for name, choices in CHOICES.items():
             require(name, repr(getattr(self, name)), getattr(self, name) in choices, f"one of {', '.join(choices)}")
-        for name, (choice, needed) in FILES.items():
-            network, file = CHOICES[choice][-1], getattr(self, name)
+        for name, (choice, network, needed) in FILES.items():
+            file = getattr(self, name)
             require_kind(name, file, (str, os.PathLike, type(None)), "the path of a file")
             chosen = getattr(self, choice) == network
             if file is None and chosen and needed:
-                raise InvalidInputError(f"{name} must be a file where {choice} is {network}. Got: none")
+                kind = "folder" if name == "inpainting" else "file"
+                raise InvalidInputError(f"{name} must be a {kind} where {choice} is {network}. Got: none")
             if file is not None and not chosen:
                 raise InvalidInputError(
                     f"{name} must be left out unless {choice} is {network}. Got: {os.fspath(file)[:80]}"
                 )
         require("dtype", repr(self.dtype), self.dtype in DTYPES, f"one of {', '.join(DTYPES)}")
-        check_number("soft_edge", self.soft_edge, 0, 10_000, unit=" px")
+        check_number("grow", self.grow, 0, 1000, unit=" px")
+        check_number("soft_edge", self.edge_width, 0, 1000 if self.renderer == "inpainting" else 10_000, unit=" px")
         if self.lines_size:
             check_whole("lines_size", self.lines_size, 16, 16384, unit=" px")
 
     @property
     def draws_all(self) -> bool:
-        """Whether a video model draws whole opaque frames."""
+        """Whether a video model draws whole frames, after sketches."""
         return self.renderer == "svd"
+
+    @property
+    def draws_opaque(self) -> bool:
+        """Whether a model draws frames, or paints in them: they are opaque then."""
+        return self.renderer != "composite"
+
+    @property
+    def edge_width(self) -> float:
+        """The soft edge, as said or as usual with the renderer [px]."""
+        return _SOFT_EDGES.get(self.renderer, 0.0) if self.soft_edge is None else self.soft_edge
 
     @property
     def uses_networks(self) -> bool:
         """Whether any network is chosen."""
-        return any(getattr(self, name) == choices[-1] for name, choices in CHOICES.items())
+        return any(getattr(self, choice) == network for choice, network, _ in FILES.values())

@@ -8,8 +8,6 @@ transformers; its sizes are read off its tensors.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +17,7 @@ from torch import nn
 from ....physics.errors import InvalidInputError
 from ...files import check_regular
 from ...networks.checkpoints import CheckpointError, assign, build_without_storage, read_checkpoint
+from ...networks.library_bars import without_bars
 from .families import FAMILIES, Family, where_to_get
 from .original_names import sam_config, sam_names
 
@@ -79,7 +78,7 @@ def _from_folder(folder: Path, name: str) -> nn.Module:
         raise CheckpointError(f"{folder} holds no .safetensors file. Wanted: {_FOLDER_WANTED}")
     library = _transformers()
     try:
-        with _without_bars(library):
+        with without_bars(library):
             network, report = library.AutoModelForMaskGeneration.from_pretrained(
                 folder, local_files_only=True, use_safetensors=True, trust_remote_code=False, output_loading_info=True
             )
@@ -95,19 +94,6 @@ def _from_folder(folder: Path, name: str) -> nn.Module:
             f" {min(faults)}. Wanted: {_FOLDER_WANTED}"
         )
     return network
-
-
-@contextmanager
-def _without_bars(library: Any) -> Iterator[None]:
-    """Without bars of the library's own on standard error: whoever loads says what is shown there."""
-    bars = library.utils.logging
-    shown = bars.is_progress_bar_enabled()
-    bars.disable_progress_bar()
-    try:
-        yield
-    finally:
-        if shown:
-            bars.enable_progress_bar()
 
 
 def _from_file(path: Path) -> nn.Module:

@@ -14,6 +14,7 @@ import pytest
 import random_networks
 from command_status import status
 from physanimator.rendering.command import network_options
+from physanimator.rendering.inpainting import InpaintingOptions
 from physanimator.rendering.neural import options
 from physanimator.rendering.pictures import save_image
 from physanimator.rendering.svd import SVDOptions
@@ -66,6 +67,7 @@ def test_the_options_are_those_of_the_library() -> None:
     assert network_options.DTYPES == options.DTYPES
     for told, usual in (
         (network_options.SVD_SETTINGS, SVDOptions()),
+        (network_options.INPAINTING_SETTINGS, InpaintingOptions()),
         (network_options.TOONCRAFTER_SETTINGS, ToonCrafterOptions()),
     ):
         assert told == ", ".join(f"{each.name}={getattr(usual, each.name)}" for each in fields(usual))
@@ -157,7 +159,13 @@ def test_keyframes_may_be_listed_and_frames_around_them_are_drawn() -> None:
         (["--keyframes-at", "1", "--pixel-art"], "frames of pixel art must be drawn one by one"),
         (["--keyframes-at", "1", "--background", "parts", "-o", "o.webm"], "transparent frames must be drawn one by"),
         (["--svd-options", "steps=3"], "--svd-options needs --renderer svd. Got: without"),
-        (["--soft-edge", "3"], "--soft-edge needs --renderer svd. Got: without"),
+        (["--inpainting-options", "steps=3"], "--inpainting-options needs --renderer inpainting. Got: without"),
+        (["--grow", "3"], "--grow needs --renderer inpainting. Got: without"),
+        (["--inpainting", "m"], "--inpainting must be left out unless --renderer is inpainting. Got: m"),
+        (["--renderer", "inpainting"], "--inpainting must be a folder where --renderer is inpainting. Got: none"),
+        (["--renderer", "inpainting", "--inpainting", "no"], "--inpainting: no is no folder. Wanted: the diffusers"),
+        (["--renderer", "inpainting", "--inpainting", "girl.png"], "--inpainting: girl.png is no folder."),
+        (["--soft-edge", "3"], "--soft-edge needs --renderer svd or inpainting. Got: without"),
         (["--lines-size", "30"], "--lines-size needs --extractor informative. Got: without"),
         (["--device", "cpu"], "--device needs a network, such as --renderer svd. Got: none"),
         (["--dtype", "fp16"], "--dtype needs a network"),
@@ -178,11 +186,11 @@ def test_what_cannot_be_is_refused_before_the_work(
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (["--background", "transparent", "-o", "o.webm"], "--renderer: frames that a video model draws must be opaque"),
-        (["--background", "parts", "-o", "o/"], "--renderer: frames that a video model draws must be opaque"),
+        (["--background", "transparent", "-o", "o.webm"], "--renderer: frames that a model draws must be opaque"),
+        (["--background", "parts", "-o", "o/"], "--renderer: frames that a model draws must be opaque"),
         (
             ["--pixel-art"],
-            "--renderer: frames that a video model draws must be opaque, and no pixel art. Got: pixel art",
+            "--renderer: frames that a model draws must be opaque, and no pixel art. Got: pixel art",
         ),
         (["--svd-options", "steps=0"], "--svd-options: steps must be"),
         (["--svd-options", "steps=many"], "--svd-options: steps must be a whole number. Got: 'many'"),

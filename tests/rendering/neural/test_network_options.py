@@ -66,7 +66,7 @@ def frames(animation: Animation, **how: Any) -> NDArray[Any]:
 @pytest.mark.parametrize(
     ("said", "sentence"),
     [
-        ({"renderer": "oil"}, "renderer must be one of composite, svd. Got: 'oil'"),
+        ({"renderer": "oil"}, "renderer must be one of composite, svd, inpainting. Got: 'oil'"),
         ({"interpolate_with": "film"}, "interpolate_with must be one of motion, flow, blend, tooncrafter. Got: 'film'"),
         ({"extractor": None}, "extractor must be one of gaussians, informative. Got: None"),
         ({"segmenter": 1}, "segmenter must be one of grabcut, sam. Got: 1"),
