@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..pictures import window_around
 from .mask_edges import FAINT, LEAST_CONTRAST, SOLID, SQUARE, grown, hard_edge, inner_colour, mean_near
+from .line_fill import filled_behind_lines
 from .measured_alpha import measured_alpha
 from .raised_alpha import raised_alpha
 from .solved_alpha import solved_alpha
@@ -98,7 +99,7 @@ def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: 
         support: where the part is, from ``with_outline``; shape [h, w].
     """
     found = measured_alpha if _is_outlined(image, mask > FAINT, support) else solved_alpha
-    alpha = found(image, plate, mask, support)
+    alpha = filled_behind_lines(found(image, plate, mask, support), mask, support)
     # The last percents of a mask that nowhere becomes quite white would leave black of the part behind as black.
     return raised_alpha(image, plate, alpha, (alpha > SOLID) & (alpha < 1), beyond=LEAST_CONTRAST)
 

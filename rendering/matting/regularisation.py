@@ -37,6 +37,7 @@ _BLURRED = 3.0
 # Where less of an edge would move, the mask has been made with care and is taken at its word.
 _MOVED = 0.3
 _MARGIN = 40
+_LEVELS = (0.1, 0.3, 0.5, 0.7, 0.9)
 
 
 def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
@@ -104,12 +105,17 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
     rewritten = blurred | grown(moved, SQUARE) | soft
     away = np.minimum(from_edge(shape), from_edge(edge.inside)) if soft else from_edge(shape)
     near = away <= REACH + np.minimum(edge.width, WIDEST)
-    # Where the picture has no edge, a soft transition is what somebody wanted.
-    wanted = blurred & (edge_strength(image, shape) < LEAST_STEP)
+    wanted = blurred & ~_shows_edge(image, mask, shape)
     # Where a slightly soft edge stays in its place, it says between pixels where that is.
     narrowed = np.clip(_HALF + (mask - _HALF) * np.maximum(edge.width, 1), 0, 1)
     stays = ~displaced & ~noisy & (edge.width <= _BLURRED) & ((narrowed > _HALF) == shape) & ~in_blocks(mask)
     return np.where(rewritten & near & ~wanted, np.where(stays, narrowed, shape), mask).astype(np.float32)
+
+
+def _shows_edge(image: FloatImage, mask: FloatImage, shape: Mask) -> Mask:
+    """Where the picture has an edge within the transition of a mask; where it has none, a soft one is wanted."""
+    levels = [shape, *(mask > level for level in _LEVELS)]
+    return np.max([edge_strength(image, each) for each in levels], axis=0) >= LEAST_STEP
 
 
 def _shape(image: FloatImage, mask: FloatImage, edge: MaskEdge, blurred: Mask) -> tuple[Mask, bool]:
