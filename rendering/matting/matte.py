@@ -151,6 +151,7 @@ def _joined(inside: Mask, outline: Mask, reach: int) -> Mask:
     joined = inside.copy()
     for _ in range(reach):
         joined |= outline & grown(joined, SQUARE)
+    joined |= _between(outline & ~joined, joined & ~inside)
     # The line's outermost pixels are too faint to be told by their lightness.
     added = grown(joined & ~inside, SQUARE)
     joined |= added
@@ -158,3 +159,14 @@ def _joined(inside: Mask, outline: Mask, reach: int) -> Mask:
     small = statistics[:, cv2.CC_STAT_AREA] < _SPECK
     small[0] = False
     return joined | (small[labels] & grown(added, SQUARE))
+
+
+def _between(outline: Mask, found: Mask) -> Mask:
+    """Stretches of an outline that go on from found ones at either end."""
+    _, stretches = cv2.connectedComponents(outline.astype(np.uint8), connectivity=8)
+    _, ends = cv2.connectedComponents((grown(outline, SQUARE) & found).astype(np.uint8), connectivity=8)
+    padded = np.pad(ends, 1)
+    height, width = outline.shape
+    beside = [padded[down : down + height, right : right + width] for down in range(3) for right in range(3)]
+    pairs = np.unique(np.concatenate([np.stack([stretches[at], end[at]]) for end in beside if (at := (stretches > 0) & (end > 0)).any()] or [np.zeros((2, 0), np.int32)], axis=1), axis=1)
+    return (np.bincount(pairs[0], minlength=int(stretches.max()) + 1) > 1)[stretches]

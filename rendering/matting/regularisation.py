@@ -23,6 +23,7 @@ from .moved_edges import (
     searched,
     share_moved,
     with_all_strands,
+    without_new_specks,
 )
 
 __all__ = ["regular_mask"]
@@ -100,6 +101,7 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
         mask = np.where(mask < NOISE, np.float32(0), np.where(mask > 1 - NOISE, np.float32(1), mask))
     blurred = edge.width > _BLURRED
     shape, displaced = _shape(image, mask, edge, blurred)
+    shape = without_new_specks(shape, edge.inside)
     moved = shape != edge.inside
     soft = noisy or displaced or edge.median_width() > _ANTI_ALIASED or in_blocks(mask)
     rewritten = blurred | grown(moved, SQUARE) | soft
