@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..pictures import window_around
-from .mask_edges import FAINT, LEAST_CONTRAST, SOLID, SQUARE, grown, hard_edge, inner_colour, mean_near
 from .line_fill import filled_behind_lines
+from .mask_edges import FAINT, LEAST_CONTRAST, SOLID, SQUARE, grown, hard_edge, inner_colour, mean_near
 from .measured_alpha import measured_alpha
 from .raised_alpha import raised_alpha
 from .solved_alpha import solved_alpha
@@ -165,8 +165,9 @@ def _between(outline: Mask, found: Mask) -> Mask:
     """Stretches of an outline that go on from found ones at either end."""
     _, stretches = cv2.connectedComponents(outline.astype(np.uint8), connectivity=8)
     _, ends = cv2.connectedComponents((grown(outline, SQUARE) & found).astype(np.uint8), connectivity=8)
-    padded = np.pad(ends, 1)
-    height, width = outline.shape
-    beside = [padded[down : down + height, right : right + width] for down in range(3) for right in range(3)]
-    pairs = np.unique(np.concatenate([np.stack([stretches[at], end[at]]) for end in beside if (at := (stretches > 0) & (end > 0)).any()] or [np.zeros((2, 0), np.int32)], axis=1), axis=1)
-    return (np.bincount(pairs[0], minlength=int(stretches.max()) + 1) > 1)[stretches]
+    (row, column), padded = np.nonzero(outline), np.pad(ends, 1)
+    beside = np.stack([padded[row + down, column + right] for down in range(3) for right in range(3)])
+    stretch = np.broadcast_to(stretches[outline], beside.shape)[beside > 0]
+    met = np.unique(np.stack([stretch, beside[beside > 0]]), axis=1)
+    several = np.bincount(met[0], minlength=int(stretches.max()) + 1) > 1
+    return np.asarray(outline & several[stretches])

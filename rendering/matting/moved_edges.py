@@ -125,7 +125,7 @@ def without_new_specks(shape: Mask, given: Mask) -> Mask:
     """The shape without pieces and holes of a few pixels that the mask did not have."""
     for inside in (False, True):
         side, before = (shape, given) if inside else (~shape, ~given)
-        count, labels, boxes, _ = cv2.connectedComponentsWithStats(side.astype(np.uint8), connectivity=4)
+        _, labels, boxes, _ = cv2.connectedComponentsWithStats(side.astype(np.uint8), connectivity=4)
         specks = boxes[:, cv2.CC_STAT_AREA] < _SPECK
         specks[np.unique(labels[before & side])] = False
         specks[0] = False

@@ -38,6 +38,7 @@ _BLURRED = 3.0
 # Where less of an edge would move, the mask has been made with care and is taken at its word.
 _MOVED = 0.3
 _MARGIN = 40
+# Within a soft transition an edge of the picture is looked for along these levels of the mask.
 _LEVELS = (0.1, 0.3, 0.5, 0.7, 0.9)
 
 
@@ -107,6 +108,7 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
     rewritten = blurred | grown(moved, SQUARE) | soft
     away = np.minimum(from_edge(shape), from_edge(edge.inside)) if soft else from_edge(shape)
     near = away <= REACH + np.minimum(edge.width, WIDEST)
+    # Where the picture has no edge, a soft transition is what somebody wanted.
     wanted = blurred & ~_shows_edge(image, mask, shape)
     # Where a slightly soft edge stays in its place, it says between pixels where that is.
     narrowed = np.clip(_HALF + (mask - _HALF) * np.maximum(edge.width, 1), 0, 1)
@@ -115,7 +117,10 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
 
 
 def _shows_edge(image: FloatImage, mask: FloatImage, shape: Mask) -> Mask:
-    """Where the picture has an edge within the transition of a mask; where it has none, a soft one is wanted."""
+    """Where the picture has an edge somewhere in the transition of a mask, shape [h, w].
+
+    Along the edge that was found it may be missed for a few pixels; the soft wedge left there would cut its ink in two.
+    """
     levels = [shape, *(mask > level for level in _LEVELS)]
     return np.max([edge_strength(image, each) for each in levels], axis=0) >= LEAST_STEP
 
