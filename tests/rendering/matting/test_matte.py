@@ -46,6 +46,16 @@ def test_an_outline_is_found_that_leaves_the_mask_for_a_stretch() -> None:
     assert with_outline(picture, (row >= 40).astype(np.float32))[line].all()
 
 
+def test_faint_pixels_of_a_mask_behind_an_outline_are_the_parts() -> None:
+    """A slightly blurred mask has some that are hardly any of it: their dark would be left in the plate."""
+    picture, background = over(over(textured_background(), DARK, disc(29)), RED, disc(25)), textured_background()
+    mask = (disc(25) > 0.5).astype(np.float32)
+    rim = (mask == 0) & (RADIUS < 26.5) & ((np.arange(SIZE) % 3) == 0)
+    mask[rim] = 0.06
+    support = with_outline(picture, mask)
+    assert soft_alpha(picture, background, mask, support)[rim].min() > 0.8
+
+
 def test_a_line_that_only_passes_by_is_not_taken_along() -> None:
     row, column = np.mgrid[:80, :120]
     picture = np.full((80, 120, 3), 0.65, np.float32)
