@@ -221,22 +221,6 @@ def test_without_an_edge_in_the_picture_a_feathered_mask_keeps_its_feather() -> 
     assert np.abs(regular_mask(plain, feathered) - feathered).max() < 0.5 / 255
 
 
-@pytest.mark.parametrize("sigma", [2, 4, 8])
-def test_stripes_that_meet_an_outline_leave_no_soft_wedge_beside_it(sigma: float) -> None:
-    """Where a stripe is of the background's colour, the outline is still an edge; a wedge would cut its ink in two."""
-    row, column = np.mgrid[:140, :200]
-    spots = np.random.default_rng(1).normal(0, 0.3, (140, 200, 3)).astype(np.float32)
-    picture = np.float32((0.75, 0.62, 0.5)) + cv2.GaussianBlur(spots, (0, 0), 2)
-    edge = 70 + 0.9 * (column - 100)
-    stripes = np.float32([(0.85, 0.75, 0.6), (0.8, 0.35, 0.3), (0.35, 0.12, 0.25)])
-    inside, stripe = row > edge, np.floor((column + row * 0.35) / 6).astype(int) % 3
-    picture = np.where(inside[..., None], stripes[stripe], picture)
-    picture[inside & (row <= edge + 2)] = (0.25, 0.1, 0.2)
-    mask = cv2.GaussianBlur(inside.astype(np.float32), (0, 0), sigma)
-    regular = regular_mask(np.clip(picture, 0, 1), mask)[:, 25:-25]
-    assert not ((regular > 0.1) & (regular < 0.9)).any()
-
-
 def test_a_hole_made_wider_than_it_is_closes() -> None:
     """A shrunk mask has each pinhole of the part as a hole: what is around the pinhole is the part."""
     picture, _, alpha, _ = drawn("thick outline")
