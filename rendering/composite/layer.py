@@ -15,9 +15,8 @@ from ...physics.mesh import PixelBox, bounding_box
 from .apron import ApronedMesh
 from .beyond import Beyond
 from .half_pixels import with_half_pixels
-from .places import NOWHERE
 from .sheet_edges import Slits, tiles_of, torn
-from .sheets import Sheets, sheets_at, sheets_in_tiles
+from .sheets import Places, Sheets, pairs_of, sheets_at, sheets_in_tiles
 
 if TYPE_CHECKING:
     from ..artwork import Blend
@@ -111,30 +110,28 @@ class Layer:
         sheets = find(points[0], self.mesh.triangles, self.mesh.rest)
         if self.beyond is None:
             return sheets
-        free, other = sheets.x <= NOWHERE / 2, find(points[1], self.beyond.triangles, self.beyond.rest)
-        x, y = self.beyond.without_own(other.x, other.y)
-        return replace(sheets, x=np.where(free, x, sheets.x), y=np.where(free, y, sheets.y))
+        other = find(points[1], self.beyond.triangles, self.beyond.rest)
+        return replace(sheets, shown=np.where(sheets.covered, sheets.shown, self.beyond.without_own(other.shown)))
 
     def _read(self, sheets: Sheets) -> FloatImage:
         """The texture at places of it, with what shows through of sheets beneath, shape [h, w, c]."""
-        drawn = self._resampled(sheets.x, sheets.y)
+        drawn = self._resampled(sheets.shown)
         flat = drawn.reshape(-1, drawn.shape[2])
         through = 1 - np.clip(flat[sheets.double, -1:], 0, 1)
         for shown in _at_once(np.flatnonzero(through > 1 - _OPAQUE)):
-            beneath = self._resampled(*sheets.beneath[:, shown, None])[:, 0]
+            beneath = self._resampled(sheets.beneath[shown, None])[:, 0]
             flat[sheets.double[shown]] += through[shown] * beneath
         return drawn
 
-    def _resampled(self, x: FloatImage, y: FloatImage) -> FloatImage:
+    def _resampled(self, places: Places) -> FloatImage:
         """The texture at places of it, shape [h, w, c]."""
         how = {"borderMode": cv2.BORDER_CONSTANT, "borderValue": 0}
         if self.fine:
             texture, border = self._finer
-            x, y = x + border, y + border
-            x *= 2
-            y *= 2
-            return cv2.remap(texture, x, y, cv2.INTER_LINEAR, **how)
-        parts = [cv2.remap(part, x, y, cv2.INTER_CUBIC, **how) for part in self._parts]
+            places = places + np.complex64(complex(border, border))
+            places *= 2
+            return cv2.remap(texture, pairs_of(places), None, cv2.INTER_LINEAR, **how)
+        parts = [cv2.remap(part, pairs_of(places), None, cv2.INTER_CUBIC, **how) for part in self._parts]
         return parts[0] if len(parts) == 1 else np.dstack(parts)
 
     @cached_property

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from ...physics.mesh import PixelBox, half_edges, on_boundary
 from .boundary import same_places
-from .places import NOWHERE
 from .sheets import Sheets
 
 __all__ = ["Slits", "tiles_of", "torn"]
@@ -73,13 +72,13 @@ class Slits:
 
 def torn(sheets: Sheets) -> Mask:
     """Pixels beside others that come from far apart, shape [h, w]: the ends of what lies over another sheet."""
-    found = np.zeros(sheets.x.shape, dtype=bool)
+    found = np.zeros(sheets.shown.shape, dtype=bool)
     if not len(sheets.double):
         return found
-    places = np.divmod(sheets.double, sheets.x.shape[1])
+    places = np.divmod(sheets.double, found.shape[1])
     rows, columns = (slice(max(0, int(each.min()) - 1), int(each.max()) + 2) for each in places)
-    x, y, part = sheets.x[rows, columns], sheets.y[rows, columns], found[rows, columns]
-    there = x > NOWHERE / 2
+    shown, part, there = sheets.shown[rows, columns], found[rows, columns], sheets.covered[rows, columns]
+    x, y = shown.real, shown.imag
     for before, after in (
         ((slice(None), slice(None, -1)), (slice(None), slice(1, None))),
         ((slice(None, -1), slice(None)), (slice(1, None), slice(None))),
