@@ -15,7 +15,8 @@ from ...physics.mesh import PixelBox, bounding_box
 from .apron import ApronedMesh
 from .beyond import Beyond
 from .half_pixels import with_half_pixels
-from .sheet_edges import Slits, tiles_of, torn
+from .laying import as_planes
+from .sheet_edges import Slits, drawn_sides, tiles_of, torn
 from .sheets import Places, Sheets, pairs_of, sheets_at, sheets_in_tiles
 
 if TYPE_CHECKING:
@@ -72,7 +73,8 @@ class Layer:
             height: of the picture [px].
 
         Returns:
-            The box of the picture that the layer may touch, and the texture's channels there, shape [h, w, 4 or 5].
+            The box of the picture that the layer may touch, and the texture's channels there, as a view of planes,
+            shape [h, w, 4 or 5].
         """
         points = self.points(vertices)
         box = bounding_box(np.concatenate(points)).clipped(width, height)
@@ -80,10 +82,13 @@ class Layer:
             return box, np.zeros((box.height, box.width, self.texture.shape[2]), dtype=np.float32)
         sheets = self._sheets(points, partial(sheets_at, box=box, canvas=self.canvas))
         drawn = self._read(sheets)
-        edges = self._slits.open(points[0] - self.mesh.rest, points[0], box) | torn(sheets)
-        for tiles in _at_once(tiles_of(edges, _TILE)):
-            self._smooth(drawn, points, box, tiles, edges)
-        return box, drawn
+        sides = self._slits.opened(points[0] - self.mesh.rest)
+        simple = not (len(sides) or len(sheets.double))
+        if not simple:
+            edges = drawn_sides(sides, points[0], box) | torn(sheets)
+            for tiles in _at_once(tiles_of(edges, _TILE)):
+                self._smooth(drawn, points, box, tiles, edges)
+        return box, as_planes(drawn, clean=simple and self.fine)
 
     def _smooth(
         self,
@@ -128,9 +133,9 @@ class Layer:
         how = {"borderMode": cv2.BORDER_CONSTANT, "borderValue": 0}
         if self.fine:
             texture, border = self._finer
-            places = places + np.complex64(complex(border, border))
-            places *= 2
-            return cv2.remap(texture, pairs_of(places), None, cv2.INTER_LINEAR, **how)
+            pairs = pairs_of(places) + np.float32(border)
+            pairs *= 2
+            return cv2.remap(texture, pairs, None, cv2.INTER_LINEAR, **how)
         parts = [cv2.remap(part, pairs_of(places), None, cv2.INTER_CUBIC, **how) for part in self._parts]
         return parts[0] if len(parts) == 1 else np.dstack(parts)
 

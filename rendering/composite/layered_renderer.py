@@ -342,7 +342,11 @@ def _part(planes: FloatImage, box: PixelBox) -> FloatImage:
 def _interleaved(planes: FloatImage, dtype: np.dtype[Any]) -> NDArray[Any]:
     """Planes in 0 to 1, four of them premultiplied, shape [c, h, w], as a straight picture, shape [h, w, c]."""
     picture = np.asarray(cv2.merge(list(planes)))
-    return as_dtype(straight(picture) if is_transparent(picture) else picture, dtype)
+    if is_transparent(picture):
+        picture = straight(picture)
+    if dtype != np.uint8:
+        return as_dtype(picture, dtype)
+    return np.asarray(cv2.convertScaleAbs(np.clip(picture, 0, 1, out=picture), alpha=255))
 
 
 def _within_box(

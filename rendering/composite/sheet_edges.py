@@ -16,7 +16,7 @@ from ...physics.mesh import PixelBox, half_edges, on_boundary
 from .boundary import same_places
 from .sheets import Sheets
 
-__all__ = ["Slits", "tiles_of", "torn"]
+__all__ = ["Slits", "drawn_sides", "tiles_of", "torn"]
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
@@ -52,22 +52,32 @@ class Slits:
         cut = on_boundary(sides) & ~on_boundary(twins[sides])
         return cls(sides[cut].astype(np.int64), twins)
 
-    def open(self, shifts: FloatArray, positions: FloatArray, box: PixelBox) -> Mask:
-        """Pixels of a box through which a side goes that has left its other side, shape [box height, box width].
+    def opened(self, shifts: FloatArray) -> IndexArray:
+        """Sides that have left their other side: vertices at their ends, shape [s, 2].
 
         Args:
             shifts: how far each vertex has moved [px], shape [v, 2].
-            positions: where it is [px], shape [v, 2].
-            box: pixels of the picture.
         """
-        near = np.zeros((box.height, box.width), np.uint8)
+        if not len(self.sides):
+            return self.sides
         apart = (shifts != shifts[self.twins]).any(axis=1)
         left = np.zeros(len(apart), bool)
         left[self.twins[apart]] = True
-        sides = self.sides[left[self.twins[self.sides]].any(axis=1)]
-        lines = (positions[sides] - (box.left + 0.5, box.top + 0.5)) * 2**_SHIFT
-        cv2.polylines(near, list(np.rint(lines).astype(np.int32)), False, 1, 3, cv2.LINE_8, _SHIFT)
-        return near > 0
+        return self.sides[left[self.twins[self.sides]].any(axis=1)]
+
+
+def drawn_sides(sides: IndexArray, positions: FloatArray, box: PixelBox) -> Mask:
+    """Pixels of a box through which sides of slits go, shape [box height, box width].
+
+    Args:
+        sides: vertices at their ends, shape [s, 2].
+        positions: of the vertices [px], shape [v, 2].
+        box: pixels of the picture.
+    """
+    near = np.zeros((box.height, box.width), np.uint8)
+    lines = (positions[sides] - (box.left + 0.5, box.top + 0.5)) * 2**_SHIFT
+    cv2.polylines(near, list(np.rint(lines).astype(np.int32)), False, 1, 3, cv2.LINE_8, _SHIFT)
+    return near.view(bool)
 
 
 def torn(sheets: Sheets) -> Mask:

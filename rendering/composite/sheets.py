@@ -144,7 +144,7 @@ def _sheets(fragments: Fragments, shifts: Places, x: NDArray[np.float32], y: NDA
     pixels = fragments.pixels()
     flat = np.full(len(y) * x.shape[-1], complex(NOWHERE, NOWHERE), dtype=np.complex64)
     flat[pixels] = shifts
-    # Where the last one is the only one, it is found again to the bit.
+    # Where a pixel is not shown twice, what was put into it is found there again.
     hidden = np.flatnonzero(flat.take(pixels).view(np.int64) != shifts.view(np.int64))
     apart = np.abs((flat[pixels[hidden]] - shifts[hidden]).view(np.float32).reshape(-1, 2)) > _APART
     hidden = hidden[apart.any(axis=1)][::-1]
