@@ -21,6 +21,7 @@ from .sheets import Places, Sheets, pairs_of, sheets_at, sheets_in_tiles
 
 if TYPE_CHECKING:
     from ..artwork import Blend
+    from .hidden_areas import HiddenArea
 
 __all__ = ["Layer"]
 
@@ -64,13 +65,16 @@ class Layer:
             points.append(self.beyond.positions(vertices - self.mesh.rest[: len(vertices)].astype(np.float32)))
         return points
 
-    def drawn(self, vertices: NDArray[np.float32], width: int, height: int) -> tuple[PixelBox, FloatImage]:
+    def drawn(
+        self, vertices: NDArray[np.float32], width: int, height: int, *, hidden: HiddenArea | None = None
+    ) -> tuple[PixelBox, FloatImage]:
         """The layer with its mesh moved.
 
         Args:
             vertices: positions of the body's vertices [px], shape [v, 2].
             width: of the picture [px].
             height: of the picture [px].
+            hidden: where the layer is not seen, so that anything may be drawn; None for nowhere.
 
         Returns:
             The box of the picture that the layer may touch, and the texture's channels there, as a view of planes,
@@ -80,7 +84,8 @@ class Layer:
         box = bounding_box(np.concatenate(points)).clipped(width, height)
         if not (box.width and box.height):
             return box, np.zeros((box.height, box.width, self.texture.shape[2]), dtype=np.float32)
-        sheets = self._sheets(points, partial(sheets_at, box=box, canvas=self.canvas))
+        triangles = self.mesh.triangles if hidden is None else hidden.seen(points[0], self.mesh.triangles)
+        sheets = self._sheets(points, triangles, partial(sheets_at, box=box, canvas=self.canvas))
         drawn = self._read(sheets)
         sides = self._slits.opened(points[0] - self.mesh.rest)
         simple = not (len(sides) or len(sheets.double))
@@ -101,7 +106,7 @@ class Layer:
         """Draw pixels of tiles of a box as the mean of several places, where an edge of a sheet goes through them."""
         corners = tiles + (box.left, box.top)
         find = partial(sheets_in_tiles, tiles=corners, canvas=self.canvas, side=_TILE, scale=_FINE)
-        fine = self._read(self._sheets(points, find))
+        fine = self._read(self._sheets(points, self.mesh.triangles, find))
         mean = cv2.resize(fine, (_TILE, _TILE * len(tiles)), interpolation=cv2.INTER_AREA)
         beside = np.arange(_TILE)
         rows = np.repeat(tiles[:, 1:] + beside, _TILE, axis=1).ravel()
@@ -110,9 +115,11 @@ class Layer:
         there = there[edges[rows[there], columns[there]]]
         drawn[rows[there], columns[there]] = mean.reshape(len(rows), -1)[there]
 
-    def _sheets(self, points: Sequence[FloatArray], find: Callable[..., Sheets]) -> Sheets:
-        """The places of the texture that are shown."""
-        sheets = find(points[0], self.mesh.triangles, self.mesh.rest)
+    def _sheets(
+        self, points: Sequence[FloatArray], triangles: NDArray[np.integer], find: Callable[..., Sheets]
+    ) -> Sheets:
+        """The places of the texture that are shown by triangles of the mesh, and beyond it."""
+        sheets = find(points[0], triangles, self.mesh.rest)
         if self.beyond is None:
             return sheets
         other = find(points[1], self.beyond.triangles, self.beyond.rest)
