@@ -70,12 +70,10 @@ class Fragments:
 
     def pixels(self) -> IndexArray:
         """Flat index (row * box width + column) of every pixel, shape [n]."""
-        first = self.row * self.box.width + self.column
-        last = first + self.length - 1
-        first[1:] -= last[:-1]
-        steps = np.ones(self.count, dtype=np.int64)
-        steps[self._before] = first
-        return np.cumsum(steps, out=steps)
+        starts = self.row * self.box.width + self.column - self._before
+        pixels = starts.take(self._run)
+        pixels += np.arange(self.count)
+        return pixels
 
     def triangles(self) -> IndexArray:
         """Triangle of every pixel, shape [n]."""
@@ -88,7 +86,10 @@ class Fragments:
             Values, float32 or complex64, shape [n].
         """
         offset, slope, slope_down = (each.take(self.triangle) for each in field)
-        start = offset + slope * (self.box.left + self.column + 0.5) + slope_down * (self.box.top + self.row + 0.5)
+        start = slope * (self.box.left + self.column + 0.5)
+        start += offset
+        slope_down *= self.box.top + self.row + 0.5
+        start += slope_down
         single = np.complex64 if np.iscomplexobj(start) else np.float32
         steps = np.arange(self.count)
         steps -= self._before.take(self._run)
@@ -138,9 +139,7 @@ def rasterise(
     end = np.minimum(np.ceil(np.maximum(short, long) - 0.5), box.right).astype(np.int64)
     length = end - begin
     kept = np.flatnonzero(length > 0)
-    return Fragments(
-        triangle.take(kept), row.take(kept) - box.top, begin.take(kept) - box.left, length.take(kept), box
-    )
+    return Fragments(triangle.take(kept), row.take(kept) - box.top, begin.take(kept) - box.left, length.take(kept), box)
 
 
 def _in_turn(one: NDArray[Any], other: NDArray[Any]) -> NDArray[Any]:
@@ -148,7 +147,9 @@ def _in_turn(one: NDArray[Any], other: NDArray[Any]) -> NDArray[Any]:
     return np.stack([one, other], axis=1).ravel()
 
 
-def _crossings(y: FloatArray, edge: IndexArray, start_x: FloatArray, start_y: FloatArray, slope: FloatArray) -> FloatArray:
+def _crossings(
+    y: FloatArray, edge: IndexArray, start_x: FloatArray, start_y: FloatArray, slope: FloatArray
+) -> FloatArray:
     """Where edges go through rows, shape [r]: column of the edge with each number at each height."""
     x = y - start_y.take(edge)
     x *= slope.take(edge)

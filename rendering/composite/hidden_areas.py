@@ -9,7 +9,6 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from .layer import Layer
 from .still_layers import StillLayer
 
 __all__ = ["HiddenArea", "hidden_areas"]
@@ -59,20 +58,21 @@ class HiddenArea:
         return triangles[hidden < (right - left) * (bottom - top)]
 
 
-def hidden_areas(layers: Sequence[Layer | StillLayer], width: int, height: int) -> list[HiddenArea | None]:
-    """For each layer, from back to front, where those that stand still before it hide it; None for nowhere.
+def hidden_areas(layers: Sequence[StillLayer | None], width: int, height: int) -> list[HiddenArea | None]:
+    """Where each layer that moves is hidden by those that stand still before it; None for nowhere.
 
     Args:
-        layers: of the picture.
+        layers: from back to front, None for those that move.
         width: of the picture [px].
         height: of the picture [px].
+
+    Returns:
+        One for each of the layers, None for those that stand still.
     """
     opaque = np.zeros((height, width), dtype=bool)
     areas: list[HiddenArea | None] = []
-    area = None
     for layer in reversed(layers):
-        areas.append(area)
-        if isinstance(layer, StillLayer) and layer.blend == "normal":
+        areas.append(HiddenArea.of(opaque) if layer is None else None)
+        if layer is not None and layer.blend == "normal":
             opaque[layer.box.slices] |= layer.texture[..., -1] >= 1
-            area = HiddenArea.of(opaque)
     return areas[::-1]

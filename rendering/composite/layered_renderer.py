@@ -301,8 +301,9 @@ class LayeredRenderer:
 
     @cached_property
     def _hidden(self) -> list[HiddenArea | None]:
-        """For each layer where it is never seen."""
-        return hidden_areas(self._layers, self.motion.width, self.motion.height)
+        """Where each layer is never seen."""
+        still = [layer if isinstance(layer, StillLayer) else None for layer in self._layers]
+        return hidden_areas(still, self.motion.width, self.motion.height)
 
     def _drawn(self, t: int) -> list[_Drawn]:
         """The layers that show in a frame, from back to front."""

@@ -85,7 +85,7 @@ def torn(sheets: Sheets) -> Mask:
     found = np.zeros(sheets.shown.shape, dtype=bool)
     if not len(sheets.double):
         return found
-    places = np.divmod(sheets.double, found.shape[1])
+    places = np.divmod(sheets.double, sheets.shown.shape[1])
     rows, columns = (slice(max(0, int(each.min()) - 1), int(each.max()) + 2) for each in places)
     shown, part, there = sheets.shown[rows, columns], found[rows, columns], sheets.covered[rows, columns]
     x, y = shown.real, shown.imag

@@ -21,6 +21,7 @@ IndexArray = NDArray[np.int64]
 _APART = 2.0
 # Triangles are looked for around squares so large before they are for each tile [px].
 _BLOCK = 32
+_OFF = np.complex64(complex(NOWHERE, NOWHERE))
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,18 +143,30 @@ def _sheets(fragments: Fragments, shifts: Places, x: NDArray[np.float32], y: NDA
         y: row, shape [h, 1].
     """
     pixels = fragments.pixels()
-    flat = np.full(len(y) * x.shape[-1], complex(NOWHERE, NOWHERE), dtype=np.complex64)
+    flat = np.full(len(y) * x.shape[-1], _OFF, dtype=np.complex64)
     flat[pixels] = shifts
-    # Where a pixel is not shown twice, what was put into it is found there again.
-    hidden = np.flatnonzero(flat.take(pixels).view(np.int64) != shifts.view(np.int64))
-    apart = np.abs((flat[pixels[hidden]] - shifts[hidden]).view(np.float32).reshape(-1, 2)) > _APART
-    hidden = hidden[apart.any(axis=1)][::-1]
+    hidden = _hidden(flat, pixels, shifts)
     double, last = np.unique(pixels[hidden], return_index=True)
     shown = flat.reshape(len(y), -1)
     at_rest = x.astype(np.complex64)
     shown += at_rest
-    shown += np.complex64(1j) * y
+    shown.imag += y
     row, column = np.divmod(double, shown.shape[1])
     beneath = shifts[hidden[last]] + np.broadcast_to(at_rest, shown.shape)[row, column]
-    beneath += np.complex64(1j) * y[row, 0]
+    beneath.imag += y[row, 0]
     return Sheets(shown, double, beneath)
+
+
+def _hidden(flat: Places, pixels: IndexArray, shifts: Places) -> IndexArray:
+    """Numbers of fragments that are hidden by one from elsewhere, the last one first, shape [k].
+
+    Args:
+        flat: shift that each pixel shows.
+        pixels: of the fragments, shape [n].
+        shifts: of the fragments, shape [n].
+    """
+    if np.count_nonzero(flat.view(np.int64) != _OFF.view(np.int64)) == len(pixels):
+        return np.zeros(0, dtype=np.int64)  # no pixel has two
+    hidden = np.flatnonzero(flat.take(pixels).view(np.int64) != shifts.view(np.int64))
+    apart = (flat[pixels[hidden]] - shifts[hidden]).view(np.float32).reshape(-1, 2)
+    return hidden[(np.abs(apart) > _APART).any(axis=1)][::-1]
