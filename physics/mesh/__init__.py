@@ -9,13 +9,14 @@ from .masks import coverage_of, fitted, may_be_inverted, refuse_noise
 from .meshing import mesh_from_mask
 from .outline_distances import signed_distances, within_reach
 from .pixel_box import PixelBox, bounding_box
-from .raster import Fragments, affine_per_triangle, barycentric, interpolate, rasterise, triangle_ids
+from .raster import AffinePerTriangle, Fragments, affine_per_triangle, barycentric, interpolate, rasterise, triangle_ids
 from .run_lengths import mask_of, runs_of
 from .triangle_mesh import UNITS_ACROSS, TriangleMesh
 from .ways import ways_along, ways_from
 
 __all__ = [
     "UNITS_ACROSS",
+    "AffinePerTriangle",
     "Fragments",
     "PixelBox",
     "TriangleMesh",

@@ -17,6 +17,7 @@ from ...physics.motion import Motion, layer_order
 from ...physics.progress import Progress
 from ..pictures import as_dtype, as_float, as_picture, is_transparent, straight
 from .cutting import take_apart
+from .hidden_areas import HiddenArea, hidden_areas
 from .kept_layers import apart
 from .layer import Layer
 from .laying import lay_over
@@ -298,6 +299,12 @@ class LayeredRenderer:
                 part *= 1 - alpha
         return covered
 
+    @cached_property
+    def _hidden(self) -> list[HiddenArea | None]:
+        """Where each layer is never seen."""
+        still = [layer if isinstance(layer, StillLayer) else None for layer in self._layers]
+        return hidden_areas(still, self.motion.width, self.motion.height)
+
     def _drawn(self, t: int) -> list[_Drawn]:
         """The layers that show in a frame, from back to front."""
         require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
@@ -306,18 +313,20 @@ class LayeredRenderer:
     def _laid(self, motion: Motion, t: int) -> list[_Drawn]:
         """The layers in a frame of any motion of the bodies."""
         drawn = []
-        for layer, body in zip(self._layers, self._bodies, strict=True):
-            box, texture = _placed(layer, body, motion, t)
+        for layer, body, hidden in zip(self._layers, self._bodies, self._hidden, strict=True):
+            box, texture = _placed(layer, body, motion, t, hidden)
             if box.width and box.height:
                 drawn.append(_Drawn(box, texture, layer.blend, isinstance(layer, Layer)))
         return drawn
 
 
-def _placed(layer: Layer | StillLayer, body: int | None, motion: Motion, t: int) -> tuple[PixelBox, FloatImage]:
-    """Where a layer is in a frame, and its channels there."""
+def _placed(
+    layer: Layer | StillLayer, body: int | None, motion: Motion, t: int, hidden: HiddenArea | None = None
+) -> tuple[PixelBox, FloatImage]:
+    """Where a layer is in a frame, and its channels there, which may be any where it is hidden."""
     if isinstance(layer, StillLayer) or body is None:
         return layer.box, layer.texture  # type: ignore[union-attr]
-    return layer.drawn(motion.of_body(body)[t], motion.width, motion.height)
+    return layer.drawn(motion.of_body(body)[t], motion.width, motion.height, hidden=hidden)
 
 
 def render_frames(renderer: LayeredRenderer, *, progress: Progress | None = None) -> Iterator[NDArray[Any]]:
@@ -342,7 +351,11 @@ def _part(planes: FloatImage, box: PixelBox) -> FloatImage:
 def _interleaved(planes: FloatImage, dtype: np.dtype[Any]) -> NDArray[Any]:
     """Planes in 0 to 1, four of them premultiplied, shape [c, h, w], as a straight picture, shape [h, w, c]."""
     picture = np.asarray(cv2.merge(list(planes)))
-    return as_dtype(straight(picture) if is_transparent(picture) else picture, dtype)
+    if is_transparent(picture):
+        picture = straight(picture)
+    if dtype != np.uint8:
+        return as_dtype(picture, dtype)
+    return np.asarray(cv2.convertScaleAbs(np.clip(picture, 0, 1, out=picture), alpha=255))
 
 
 def _within_box(
