@@ -1,0 +1,24 @@
+"""References to names of ours, wherever they are defined, lead to the room that hands them out."""
+
+from __future__ import annotations
+
+from typing import Any
+
+__all__ = ["resolve_reexported"]
+
+
+def resolve_reexported(app: Any, env: Any, node: Any, contnode: Any) -> Any:
+    """Sphinx's ``missing-reference``: a type hint names the file, the reference is written for the room.
+
+    A name that no room hands out stays text: it is ours to use inside, and not to be imported.
+    """
+    target = node.get("reftarget", "")
+    if node.get("refdomain") != "py":
+        return None
+    name = target.rsplit(".", 1)[-1]
+    domain = env.get_domain("py")
+    found = [full for full in domain.objects if full.rsplit(".", 1)[-1] == name]
+    if not found:
+        return contnode if target.startswith("physanimator.") else None
+    room = min(found, key=lambda full: (full.count("."), full))
+    return domain.resolve_xref(env, node["refdoc"], app.builder, "obj", room, node, contnode)
