@@ -18,7 +18,7 @@ def command_page() -> str:
     summaries = {each.dest: each.help or "" for each in commands._choices_actions}
     parts = [
         "# Command line\n",
-        "`physanimator COMMAND --help` prints the same. On Windows, in the environment that pip installed into.\n",
+        "`physanimator COMMAND --help` prints the same.\n",
         *(f"- [`physanimator {name}`](#physanimator-{name}): {escaped(summaries[name])}" for name in commands.choices),
         "",
     ]

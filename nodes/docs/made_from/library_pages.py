@@ -15,7 +15,8 @@ ROOMS = {
         "physics.motion physics.assembly physics.simulation"
     ),
     "Pictures from motion": (
-        "rendering.pipeline rendering.pictures rendering.artwork rendering.matting rendering.plate rendering.composite "
+        "rendering.pipeline rendering.options rendering.physics_options rendering.animation "
+        "rendering.pictures rendering.artwork rendering.matting rendering.plate rendering.composite "
         "rendering.overlays rendering.sketch rendering.control rendering.inbetweens rendering.metrics "
         "rendering.segmentation rendering.svd rendering.neural"
     ),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 from physanimator.physics.document import scene_schema
@@ -17,7 +18,7 @@ _HEAD = ("field", "title", "type", "bounds", "default", "what it says")
 def scene_page() -> str:
     """Every field of a scene document, with its unit, bounds and default."""
     schema = scene_schema()
-    example = json.dumps(schema["examples"][0], indent=2)
+    example = _compact(json.dumps(schema["examples"][0], indent=2))
     parts = [
         "# Scene documents\n",
         f"{escaped(schema['description'])} `physanimator schema` prints the JSON Schema from which this page is made;"
@@ -36,6 +37,14 @@ def scene_page() -> str:
     parts.append("## Small values\n")
     parts += [f"({_anchor(name)})=\n### {_title(name)}\n\n{_type(each)}{_said(each)}\n" for name, each in small]
     return "\n".join(parts)
+
+
+def _compact(text: str) -> str:
+    """JSON with short lists and objects on one line each."""
+    for _ in range(3):
+        text = re.sub(r"([\[{])\s+([^\[\]{}]{1,60}?)\s+([\]}])", lambda m: m[1] + " ".join(m[2].split()) + m[3], text)
+        text = re.sub(r"\[\s+((?:\[[^\[\]]*\],?\s*)+)\]", lambda m: "[" + " ".join(m[1].split()) + "]", text)
+    return text
 
 
 def _table(definition: dict[str, Any]) -> str:
