@@ -43,7 +43,7 @@ release = version = physanimator.__version__
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 myst_enable_extensions = ["deflist", "colon_fence", "attrs_inline"]
 myst_heading_anchors = 3
-exclude_patterns = ["README.md", "made_from", "emblem", "files/README.md"]
+exclude_patterns = ["made_from", "made/own_picture.md"]  # the latter is a part of start.md
 nitpicky = True
 nitpick_ignore_regex = [("py:.*", r"(?!physanimator\b).*")]  # other projects' types: the build asks no network for them
 autodoc_typehints = "signature"

@@ -142,3 +142,12 @@ def test_pages_name_templates_that_there_are() -> None:
         text = page.read_text(encoding="utf-8")
         assert set(re.findall(r"template \*\*(\w+)\*\*", text)) <= templates
         assert set(re.findall(r"choose \*\*(\w+)\*\*", text)) <= templates
+
+
+def test_the_steps_for_a_picture_of_ones_own_connect(made: dict[str, str]) -> None:
+    """Every node is there, and has the inputs that are named for it."""
+    rows = re.findall(r"^\| \[[^\]]+\]\(made/nodes/(\w+)\.md\) \| (.+) \|$", made["own_picture.md"], re.MULTILINE)
+    assert len(rows) >= 6
+    for name, what in rows:
+        inputs = SCHEMAS[name]["input"]
+        assert set(re.findall(r"(?<!\*)\*(\w+)\*(?!\*)", what)) <= {*inputs["required"], *inputs.get("optional", {})}

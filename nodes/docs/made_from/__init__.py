@@ -9,6 +9,7 @@ from .command_page import command_page
 from .cross_references import resolve_reexported
 from .library_pages import library_pages
 from .node_pages import node_pages
+from .own_picture import own_picture
 from .readme_parts import readme_pages
 from .scene_page import scene_page
 
@@ -20,6 +21,7 @@ def pages(root: Path) -> dict[str, str]:
     return {
         "command_line.md": command_page(),
         "scene.md": scene_page(),
+        "own_picture.md": own_picture(root),
         **readme_pages(root),
         **{f"nodes/{name}": text for name, text in node_pages(root).items()},
         **{f"library/{name}": text for name, text in library_pages(root).items()},
