@@ -19,7 +19,7 @@ _SHORT = 60
 def node_pages(root: Path) -> dict[str, str]:
     """The pages by their names, and an index of them by their menus."""
     schemas = json.loads((root / "tests" / "nodes" / "node_schemas.json").read_text(encoding="utf-8"))
-    titles = {node["display_name"]: name for name, node in schemas.items()}
+    titles = {node["display_name"].removesuffix(" (PhysAnimator)"): name for name, node in schemas.items()}
     texts = {
         f"{name}.md": _page(root, schemas[name], titles)
         for name in sorted(schemas, key=lambda name: _place(schemas[name]))
@@ -61,7 +61,7 @@ def _page(root: Path, node: dict[str, Any], titles: dict[str, str]) -> str:
     )
     return "\n".join(
         [
-            _linked(help_text.rstrip(), titles, but=node["display_name"]),
+            _linked(help_text.rstrip(), titles, but=node["name"]),
             f"\n## For graphs in JSON\n\nIts type is {code(node['name'])}, its menu {code(node['category'])}.\n",
             table(
                 ("input", "type", "bounds", "default", "what it says"),
@@ -77,7 +77,7 @@ def _linked(text: str, titles: dict[str, str], *, but: str) -> str:
 
     def link(match: re.Match[str]) -> str:
         name = match[1]
-        return f"[**{name}**]({titles[name]}.md)" if name in titles and name != but else match[0]
+        return f"[**{name}**]({titles[name]}.md)" if name in titles and titles[name] != but else match[0]
 
     return re.sub(r"(?<!\[)\*\*([^*\n]+)\*\*", link, text)
 
