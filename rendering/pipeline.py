@@ -1,8 +1,10 @@
 """The whole way from an illustration to its animation, without a host.
 
-picture = load_image("girl.png")
-mask = load_mask("hair.png", width=picture.shape[1], height=picture.shape[0])
-animate(picture, [mask], preset="hair").save("girl.mp4")
+In short::
+
+    picture = load_image("girl.png")
+    mask = load_mask("hair.png", width=picture.shape[1], height=picture.shape[0])
+    animate(picture, [mask], preset="hair").save("girl.mp4")
 """
 
 from __future__ import annotations

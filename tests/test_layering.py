@@ -154,8 +154,9 @@ def room_of(module: str) -> str:
 
 
 def sources() -> list[Path]:
+    """All but those that draw and build the documentation, which is no part of the package."""
     inside = [path for house in HOUSES for path in (ROOT / house).rglob("*.py")]
-    return sorted([*ROOT.glob("*.py"), *inside])
+    return sorted([*ROOT.glob("*.py"), *(path for path in inside if not path.is_relative_to(ROOT / "nodes" / "docs"))])
 
 
 @lru_cache
