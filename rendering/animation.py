@@ -223,7 +223,7 @@ class Animation:
         """Write the animation to a video, an animated picture or a folder of pictures.
 
         Args:
-            path: a name in .mp4, .webm, .gif, .webp or .apng, or a folder ending in ``/``.
+            path: a name in .mp4, .webm, .mov, .gif, .webp or .apng, or a folder ending in ``/``.
             transparent: see :meth:`frames`.
             every: see :meth:`frames`.
             width: width of the written frames [px]; that of the illustration when None.

@@ -220,8 +220,9 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
         metavar="OUT",
         required=output is None,
         default=output,
-        help=".mp4, .webm (with transparency; of an opaque picture the moving parts alone), .gif, .webp, .apng, or a"
-        " folder ending in / for numbered PNG files" + (f" (default: {output})" if output else ""),
+        help=".mp4, .webm or .mov (ProRes 4444 for editing programs; both with transparency, of an opaque picture the"
+        " moving parts alone), .gif, .webp, .apng, or a folder ending in / for numbered PNG files"
+        + (f" (default: {output})" if output else ""),
     )
     _add_timing(drawing)
     drawing.add_argument(
@@ -234,14 +235,14 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
         " A colour (a CSS name, #rgb or #rrggbb): the same on that colour. transparent: all of the picture with its own"
         " transparency; of an opaque picture the moving parts alone. parts: the moving parts alone, on transparency."
         " layers: each layer of layered artwork as a sequence of its own, OUT/01 hair/frame_0000.png."
-        " (default: a transparent picture keeps its transparency, except in .mp4; of an opaque one parts for .webm,"
-        " else picture)",
+        " (default: a transparent picture keeps its transparency, except in .mp4; of an opaque one parts for .webm"
+        " and .mov, else picture)",
     )
     drawing.add_argument(
         "--pixel-art",
         action="store_true",
         help="move whole pixels (or blocks, where each pixel of the art is one) and mix no colours. Folders of PNG"
-        " files, .apng, .webp and a .gif of up to 255 colours keep them exactly, .mp4 and .webm blur them a little."
+        " files, .apng, .webp and a .gif of up to 255 colours keep them exactly, videos blur them a little."
         " --width repeats pixels: take a whole multiple",
     )
     drawing.add_argument(

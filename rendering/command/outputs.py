@@ -44,12 +44,13 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     from ..composite import Background, background_of
     from ..drawing_checks import check_drawing
     from ..files import is_folder_name, suffix_of
+    from ..pictures import OVERLAYS
     from .files import check_apart
 
     check_apart(options, bundled=bundled)
-    # Frames in .webm have an alpha channel whatever the illustration is, unless something else is said.
+    # Frames of overlays have an alpha channel whatever the illustration is, unless something else is said.
     by_model = draws_opaque(options)
-    usual = Background("parts" if suffix_of(options.output) == ".webm" and not by_model else "picture")
+    usual = Background("parts" if suffix_of(options.output) in OVERLAYS and not by_model else "picture")
     said = background_of(options.background) if options.background and not in_layers(options) else usual
     if in_layers(options) and not is_folder_name(options.output):
         raise InvalidInputError(f"--background layers needs --output to end in '/'. Got: {options.output}")
@@ -234,7 +235,7 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
     from ..composite import usual_background
     from ..drawing_checks import check_drawing
     from ..files import suffix_of
-    from ..pictures import holds_alpha, is_transparent
+    from ..pictures import OVERLAYS, holds_alpha, is_transparent
 
     if in_layers(options):
         return "transparent"
@@ -245,7 +246,7 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
     usual = usual_background(
         transparent_picture=is_transparent(image),
         file_has_alpha=holds_alpha(options.output),
-        parts=suffix_of(options.output) == ".webm",
+        parts=suffix_of(options.output) in OVERLAYS,
     )
     keyframes = keyframes_of(options)
     with named_as("--keyframes-at" if keyframes else "--interpolate", "every"):

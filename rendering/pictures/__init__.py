@@ -5,7 +5,7 @@ from __future__ import annotations
 from .bilinear_splat import splat
 from .bleeding import carried_on
 from .clip_reading import read_clip
-from .container_formats import FORMATS, holds_alpha
+from .container_formats import FORMATS, OVERLAYS, holds_alpha
 from .dense_flow import LEAST_FLOW_SIDE, optical_flow
 from .frame_folder import frames_in, is_frame_name
 from .frame_record import RECORD
@@ -21,6 +21,7 @@ from .video import check_output, write_animation
 __all__ = [
     "FORMATS",
     "LEAST_FLOW_SIDE",
+    "OVERLAYS",
     "RECORD",
     "WHITE",
     "Colour",
