@@ -134,25 +134,26 @@ class Animation:
         return self._measured("render", pictures, progress)
 
     def layers(self, t: int) -> Artwork:
-        """Frame ``t`` of layered artwork as layers again, for painting programs.
+        """Frame ``t`` as layers, for painting programs; see :meth:`LayeredRenderer.artwork`.
 
         Args:
             t: number of the frame that is shown, from 0.
 
         Raises:
-            InvalidInputError: there is no such frame, or the illustration is no layered artwork.
+            InvalidInputError: there is no such frame, or it is pixel art.
         """
         from .composite import PixelArtRenderer
 
         require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
         if isinstance(self.renderer, PixelArtRenderer):
-            raise InvalidInputError("frames in layers need layered artwork. Got: pixel art")
+            raise InvalidInputError("frames in layers must be without pixel_art. Got: pixel art")
         return self.renderer.artwork(self.first + t)
 
     def save_layers(self, folder: StrPath, *, width: int | None = None, progress: StageProgress | None = None) -> None:
-        """Write each layer of layered artwork as a sequence of its own, for painters: ``OUT/01 hair/frame_0000.png``.
+        """Write each layer as a sequence of its own, for painters: ``OUT/01 hair/frame_0000.png``.
 
-        Layers that stand still have one frame. All frames are RGBA as large as the canvas.
+        A flat picture has its background, its parts, and what stands in front of them as layers. Those that stand still
+        have one frame. All frames are RGBA as large as the canvas.
 
         Args:
             folder: where to; it is made where it is missing.
@@ -160,8 +161,8 @@ class Animation:
             progress: called after each frame with the stage "render".
 
         Raises:
-            InvalidInputError: the illustration is no layered artwork, or one of the folders holds frames that
-                PhysAnimator did not write.
+            InvalidInputError: the illustration is pixel art, or one of the folders holds frames that PhysAnimator did
+                not write.
         """
         from .artwork import layer_on_canvas
         from .layer_sequences import check_layer_sequences, layer_folders

@@ -234,7 +234,7 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
         help="what is there where nothing moves. picture: all of the picture, opaque, its transparent places white."
         " A colour (a CSS name, #rgb or #rrggbb): the same on that colour. transparent: all of the picture with its own"
         " transparency; of an opaque picture the moving parts alone. parts: the moving parts alone, on transparency."
-        " layers: each layer of layered artwork as a sequence of its own, OUT/01 hair/frame_0000.png."
+        " layers: each layer, or of a flat picture each part, as a sequence of its own, OUT/01 hair/frame_0000.png."
         " (default: a transparent picture keeps its transparency, except in .mp4; of an opaque one parts for .webm"
         " and .mov, else picture)",
     )

@@ -90,7 +90,7 @@ def in_layers(options: argparse.Namespace) -> bool:
 
 
 def check_layers(options: argparse.Namespace, image: Any) -> None:
-    """Refuse layers as sequences where there are none, or where they cannot be written, before any work.
+    """Refuse layers as sequences where they cannot be drawn or written, before any work.
 
     Args:
         options: of the command.
@@ -101,17 +101,19 @@ def check_layers(options: argparse.Namespace, image: Any) -> None:
     """
     import numpy as np
 
-    from ...physics.errors import InvalidInputError, require
-    from ..layer_sequences import check_layer_sequences
+    from ...physics.errors import require
+    from ..layer_sequences import check_layer_sequences, check_part_sequences
 
     if not in_layers(options):
         return
-    if isinstance(image, np.ndarray):
-        raise InvalidInputError("--background layers needs layered artwork as IMAGE. Got: a flat picture")
+    require("--pixel-art", "with it", not options.pixel_art, "left out with --background layers")
     require("--interpolate", options.interpolate, options.interpolate == 1, "1 with --background layers")
     require("--keyframes-at", options.keyframes_at, not options.keyframes_at, "left out with --background layers")
     with named_as("--output", "output", "folder"):
-        check_layer_sequences(image, options.output)
+        if isinstance(image, np.ndarray):
+            check_part_sequences(options.output)
+        else:
+            check_layer_sequences(image, options.output)
 
 
 def check_sizes(options: argparse.Namespace, image: NDArray[Any]) -> None:
