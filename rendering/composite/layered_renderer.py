@@ -161,6 +161,21 @@ class LayeredRenderer:
         return artwork_of(np.moveaxis(self._planes, 0, 2), self._layers, called, dtype)
 
     @property
+    def layers_at_rest(self) -> Artwork:
+        """The illustration in layers: those that were given, or what a flat picture was taken apart into."""
+        return self._artwork
+
+    @property
+    def movers(self) -> dict[int, tuple[Layer, int]]:
+        """For each layer of :attr:`layers_at_rest` that moves, how it is bent, and the number of its body."""
+        pieces = zip(self._sources, self._layers, self._bodies, strict=True)
+        return {
+            source: (piece, body)
+            for source, piece, body in pieces
+            if source is not None and isinstance(piece, Layer) and body is not None
+        }
+
+    @property
     def moving_layers(self) -> list[int]:
         """Indices of the layers that move in what :meth:`artwork` gives."""
         return sorted({source for source in self._sources if source is not None})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .atomic import naming_place, putting_in_place, replacing
-from .path_names import StrPath, is_folder_name, same_name, suffix_of
+from .path_names import StrPath, is_folder_name, plain_name, same_name, suffix_of
 from .places import check_file_place, check_folder_place, check_replaceable, is_read_only, place_of
 from .recorded_folder import RecordedFiles, check_recorded_folder, write_recorded_folder
 from .regular import check_regular
@@ -28,6 +28,7 @@ __all__ = [
     "made_beside",
     "naming_place",
     "place_of",
+    "plain_name",
     "putting_in_place",
     "remove_unfinished",
     "replacing",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .bilinear_splat import splat
-from .bleeding import carried_on
+from .bleeding import bled, carried_on
 from .clip_reading import read_clip
 from .container_formats import FORMATS, OVERLAYS, holds_alpha
 from .dense_flow import LEAST_FLOW_SIDE, optical_flow
@@ -30,6 +30,7 @@ __all__ = [
     "as_grey",
     "as_picture",
     "as_uint8",
+    "bled",
     "carried_on",
     "check_image_output",
     "check_output",

@@ -1,0 +1,54 @@
+"""The outline of a mesh, and its vertices in an order in which those of the outline are first."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...physics.mesh import half_edges, on_boundary
+
+__all__ = ["outline_first", "outline_of"]
+
+IndexArray = NDArray[np.int64]
+
+
+def outline_of(rest: NDArray[np.floating], triangles: IndexArray) -> IndexArray:
+    """The vertices around a mesh in turn; around its largest piece, where it has several.
+
+    The two sides of a slit are parts of the outline. Holes are not.
+
+    Args:
+        rest: vertices, shape [v, 2].
+        triangles: all winding the same way, shape [t, 3].
+    """
+    sides = half_edges(triangles)
+    following: dict[int, list[int]] = {}
+    for start, end in sides[on_boundary(sides)].tolist():
+        following.setdefault(start, []).append(end)
+    loops = []
+    while following:
+        start = point = next(iter(following))
+        loop = []
+        while point in following:
+            ends = following[point]
+            loop.append(point)
+            following_point = ends.pop()
+            if not ends:
+                del following[point]
+            point = following_point
+            if point == start:
+                break
+        loops.append(loop)
+    return np.array(max(loops, key=lambda loop: _area(rest[loop])), dtype=np.int64)
+
+
+def outline_first(count: int, outline: IndexArray) -> IndexArray:
+    """Numbers of all vertices, those of an outline first and in its order, each once, shape [count]."""
+    _, first = np.unique(outline, return_index=True)
+    hull = outline[np.sort(first)]
+    return np.concatenate([hull, np.setdiff1d(np.arange(count), hull)])
+
+
+def _area(points: NDArray[np.floating]) -> float:
+    x, y = points.T
+    return abs(float(np.dot(x, np.roll(y, 1)) - np.dot(y, np.roll(x, 1))))
