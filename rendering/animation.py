@@ -20,9 +20,10 @@ from .drawing_checks import check_drawing, height_at
 from .files import check_text_output, write_text
 from .frame_drawing import FrameDrawing
 from .inbetweens import keyframe_indices
+from .moving_pieces import DEFAULT_TOLERANCE
 from .neural import NetworkOptions
 from .pictures import check_output, holds_alpha, is_transparent, over, resized, write_animation
-from .stages import StageProgress
+from .stages import StageProgress, stage_of
 
 if TYPE_CHECKING:
     from .artwork import Artwork
@@ -297,6 +298,52 @@ class Animation:
 
         check_text_output(path, ".json")
         write_text(path, dumps(self.scene, meshes=False))
+
+    def save_spine(
+        self, folder: StrPath, *, tolerance: float = DEFAULT_TOLERANCE, progress: StageProgress | None = None
+    ) -> list[str]:
+        """Write a skeleton for Spine 4.2 and its runtimes: ``NAME.json``, ``NAME.atlas``, its pages, and ``images/``.
+
+        Each layer, or of a flat picture each part, is a slot; moving ones are meshes with deform keys.
+
+        Args:
+            folder: where to; it is made where it is missing, and its name is the skeleton's.
+            tolerance: how far a vertex may ever be from where the motion has it [px].
+            progress: called after each layer with the stage "spine".
+
+        Returns:
+            Sentences that say what was written, and what is otherwise than in the frames.
+
+        Raises:
+            InvalidInputError: the folder holds a skeleton that PhysAnimator did not write, nothing can be written
+                there, the tolerance is out of its range, or the illustration is pixel art.
+        """
+        from .editable import save_renderer_as_spine
+
+        hears = stage_of("spine", progress)
+        return save_renderer_as_spine(self.renderer, folder, first=self.first, tolerance=tolerance, progress=hears)
+
+    def save_gltf(
+        self, path: StrPath, *, tolerance: float = DEFAULT_TOLERANCE, progress: StageProgress | None = None
+    ) -> list[str]:
+        """Write a glTF scene for 3D programs and engines: each layer or part a textured mesh with morph targets.
+
+        Args:
+            path: a name in .glb.
+            tolerance: how far a vertex may ever be from where the motion has it [px].
+            progress: called after each layer with the stage "gltf".
+
+        Returns:
+            Sentences that say what was written, and what is otherwise than in the frames.
+
+        Raises:
+            InvalidInputError: nothing can be written there, the tolerance is out of its range, or the illustration is
+                pixel art.
+        """
+        from .editable import save_renderer_as_gltf
+
+        hears = stage_of("gltf", progress)
+        return save_renderer_as_gltf(self.renderer, path, first=self.first, tolerance=tolerance, progress=hears)
 
     def save_svg(self, path: StrPath) -> None:
         """Write the moving meshes over the faded illustration as an SVG that plays in a browser.

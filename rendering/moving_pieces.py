@@ -19,7 +19,10 @@ from .pictures import bled, resized
 if TYPE_CHECKING:
     from .artwork import ArtLayer, Blend
 
-__all__ = ["check_tolerance", "puppet_of"]
+__all__ = ["DEFAULT_TOLERANCE", "check_tolerance", "puppet_of"]
+
+DEFAULT_TOLERANCE = 0.25
+"""How far vertices may be from where the motion has them, when nothing is said [px]: nobody sees that."""
 
 _LONGEST = 8192  # px on a side of a picture, as graphics cards take it
 _MOST_PIXELS = 2**27

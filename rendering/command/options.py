@@ -298,6 +298,25 @@ def _add_data(parser: argparse.ArgumentParser) -> None:
         help="write the scene, what holds the parts and what they are made of included, to edit it and give it to"
         " --scene",
     )
+    data.add_argument(
+        "--save-spine",
+        metavar="OUT_FOLDER",
+        help="write a skeleton for Spine 4.2 and its runtimes: each layer or part a slot, those that move as meshes"
+        " with deform keys; images/ for the editor, an atlas with straight alpha for engines",
+    )
+    data.add_argument(
+        "--save-gltf",
+        metavar="OUT.glb",
+        help="write a glTF scene for 3D programs and engines: each layer or part a textured mesh, moved by morph"
+        " targets",
+    )
+    data.add_argument(
+        "--tolerance",
+        metavar="PX",
+        type=float,
+        help="how far --save-spine and --save-gltf may be from the motion (default: 0.25): with more there are fewer"
+        " keys and targets",
+    )
     data.add_argument("--save-svg", metavar="OUT.svg", help="write the moving meshes as an SVG that plays in a browser")
 
 
