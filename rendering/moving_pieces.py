@@ -65,7 +65,8 @@ def puppet_of(
             pieces.append(_moving(name, layer, piece, motion.of_body(body)[first:], blend))
         elif index in by_layer:
             pieces.append(_still(name, by_layer[index]))
-    shown, loops = len(motion) - first, motion.loop is not None
+    shown = len(motion) - first
+    loops = motion.loop is not None and shown % motion.loop.frames == 0
     return Puppet(motion.width, motion.height, motion.frame_rate, shown, loops, tuple(pieces))
 
 

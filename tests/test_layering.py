@@ -81,8 +81,8 @@ MAY_IMPORT = {
     "rendering": (
         "physics physics/assembly physics/document physics/material physics/mesh physics/motion physics/rig "
         "physics/scene physics/simulation rendering/artwork rendering/composite rendering/export rendering/files "
-        "rendering/inbetweens rendering/matting rendering/neural rendering/overlays rendering/pictures rendering/segmentation "
-        "rendering/sketch"
+        "rendering/inbetweens rendering/matting rendering/neural rendering/overlays rendering/pictures "
+        "rendering/segmentation rendering/sketch"
     ),
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "

@@ -19,25 +19,26 @@ def outline_of(rest: NDArray[np.floating], triangles: IndexArray) -> IndexArray:
 
     Args:
         rest: vertices, shape [v, 2].
-        triangles: all winding the same way, shape [t, 3].
+        triangles: shape [t, 3].
     """
     sides = half_edges(triangles)
-    following: dict[int, list[int]] = {}
-    for start, end in sides[on_boundary(sides)].tolist():
-        following.setdefault(start, []).append(end)
+    # Not by their direction: where a mesh is folded, triangles that wind the same way go along an edge the same way.
+    beside: dict[int, list[int]] = {}
+    for one, other in sides[on_boundary(sides)].tolist():
+        beside.setdefault(one, []).append(other)
+        beside.setdefault(other, []).append(one)
     loops = []
-    while following:
-        start = point = next(iter(following))
+    while beside:
+        point = next(iter(beside))
         loop = []
-        while point in following:
-            ends = following[point]
+        while point in beside:
             loop.append(point)
-            following_point = ends.pop()
-            if not ends:
-                del following[point]
-            point = following_point
-            if point == start:
-                break
+            following = beside[point].pop()
+            beside[following].remove(point)
+            for end in {point, following}:
+                if not beside[end]:
+                    del beside[end]
+            point = following
         loops.append(loop)
     return np.array(max(loops, key=lambda loop: _area(rest[loop])), dtype=np.int64)
 

@@ -13,7 +13,7 @@ from PIL import Image
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
 API = (Path(__file__).resolve().parents[2] / "workflows" / "api").glob("*.json")
 IN_WORKFLOWS = {node["class_type"] for path in API for node in json.loads(path.read_text(encoding="utf-8")).values()}
-RUN_HERE = {"FrameAsLayers", "LayersFromImageBatch", "SaveAnimation", "SaveLayers"}
+RUN_HERE = {"FrameAsLayers", "LayersFromImageBatch", "SaveAnimation", "SaveLayers", "SaveSpineOrGltf"}
 """Nodes that stand in no published workflow, all of which are run in test_running_workflows.py."""
 FILE_TYPES = SCHEMAS["PhysAnimator_SaveAnimation"]["input"]["required"]["file_type"][1]["options"]
 
@@ -86,6 +86,28 @@ def test_an_animation_is_saved_in_every_file_type(standin: Any, file_type: str) 
     assert len(files) == (3 if file_type == "png frames" else 1)
     assert all(file.stat().st_size > 100 for file in files)
     assert first["again"]["text"] == second["again"]["text"], "the second time it comes from the cache"
+
+
+def test_a_motion_is_saved_for_spine_and_gltf(standin: Any) -> None:
+    given = {"image": ["picture", 0], "motion": ["motion", 0], "filename_prefix": "game/bar", "tolerance": 0.25}
+    paths = []
+    for file_type in ("spine", "glb", "spine"):
+        prompt = moving_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type=file_type, **given)}
+        prompt |= {"path": core("PreviewAny", source=["saved", 0])}
+        if len(paths) == 2:
+            prompt["saved"]["inputs"]["tolerance"] = 0.5
+        outputs = standin.run(prompt)
+        paths.append(Path(outputs["path"]["text"][0]))
+        assert "px from the motion" in outputs["saved"]["text"][0]
+    first, scene, second = paths
+    assert sorted(file.name for file in first.iterdir() if not file.name.startswith(".")) == [
+        f"{first.name}.atlas", f"{first.name}.json", f"{first.name}.png", "images"
+    ]  # fmt: skip
+    assert scene.read_bytes()[:4] == b"glTF"
+    assert second != first
+    for name, value, said in (("tolerance", 0.001, "tolerance"), ("filename_prefix", "../up", "filename_prefix")):
+        wrong = moving_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type="glb", **(given | {name: value}))}
+        assert said in standin.error_of(wrong)
 
 
 def test_layers_from_pictures_move_and_are_saved_frame_by_frame(standin: Any) -> None:
