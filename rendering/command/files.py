@@ -148,6 +148,7 @@ def _replaced(path: str, *, spine: bool = False) -> Iterator[Path]:
     """What is there and would go."""
     place = place_of(path)
     if spine and os.path.isdir(place):
+        yield place  # of layers: the skeleton's pictures would be among them
         yield from (place / name for name in spine_files_in(place))
         yield place / SPINE_RECORD
         return
