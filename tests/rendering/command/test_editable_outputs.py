@@ -55,9 +55,8 @@ def test_both_are_written_and_replaced_and_other_files_stay(capsys: Output) -> N
     Path("puppet/images/notes.txt").write_text("mine")
     Path("puppet/moved.json").write_text("{}")
     before = Path("puppet/puppet.json").read_bytes()
-    assert (
-        status(*GIVEN[:-2], "-o", "clip.gif", "--wind", "3", "--save-spine", "puppet/", "-q", "--tolerance", "1") == 0
-    )
+    stormy = (*GIVEN[:5], "12", "-o", "clip.gif", "--wind", "3", "-q")
+    assert status(*stormy, "--save-spine", "puppet/", "--tolerance", "0.1") == 0
     assert Path("puppet/puppet.json").read_bytes() != before
     assert files("puppet") == sorted([*SKELETON, "girl.spine", "images/notes.txt", "moved.json"])
 
@@ -70,7 +69,7 @@ def test_a_skeleton_of_others_is_never_replaced(name: str, capsys: Output) -> No
     assert status(*GIVEN, "--save-spine", "puppet") == 2
     said = capsys.readouterr().err
     assert f"{name}, which PhysAnimator did not write" in said
-    assert said.startswith("physanimator: error: --save-spine") or "--save-spine" in said
+    assert said.startswith("physanimator: --save-spine")
     assert files("puppet") == [name]
 
 
@@ -87,7 +86,7 @@ def test_an_image_that_was_painted_on_is_kept(capsys: Output) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ("--save-gltf puppet.gltf", "--save-gltf: the name must end in .glb"),
+        ("--save-gltf puppet.gltf", "--save-gltf must end in .glb"),
         ("--save-gltf missing/puppet.glb", "--save-gltf: the folder for missing/puppet.glb must exist"),
         ("--save-spine girl.png", "--save-spine must not be a file that is read"),
         ("--save-spine clip.gif", "every output must have its own name"),
