@@ -105,9 +105,33 @@ def test_a_motion_is_saved_for_spine_and_gltf(standin: Any) -> None:
     ]  # fmt: skip
     assert scene.read_bytes()[:4] == b"glTF"
     assert second != first
-    for name, value, said in (("tolerance", 0.001, "tolerance"), ("filename_prefix", "../up", "filename_prefix")):
+    for name, value in (("tolerance", 0.001), ("filename_prefix", "../up")):
         wrong = moving_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type="glb", **(given | {name: value}))}
-        assert said in standin.error_of(wrong)
+        errors, _ = standin.post(wrong)
+        assert f"{name} must be" in errors["saved"][0]["details"]
+
+
+@pytest.mark.parametrize(("node", "file_type"), [("SaveAnimation", "mov"), ("SaveSpineOrGltf", "spine")])
+def test_saving_tells_how_far_it_is_and_leaves_nothing_when_stopped(standin: Any, node: str, file_type: str) -> None:
+    import comfy.model_management
+
+    own = {"width": 0} if node == "SaveAnimation" else {"tolerance": 0.3}
+    given = {"image": ["picture", 0], "motion": ["motion", 0], "filename_prefix": f"stopped/{file_type}"}
+    prompt = moving_bar(6) | {"saved": ours(node, file_type=file_type, **given, **own)}
+    told, stopped = [], standin.progressed
+
+    def stop(done: float, total: float, preview: Any, node_id: str | None = None) -> None:
+        stopped(done, total, preview, node_id)
+        if node_id == "saved":
+            told.append((done, total))
+            comfy.model_management.interrupt_current_processing()
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("comfy.utils.PROGRESS_BAR_HOOK", stop)
+        with pytest.raises(comfy.model_management.InterruptProcessingException):
+            standin.run(prompt)
+    assert told == [(1, 6 if node == "SaveAnimation" else 2)]
+    assert list((standin.folder / "output" / "stopped").iterdir()) == []
 
 
 def test_layers_from_pictures_move_and_are_saved_frame_by_frame(standin: Any) -> None:
