@@ -110,5 +110,5 @@ def _laid_otherwise(renderer: LayeredRenderer | PixelArtRenderer, blends: Collec
     for index, (name, layer) in enumerate(zip(artwork.names, artwork.layers, strict=True)):
         if layer.visible and layer.blend not in blends:
             now = "is laid over what is behind it" if index in movers else "has the colours that it gives at rest"
-            told.append(f"layer {name} {now}, because {program} has no mode {layer.blend}")
+            told.append(f"layer {name[:60]} {now}, because {program} has no mode {layer.blend}")
     return told
