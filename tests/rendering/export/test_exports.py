@@ -267,6 +267,37 @@ def test_a_scene_is_valid(kind: str, tmp_path: Path) -> None:
     assert report["info"]["hasMorphTargets"]
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_colours_go_on_under_alpha_0(kind: str) -> None:
+    """Bilinear reading of straight alpha mixes them in: black would be a dark rim."""
+    for piece in puppet_of(renderer_of(kind)).pieces:
+        if not piece.opaque:
+            beside = (piece.pixels[..., 3] == 0) & (cv2.dilate(piece.pixels[..., 3], np.ones((3, 3))) > 0)
+            assert (piece.pixels[beside][:, :3].max(axis=1) > 30).all()
+
+
+def test_a_glow_wider_than_the_mesh_is_drawn_once() -> None:
+    """What squares beyond the mesh carry and what the mesh itself does add up to no seam and no double rim."""
+    glowing = hair()
+    glowing[:, 105:] = 0
+    mesh = mesh_from_mask(glowing[..., 3] / 255, spacing=8)
+    distance = cv2.distanceTransform((glowing[..., 3] == 0).astype(np.uint8), cv2.DIST_L2, 5)
+    around = (glowing[..., 3] < 255) & (distance < 30)
+    glowing[around] = (250, 220, 120, 100)
+    art = Artwork(WIDTH, HEIGHT, (ArtLayer("wall", wall()), ArtLayer("hair", glowing)))
+    still = Motion((Body(mesh),), mesh.vertices[None].astype(np.float32), RATE)
+    renderer = LayeredRenderer.of_artwork(art, [1], still)
+    drawn = canvas()
+    for piece in puppet_of(renderer).pieces:
+        if piece.mesh is None:
+            drawn[:] = premultiplied(piece.pixels)
+        else:
+            draw_mesh(drawn, piece.mesh.rest, piece.mesh.triangles, piece.mesh.places, piece.pixels)
+    levels = apart(drawn, renderer.frame(0))
+    assert (levels > 8).mean() < 0.04  # a ring of one pixel, in which both are drawn
+    assert levels.mean() < 1
+
+
 def test_what_a_format_lacks_is_said(tmp_path: Path) -> None:
     renderer = renderer_of("layers")
     assert len(save_renderer_as_spine(renderer, tmp_path / "girl")) == 1
