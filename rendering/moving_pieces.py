@@ -94,8 +94,8 @@ def _moving(name: str, layer: ArtLayer, piece: Layer, positions: NDArray[np.floa
     shown, corner = _trimmed(whole, piece.canvas)
     parts = [_Part(piece.mesh.rest, piece.mesh.triangles, piece.mesh.rest - corner)]
     if piece.beyond is not None:
-        # Right at the mesh both draw, so that no seam opens between them.
-        own = cv2.dilate(piece.beyond.own.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+        # Up to the edge of the mesh, from which the renderer's mask keeps away: see-through, both would be a double rim.
+        own = cv2.dilate(piece.beyond.own.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
         whole[own] = 0
         specks, speck_corner = _trimmed(whole, piece.canvas)
         below = piece.beyond.rest - speck_corner + (0, shown.shape[0])
