@@ -94,7 +94,7 @@ def _moving(name: str, layer: ArtLayer, piece: Layer, positions: NDArray[np.floa
     shown, corner = _trimmed(whole, piece.canvas)
     parts = [_Part(piece.mesh.rest, piece.mesh.triangles, piece.mesh.rest - corner)]
     if piece.beyond is not None:
-        # Up to the edge of the mesh, from which the renderer's mask keeps away: see-through, both would be a double rim.
+        # Up to the mesh's edge, from which the renderer's mask keeps away: drawn twice, what is see-through has a rim.
         own = cv2.dilate(piece.beyond.own.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
         whole[own] = 0
         specks, speck_corner = _trimmed(whole, piece.canvas)
