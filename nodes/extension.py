@@ -7,6 +7,7 @@ from comfy_api.latest import ComfyExtension, io
 from .artwork_nodes import ArtworkToBodies, FrameAsLayers
 from .body_nodes import Body, Material
 from .contact_nodes import Contact
+from .editable_nodes import SaveSpineOrGltf
 from .example_nodes import ExampleIllustration
 from .flow_nodes import OpticalFlow, PreviewFlow
 from .host import checked, watch_prompts
@@ -53,6 +54,7 @@ NODES: list[type[io.ComfyNode]] = [
     WarpSketch,
     Render,
     SaveAnimation,
+    SaveSpineOrGltf,
     Interpolate,
     Metrics,
     WarpedVideo,

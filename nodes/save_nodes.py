@@ -55,8 +55,9 @@ class SaveAnimation(io.ComfyNode):
                 *place_inputs(
                     "animation/PhysAnimator",
                     FILE_TYPES,
-                    f"mp4: H.264, plays everywhere. webm: VP9. gif, webp, apng: animated pictures. {FRAMES}: a folder"
-                    " of numbered pictures. All but mp4 can be transparent.",
+                    f"mp4: H.264, plays everywhere. webm: VP9. gif, webp, apng: animated pictures. mov: ProRes 4444 for"
+                    f" editing and compositing programs. {FRAMES}: a folder of numbered pictures. All but mp4 can be"
+                    " transparent.",
                 ),
                 io.Int.Input(
                     "width",

@@ -52,6 +52,7 @@ MAY_IMPORT = {
     "rendering/composite": (
         "physics physics/mesh physics/motion rendering/artwork rendering/matting rendering/pictures rendering/plate"
     ),
+    "rendering/export": "physics physics/mesh rendering/artwork rendering/files rendering/pictures",
     "rendering/overlays": (
         "physics physics/forces physics/mesh physics/motion physics/rig physics/scene rendering/pictures"
     ),
@@ -79,13 +80,14 @@ MAY_IMPORT = {
     ),
     "rendering": (
         "physics physics/assembly physics/document physics/material physics/mesh physics/motion physics/rig "
-        "physics/scene physics/simulation rendering/artwork rendering/composite rendering/files rendering/inbetweens "
-        "rendering/matting rendering/neural rendering/overlays rendering/pictures rendering/segmentation "
-        "rendering/sketch"
+        "physics/scene physics/simulation rendering/artwork rendering/composite rendering/export rendering/files "
+        "rendering/inbetweens rendering/matting rendering/neural rendering/overlays rendering/pictures "
+        "rendering/segmentation rendering/sketch"
     ),
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
-        "physics/scene rendering rendering/artwork rendering/composite rendering/figures rendering/files "
+        "physics/scene rendering rendering/artwork rendering/composite rendering/export rendering/figures "
+        "rendering/files "
         "rendering/inbetweens rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "
         "rendering/segmentation"
     ),

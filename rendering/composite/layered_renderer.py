@@ -120,8 +120,10 @@ class LayeredRenderer:
         self._take(motion, background, layers, layer_order(motion.bodies))
         self._stand(background, image.dtype)
         self.drawn_plate = plate is not None
-        self._artwork: Artwork | None = None
-        self._sources: list[int | None] = []
+        # In the artwork that a flat picture is taken for, the background is the first layer.
+        self._sources: list[int | None] = [
+            number if isinstance(layer, Layer) else None for number, layer in enumerate(self._layers, 1)
+        ]
 
     @classmethod
     def of_artwork(cls, artwork: Artwork, layers: Sequence[int], motion: Motion) -> LayeredRenderer:
@@ -149,24 +151,49 @@ class LayeredRenderer:
         renderer._artwork, renderer._sources = artwork, pieces.sources
         return renderer
 
+    @cached_property
+    def _artwork(self) -> Artwork:
+        """The layers at rest: those that were given, or the parts that a flat picture was taken apart into."""
+        from .flat_artwork import artwork_of, part_names
+
+        names = part_names(self.motion)
+        called = ["in front" if body is None else names[body] for body in self._bodies]
+        dtype = np.dtype(np.uint8 if self.plate.dtype == np.uint8 else np.uint16)
+        return artwork_of(np.moveaxis(self._planes, 0, 2), self._layers, called, dtype)
+
+    @property
+    def layers_at_rest(self) -> Artwork:
+        """The illustration in layers: those that were given, or what a flat picture was taken apart into."""
+        return self._artwork
+
+    @property
+    def movers(self) -> dict[int, tuple[Layer, int]]:
+        """For each layer of :attr:`layers_at_rest` that moves, how it is bent, and the number of its body."""
+        pieces = zip(self._sources, self._layers, self._bodies, strict=True)
+        return {
+            source: (piece, body)
+            for source, piece, body in pieces
+            if source is not None and isinstance(piece, Layer) and body is not None
+        }
+
     @property
     def moving_layers(self) -> list[int]:
-        """Indices of the layers of an artwork that move; none where the illustration is flat."""
+        """Indices of the layers that move in what :meth:`artwork` gives."""
         return sorted({source for source in self._sources if source is not None})
 
     def artwork(self, t: int, *, only: int | None = None) -> Artwork:
-        """Frame ``t`` of layered artwork as layers again: those that move bent, the others as they are.
+        """Frame ``t`` as layers: those that move bent, the others as they are.
+
+        A flat picture gives its background, a layer for each part, and one for what stands still in front of them.
 
         Args:
             t: number of the frame.
             only: index of the layer that is wanted; others that move may be anywhere. None for all.
 
         Raises:
-            InvalidInputError: there is no such frame, or the renderer is none of layered artwork.
+            InvalidInputError: there is no such frame.
         """
         require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
-        if self._artwork is None:
-            raise InvalidInputError("frames in layers need layered artwork. Got: a flat picture")
         from .artwork_pieces import bent
 
         layers = list(self._artwork.layers)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from ..files import StrPath, is_folder_name, suffix_of
 
-__all__ = ["FORMATS", "ContainerFormat", "holds_alpha"]
+__all__ = ["FORMATS", "OVERLAYS", "ContainerFormat", "holds_alpha"]
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,22 @@ FORMATS = {
         longest_side=16_383,
     ),
     ".apng": ContainerFormat("apng", "apng", "rgb24", "rgba", container_options={"plays": "0"}),
+    # ProRes 4444, for editing and compositing programs, which take its alpha as straight.
+    ".mov": ContainerFormat(
+        "mov",
+        "prores_ks",
+        "yuv444p10le",
+        "yuva444p10le",
+        mixes_neighbours=True,
+        # Some programs refuse what does not name Apple as its maker.
+        options={"profile": "4444", "vendor": "apl0"},
+        alpha_options={"alpha_bits": "16"},
+        container_options={"movflags": "+faststart+write_colr"},
+    ),
 }
+
+OVERLAYS = (".webm", ".mov")
+"""Videos to lay over others: unless something is said, those of an opaque picture show its moving parts alone."""
 
 
 def holds_alpha(path: StrPath) -> bool:

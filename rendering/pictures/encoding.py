@@ -107,9 +107,17 @@ def _converted(
         return
     for frame in _numbered(frames, rate, even=even):
         if pixels.startswith("yuv"):
-            yield frame.reformat(format=pixels, dst_colorspace="ITU709", dst_color_range="MPEG")
+            yield _tagged(frame.reformat(format=pixels, dst_colorspace="ITU709", dst_color_range="MPEG"))
         else:
             yield frame.reformat(format=pixels)
+
+
+def _tagged(frame: av.VideoFrame) -> av.VideoFrame:
+    """A frame that says itself what its numbers mean: ProRes has that in each frame, besides in the file's head."""
+    for name in ("color_primaries", "color_trc"):
+        if hasattr(frame, name):  # since PyAV 16
+            setattr(frame, name, _BT709)
+    return frame
 
 
 def _numbered(frames: Iterable[NDArray[np.uint8]], rate: Fraction, *, even: bool) -> Iterator[av.VideoFrame]:

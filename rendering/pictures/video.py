@@ -1,4 +1,4 @@
-"""Animations into files: MP4, WebM with alpha, GIF, animated WebP and PNG, or a folder of numbered pictures."""
+"""Animations into files: MP4, WebM and ProRes with alpha, GIF, animated WebP and PNG, or a folder of pictures."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from PIL import Image
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
 API = (Path(__file__).resolve().parents[2] / "workflows" / "api").glob("*.json")
 IN_WORKFLOWS = {node["class_type"] for path in API for node in json.loads(path.read_text(encoding="utf-8")).values()}
-RUN_HERE = {"FrameAsLayers", "LayersFromImageBatch", "SaveAnimation", "SaveLayers"}
+RUN_HERE = {"FrameAsLayers", "LayersFromImageBatch", "SaveAnimation", "SaveLayers", "SaveSpineOrGltf"}
 """Nodes that stand in no published workflow, all of which are run in test_running_workflows.py."""
 FILE_TYPES = SCHEMAS["PhysAnimator_SaveAnimation"]["input"]["required"]["file_type"][1]["options"]
 
@@ -86,6 +86,52 @@ def test_an_animation_is_saved_in_every_file_type(standin: Any, file_type: str) 
     assert len(files) == (3 if file_type == "png frames" else 1)
     assert all(file.stat().st_size > 100 for file in files)
     assert first["again"]["text"] == second["again"]["text"], "the second time it comes from the cache"
+
+
+def test_a_motion_is_saved_for_spine_and_gltf(standin: Any) -> None:
+    given = {"image": ["picture", 0], "motion": ["motion", 0], "filename_prefix": "game/bar", "tolerance": 0.25}
+    paths = []
+    for file_type in ("spine", "glb", "spine"):
+        prompt = moving_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type=file_type, **given)}
+        prompt |= {"path": core("PreviewAny", source=["saved", 0])}
+        if len(paths) == 2:
+            prompt["saved"]["inputs"]["tolerance"] = 0.5
+        outputs = standin.run(prompt)
+        paths.append(Path(outputs["path"]["text"][0]))
+        assert "px from the motion" in outputs["saved"]["text"][0]
+    first, scene, second = paths
+    assert sorted(file.name for file in first.iterdir() if not file.name.startswith(".")) == [
+        f"{first.name}.atlas", f"{first.name}.json", f"{first.name}.png", "images"
+    ]  # fmt: skip
+    assert scene.read_bytes()[:4] == b"glTF"
+    assert second != first
+    for name, value in (("tolerance", 0.001), ("filename_prefix", "../up")):
+        wrong = moving_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type="glb", **(given | {name: value}))}
+        errors, _ = standin.post(wrong)
+        assert f"{name} must be" in errors["saved"][0]["details"]
+
+
+@pytest.mark.parametrize(("node", "file_type"), [("SaveAnimation", "mov"), ("SaveSpineOrGltf", "spine")])
+def test_saving_tells_how_far_it_is_and_leaves_nothing_when_stopped(standin: Any, node: str, file_type: str) -> None:
+    import comfy.model_management
+
+    own = {"width": 0} if node == "SaveAnimation" else {"tolerance": 0.3}
+    given = {"image": ["picture", 0], "motion": ["motion", 0], "filename_prefix": f"stopped/{file_type}"}
+    prompt = moving_bar(6) | {"saved": ours(node, file_type=file_type, **given, **own)}
+    told, stopped = [], standin.progressed
+
+    def stop(done: float, total: float, preview: Any, node_id: str | None = None) -> None:
+        stopped(done, total, preview, node_id)
+        if node_id == "saved":
+            told.append((done, total))
+            comfy.model_management.interrupt_current_processing()
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("comfy.utils.PROGRESS_BAR_HOOK", stop)
+        with pytest.raises(comfy.model_management.InterruptProcessingException):
+            standin.run(prompt)
+    assert told == [(1, 6 if node == "SaveAnimation" else 2)]
+    assert list((standin.folder / "output" / "stopped").iterdir()) == []
 
 
 def test_layers_from_pictures_move_and_are_saved_frame_by_frame(standin: Any) -> None:
