@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from contextvars import ContextVar
 from typing import Any
 
-__all__ = ["context", "is_linked", "is_wanted", "not_made", "sent_inputs", "server", "watch_prompts"]
+__all__ = ["context", "is_linked", "is_wanted", "not_made", "posted_nodes", "sent_inputs", "server", "watch_prompts"]
 
 _posted: ContextVar[Mapping[str, Any] | None] = ContextVar("physanimator_posted", default=None)
 _watched: list[Any] = []
@@ -45,6 +45,17 @@ def sent_inputs() -> Mapping[str, Any] | None:
     prompt, node = _prompt(), context()
     found = None if prompt is None or node is None else prompt.get(str(node.node_id))
     return found.get("inputs") if isinstance(found, Mapping) else None
+
+
+def posted_nodes(node_id: str) -> list[Mapping[str, Any]]:
+    """The inputs of each node of a kind in the prompt that is being checked, as it gives them; none elsewhere.
+
+    Args:
+        node_id: of the kind.
+    """
+    nodes = (each for each in (_posted.get() or {}).values() if isinstance(each, Mapping))
+    inputs = (each.get("inputs") for each in nodes if each.get("class_type") == node_id)
+    return [each for each in inputs if isinstance(each, Mapping)]
 
 
 def is_wanted(output: int) -> bool:
