@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bar_graphs import core, moving_bar, ours
 from PIL import Image
 
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
@@ -16,31 +17,6 @@ IN_WORKFLOWS = {node["class_type"] for path in API for node in json.loads(path.r
 RUN_HERE = {"FrameAsLayers", "LayersFromImageBatch", "SaveAnimation", "SaveLayers"}
 """Nodes that stand in no published workflow, all of which are run in test_running_workflows.py."""
 FILE_TYPES = SCHEMAS["PhysAnimator_SaveAnimation"]["input"]["required"]["file_type"][1]["options"]
-
-
-def core(node_type: str, /, **inputs: Any) -> dict[str, Any]:
-    return {"class_type": node_type, "inputs": inputs}
-
-
-def ours(node_type: str, /, **inputs: Any) -> dict[str, Any]:
-    return core(f"PhysAnimator_{node_type}", **inputs)
-
-
-def moving_bar(frames: int = 4) -> dict[str, Any]:
-    """A white bar that hangs at its top and is blown to the right, as a picture and its motion."""
-    return {
-        "black": core("SolidMask", value=0.0, width=160, height=96),
-        "white": core("SolidMask", value=1.0, width=24, height=64),
-        "mask": core("MaskComposite", destination=["black", 0], source=["white", 0], x=60, y=16, operation="add"),
-        "picture": core("MaskToImage", mask=["mask", 0]),
-        "mesh": ours("MaskToMesh", mask=["mask", 0], spacing=8.0, elements_across=2, mask_index=0),
-        "body": ours("Body", mesh=["mesh", 0], preset="ribbon", layer=0, attach="top"),
-        "scene": ours("AutomaticScene", bodies=["body", 0], wind_strength=3.0, wind_angle=0.0, sway_by_size=True,
-                      frame_rate=12.0),
-        "motion": ours("Simulate", scene=["scene", 0], frames=frames),
-        "render": ours("Render", image=["picture", 0], motion=["motion", 0]),
-        "seen": core("PreviewImage", images=["render", 0]),
-    }  # fmt: skip
 
 
 def pictures(standin: Any, outputs: dict[str, Any], key: str) -> np.ndarray:
