@@ -51,7 +51,8 @@ NUMBERS = [
 
 @pytest.mark.parametrize(("node", "name", "wrong"), NUMBERS)
 def test_a_wrong_number_is_said_once(standin: Any, node: str, name: str, wrong: float) -> None:
-    said = refused(standin, node, usual(SCHEMAS[f"PhysAnimator_{node}"]["input"]) | {name: wrong})
+    needed = {"SegmentByPoints": {"points": "[[10, 10, 1]]"}}.get(node, {})
+    said = refused(standin, node, usual(SCHEMAS[f"PhysAnimator_{node}"]["input"]) | needed | {name: wrong})
     assert len(said) <= 1  # none where the host itself refuses it
     assert all(f"{name} must be" in line for line in said)
 
@@ -62,7 +63,7 @@ def test_a_wrong_number_is_said_once(standin: Any, node: str, name: str, wrong: 
         ("EnergyStroke", {"path": "nonsense"}, "path - path"),
         ("EnergyStroke", {"path": "[[0, 0], [9, 9]]", "strength_keys": "strong"}, "strength_keys - strength_keys"),
         ("RigPoint", {"position": "nowhere"}, "position - position"),
-        ("RigPoint", {"position": "[[5, 5]]", "motion": "wave", "motion.period": -1.0}, "motion - motion.period"),
+        ("RigPoint", {"position": "[[5, 5]]", "region.radius": -1.0}, "region - radius must be above 0"),
         ("SceneFromJSON", {"scene": '{"version": 2}'}, "scene - "),
         ("SceneEditor", {"scene": "{"}, "scene - "),
         ("SegmentByPoints", {"points": "[[1, 2, 0]]"}, "points - points must be with one on the part at least"),
