@@ -16,6 +16,8 @@ __all__ = ["context", "is_linked", "is_wanted", "not_made", "posted_nodes", "sen
 
 _posted: ContextVar[Mapping[str, Any] | None] = ContextVar("physanimator_posted", default=None)
 _watched: list[Any] = []
+_OURS, _SCENE = "PhysAnimator_", "scene"
+"""How the names of our nodes begin, and what those call their input that take a scene document."""
 
 
 def server() -> Any:
@@ -98,7 +100,19 @@ def not_made(output: str) -> Any:
 def _remember(posted: Any) -> Any:
     prompt = posted.get("prompt") if isinstance(posted, Mapping) else None
     _posted.set(prompt if isinstance(prompt, Mapping) else None)
+    for node in (_posted.get() or {}).values():
+        _spell_alike(node)
     return posted
+
+
+def _spell_alike(node: Any) -> None:
+    """Give a scene document that is sent its one spelling: the host then knows a scene again that it has had."""
+    from .documents import canonical_text
+
+    kind, inputs = (node.get("class_type"), node.get("inputs")) if isinstance(node, Mapping) else ("", None)
+    text = inputs.get(_SCENE) if isinstance(inputs, dict) else None
+    if isinstance(text, str) and text.strip() and str(kind).startswith(_OURS):
+        inputs[_SCENE] = canonical_text(text)
 
 
 def _prompt() -> Mapping[str, Any] | None:

@@ -42,6 +42,23 @@ def test_a_bar_moves_and_what_was_not_changed_is_not_computed_again(standin: Any
     assert {"scene", "motion", "render"} <= set(standin.executed)
 
 
+def test_the_same_scene_in_another_spelling_is_not_simulated_again(standin: Any) -> None:
+    document = {"version": 2, "width": 160, "height": 96, "frame_rate": 12,
+                "strokes": [{"kind": "wind", "path": [[10, 40], [150, 40]], "radius": 80, "speed": 300}]}  # fmt: skip
+    prompt = moving_bar(3)
+    prompt["scene"] = ours("SceneEditor", scene=json.dumps(document), bodies=["body", 0])
+    standin.run(prompt)
+    assert "motion" in standin.executed
+    document |= {"width": 160.0, "frame_rate": 12.0}
+    prompt["scene"]["inputs"]["scene"] = json.dumps(dict(reversed(document.items())), indent=2)
+    standin.run(prompt)
+    assert standin.executed == []
+    document["strokes"][0]["speed"] = 301
+    prompt["scene"]["inputs"]["scene"] = json.dumps(document)
+    standin.run(prompt)
+    assert {"scene", "motion"} <= set(standin.executed)
+
+
 def test_an_output_is_made_once_somebody_takes_it(standin: Any) -> None:
     prompt = moving_bar(3)
     standin.run(prompt)

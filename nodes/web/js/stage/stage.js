@@ -22,6 +22,7 @@ const MOST_PIXELS = 4096;
  * @property {() => void} cancel
  * @property {() => void} double
  * @property {() => void} redraw
+ * @property {() => boolean} used  whether somebody works with the editor
  */
 
 export class Stage {
@@ -239,6 +240,7 @@ export class Stage {
 
   /** @param {WheelEvent} event */
   #wheel(event) {
+    if (!this.listener.used()) return;
     event.preventDefault();
     event.stopPropagation();
     const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
