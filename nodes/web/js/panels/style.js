@@ -24,7 +24,6 @@ export const STYLE = `
 .physanimator-title { display: none; margin: 0; font-size: 18px; font-weight: 600; }
 .physanimator-label { margin-left: 5px; white-space: nowrap; }
 .physanimator-toolbar:is(:not([data-labels]), [data-labels="none"]) .physanimator-label { display: none; }
-.physanimator-toolbar[data-labels="chosen"] :is(.physanimator-actions .physanimator-label, button[aria-pressed="false"] .physanimator-label, button:not([aria-pressed]) .physanimator-label) { display: none; }
 .physanimator-toolbar[data-labels="tools"] .physanimator-actions .physanimator-label { display: none; }
 .physanimator-group { display: flex; gap: 1px; padding: 0 4px; border-right: 1px solid var(--physanimator-rim); }
 .physanimator-actions .physanimator-group:last-child, .physanimator-tools:last-child .physanimator-group:last-child { border-right: 0; }
@@ -75,7 +74,11 @@ export const STYLE = `
 .physanimator-layer input[type="checkbox"] { flex: none; margin: 0; }
 .physanimator-heading { margin: 2px 0 6px; font-weight: 600; }
 .physanimator-field { display: flex; flex-wrap: wrap; align-items: center; justify-content: space-between; gap: 0 6px; min-height: 26px; }
-.physanimator-editor input.physanimator-slide { flex: 1 0 100%; width: 100%; height: 14px; margin: 0 0 4px; accent-color: var(--physanimator-accent); cursor: pointer; touch-action: none; }
+.physanimator-editor input[type="range"] { appearance: none; height: 14px; padding: 0; border: 0; background: linear-gradient(var(--physanimator-rim) 0 0) center / 100% 3px no-repeat; cursor: pointer; touch-action: none; }
+.physanimator-editor input[type="range"]:disabled { opacity: 0.4; cursor: default; }
+.physanimator-editor input[type="range"]::-webkit-slider-thumb { appearance: none; width: 12px; height: 12px; border-radius: 50%; background: var(--physanimator-accent); }
+.physanimator-editor input[type="range"]::-moz-range-thumb { width: 12px; height: 12px; border: 0; border-radius: 50%; background: var(--physanimator-accent); }
+.physanimator-editor input.physanimator-slide { flex: 1 0 100%; width: 100%; margin: 0 0 4px; }
 .physanimator-caption { min-width: 0; overflow-wrap: anywhere; }
 .physanimator-section { justify-content: flex-start; margin-top: 8px; font-weight: 600; }
 .physanimator-caption { color: var(--physanimator-dim); }
@@ -96,7 +99,7 @@ export const STYLE = `
 .physanimator-table button { height: 22px; white-space: nowrap; background: var(--physanimator-field); }
 .physanimator-timeline { grid-area: timeline; border-top: 1px solid var(--physanimator-rim); }
 .physanimator-bar { display: flex; align-items: center; gap: 4px; height: 30px; padding: 2px 6px; contain: strict; }
-.physanimator-slider { flex: 1; min-width: 40px; margin: 0; accent-color: var(--physanimator-accent); }
+.physanimator-slider { flex: 1; min-width: 40px; margin: 0; }
 .physanimator-readout { min-width: 84px; text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .physanimator-editor input.physanimator-length { width: 48px; }
 .physanimator-bar .physanimator-unit, .physanimator-key .physanimator-unit { width: auto; }
@@ -122,10 +125,11 @@ export const STYLE = `
 .physanimator-status { grid-area: status; display: flex; justify-content: space-between; gap: 4px 12px; min-width: 0; padding: 3px 8px; border-top: 1px solid var(--physanimator-rim);
   color: var(--physanimator-dim); font-size: 12px; font-variant-numeric: tabular-nums; }
 .physanimator-status > * { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+.physanimator-status > :first-child { white-space: normal; }
 .physanimator-status > :last-child { flex: none; }
 .physanimator-empty { padding: 6px 2px; color: var(--physanimator-dim); }
 .physanimator-dialog .physanimator-frame {
-  font-size: 14px; grid-template: "toolbar toolbar toolbar" auto "tools stage inspector" minmax(0, 1fr) "tools status inspector" auto "timeline timeline timeline" auto / auto minmax(0, 1fr) 280px;
+  color: var(--physanimator-text); font-size: 14px; grid-template: "toolbar toolbar toolbar" auto "tools stage inspector" minmax(0, 1fr) "tools status inspector" auto "timeline timeline timeline" auto / auto minmax(0, 1fr) 280px;
 }
 .physanimator-dialog .physanimator-frame[data-panel="false"] { grid-template-columns: auto minmax(0, 1fr) 0; }
 .physanimator-dialog .physanimator-toolbar { display: contents; }
@@ -157,10 +161,10 @@ export const STYLE = `
 @container (max-width: 519px) {
   .physanimator-bar .physanimator-unit { display: none; }
   .physanimator-editor > .physanimator-frame, .physanimator-editor > .physanimator-frame[data-panel="false"] {
-    grid-template: "toolbar" auto "stage" minmax(140px, 1fr) "status" auto "inspector" auto "timeline" auto / minmax(0, 1fr); overflow-y: auto; scrollbar-width: thin;
+    grid-template: "toolbar" max-content "stage" minmax(140px, 1fr) "status" max-content "inspector" max-content "timeline" max-content / minmax(0, 1fr); overflow-y: auto; scrollbar-width: thin;
   }
   .physanimator-editor > .physanimator-frame .physanimator-inspector { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); column-gap: 14px; align-content: start;
-    flex: none; max-height: 150px; }
+    grid-auto-rows: max-content; flex: none; max-height: 150px; }
   .physanimator-editor > .physanimator-frame .physanimator-side { border-left: 0; border-top: 1px solid var(--physanimator-rim); }
   .physanimator-layers { max-height: 110px; }
   .physanimator-heading, .physanimator-section, .physanimator-table, .physanimator-field[data-field="region"] { grid-column: 1 / -1; }
@@ -169,7 +173,6 @@ export const STYLE = `
 @container (max-width: 379px) {
   .physanimator-editor > .physanimator-frame .physanimator-inspector { grid-template-columns: minmax(0, 1fr); }
   .physanimator-status { flex-wrap: wrap; }
-  .physanimator-status > :first-child { white-space: normal; }
   .physanimator-lanes { --physanimator-names: 72px; }
   .physanimator-bar { flex-wrap: wrap; height: auto; contain: none; }
   .physanimator-slider { order: 1; flex: 1 0 100%; }

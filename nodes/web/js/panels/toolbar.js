@@ -91,7 +91,7 @@ export class Toolbar {
       return root.offsetHeight;
     };
     const least = down("none");
-    const most = ["all", "tools", "chosen"].find((labels) => down(labels) <= least);
+    const most = ["all", "tools"].find((labels) => down(labels) <= least);
     if (!most) root.dataset.labels = "none";
   }
 
