@@ -50,7 +50,7 @@ export class Inspector {
     this.side = this.material.side = Math.max(document.width, document.height);
     const active = this.root.contains(globalThis.document.activeElement) && globalThis.document.activeElement;
     // The field in which somebody types is left alone: it shows what is typed, not what became of it.
-    const typing = active && (active.type === "number" || this.sliding) && this.subject === this.#subject(document, selection);
+    const typing = (this.sliding || (active && active.type === "number")) && this.subject === this.#subject(document, selection);
     if (typing) {
       this.values = [];
       return;

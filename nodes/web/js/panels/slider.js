@@ -82,12 +82,17 @@ export function slidersOf(field, number, side) {
     slider.value = String(Math.round(NOTCHES * scale.share(Math.min(Math.max(value, scale.low), scale.high))));
     slider.setAttribute("aria-valuetext", `${number.value} ${field.unit ?? ""}`.trim());
   };
-  slider.addEventListener("input", () => {
-    const step = field.step ?? 0.01;
-    const exact = scale.value(Number(slider.value) / NOTCHES);
-    const rounded = Math.min(Math.max(Math.round(exact / step) * step, scale.low), scale.high);
-    number.value = String(Math.round(rounded * 1e6) / 1e6);
+  const step = field.step ?? 0.01;
+  const put = (/** @type {number} */ value) => {
+    number.value = String(Math.round(Math.min(Math.max(value, scale.low), scale.high) * 1e6) / 1e6);
     number.dispatchEvent(new Event("input"));
+  };
+  slider.addEventListener("input", () => put(Math.round(scale.value(Number(slider.value) / NOTCHES) / step) * step));
+  slider.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
+    const direction = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
+    if (!direction) return;
+    event.preventDefault();
+    put(Number(number.value) + direction * step * (event.shiftKey ? 10 : 1));
   });
   number.addEventListener("input", follow);
   follow();
