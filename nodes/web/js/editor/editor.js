@@ -10,7 +10,7 @@
  * @property {string[][]} groups  of buttons
  * @property {boolean} moves  whether there is time and motion
  * @property {string} [empty]  what to do while there are no points
- * @property {string} title  of the large view
+ * @property {string} [title]  of the large view
  * @property {import("../preview/client.js").Fetch} fetch
  * @property {(text: string) => void} onChange  a new value
  * @property {() => void} onKept  the same, a moment later where something is about to move

@@ -5,7 +5,7 @@
  */
 
 import { say } from "../host/words.js";
-import { element, isUsed } from "../panels/elements.js";
+import { element } from "../panels/elements.js";
 import { Inspector } from "../panels/inspector.js";
 import { LayerList } from "../panels/layer_list.js";
 import { STYLE } from "../panels/style.js";
@@ -45,7 +45,7 @@ export function layout(editor) {
     select: (reference) => editor.select(reference),
     retime: (reference, item, done) => editor.commands.retime(reference, item, done),
   });
-  const title = element("h3", { className: "physanimator-title" }, [editor.options.title]);
+  const title = element("h3", { className: "physanimator-title" }, [editor.options.title ?? ""]);
   toolbar.root.prepend(title);
   const rows = [toolbar.root, place, status, side, ...(moves ? [timeline.root] : [])];
   /** @type {HTMLElement} */
@@ -72,6 +72,5 @@ function stageIn(editor, place) {
     cancel: () => editor.tool.cancel(),
     double: () => editor.tool.finish(),
     redraw: () => editor.redraw(),
-    used: () => isUsed(editor.root),
   });
 }

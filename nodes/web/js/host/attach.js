@@ -8,7 +8,7 @@
  * @property {boolean} moves
  * @property {[number, number]} size  of a new node, at least
  * @property {string} [empty]  what to do while there are no points
- * @property {string} title  of the large view
+ * @property {string} [title]  of the large view
  */
 
 import { Editor } from "../editor/editor.js";

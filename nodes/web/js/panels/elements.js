@@ -20,8 +20,8 @@ export function element(tag, properties = {}, children = []) {
 
 /**
  * @param {HTMLElement} root  of an editor
- * @returns {boolean} whether somebody works with it: it has the focus
+ * @returns {boolean} whether somebody works with it: it has the focus, or fills the window
  */
 export function isUsed(root) {
-  return root.contains(document.activeElement);
+  return root.contains(document.activeElement) || root.querySelector("dialog[open]") !== null;
 }

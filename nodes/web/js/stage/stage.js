@@ -6,6 +6,7 @@
  */
 
 import { say } from "../host/words.js";
+import { isUsed } from "../panels/elements.js";
 import { mark, PEN_UP } from "../preview/marks.js";
 import { fittingView, toPicture, zoomed } from "../scene/geometry.js";
 
@@ -22,7 +23,6 @@ const MOST_PIXELS = 4096;
  * @property {() => void} cancel
  * @property {() => void} double
  * @property {() => void} redraw
- * @property {() => boolean} used  whether somebody works with the editor
  */
 
 export class Stage {
@@ -240,7 +240,8 @@ export class Stage {
 
   /** @param {WheelEvent} event */
   #wheel(event) {
-    if (!this.listener.used()) return;
+    const editor = /** @type {HTMLElement | null} */ (this.root.closest(".physanimator-editor"));
+    if (editor && !isUsed(editor)) return;
     event.preventDefault();
     event.stopPropagation();
     const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
