@@ -33,7 +33,8 @@ def draw(editor: EditorPage, count: int = 1) -> None:
 
 # Every visible text, with its size on a screen at 100 %.
 _SIZES = """(() => [...editor.root.querySelectorAll('*')]
-  .filter((one) => one.tagName !== 'STYLE' && one.checkVisibility() && [...one.childNodes].some((node) => node.nodeType === 3 && node.data.trim()))
+  .filter((one) => one.tagName !== 'STYLE' && one.checkVisibility())
+  .filter((one) => [...one.childNodes].some((node) => node.nodeType === 3 && node.data.trim()))
   .map((one) => [one.textContent.slice(0, 20), parseFloat(getComputedStyle(one).fontSize)]))()"""
 
 
@@ -51,7 +52,8 @@ def test_no_word_is_small_and_the_large_view_has_a_title(editor: EditorPage) -> 
 
 
 def test_icons_have_words_where_there_is_room(editor: EditorPage) -> None:
-    shown = "[...editor.toolbar.root.querySelectorAll('.physanimator-label')].filter((one) => one.checkVisibility()).map((one) => one.textContent)"
+    labels = "[...editor.toolbar.root.querySelectorAll('.physanimator-label')]"
+    shown = f"{labels}.filter((one) => one.checkVisibility()).map((one) => one.textContent)"
     high = "editor.toolbar.root.offsetHeight"
     before = editor.ask(high)
     editor.ask("(editor.root.style.width = '2400px', 0)")
@@ -96,23 +98,24 @@ def test_lanes_have_names_and_scroll(editor: EditorPage) -> None:
     assert names.all_inner_texts() == [f"Wind stroke {number}" for number in range(1, 9)]
     lanes = "editor.timeline.lanes.parentElement"
     assert editor.ask(f"{lanes}.scrollHeight > {lanes}.clientHeight + 40")
+    box_of = "(one) => one.getBoundingClientRect()"
     inside = (
-        "(() => { const row = editor.timeline.lanes.querySelector('[data-selected=true]').getBoundingClientRect();"
-        f" const box = {lanes}.getBoundingClientRect(); return row.top >= box.top - 1 && row.bottom <= box.bottom + 1; }})()"
+        "((row, box) => row.top >= box.top - 1 && row.bottom <= box.bottom + 1)"
+        f"(...[editor.timeline.lanes.querySelector('[data-selected=true]'), {lanes}].map({box_of}))"
     )
     assert editor.ask(inside), "the lane of what was drawn last is in view"
     editor.ask("editor.select({ list: 'strokes', index: 0 })")
     assert editor.ask(inside)
     # Of the names nothing is left where the times are.
-    name, lane = (
-        editor.selector(one).first.bounding_box() for one in (".physanimator-lane-name", ".physanimator-lane")
-    )
+    name = editor.selector(".physanimator-lane-name").first.bounding_box()
+    lane = editor.selector(".physanimator-lane").first.bounding_box()
     assert name["x"] + name["width"] <= lane["x"] + 1
 
 
 def test_the_status_is_beside_the_picture(editor: EditorPage) -> None:
     for _ in range(2):
-        stage, status = (editor.selector(one).bounding_box() for one in (".physanimator-stage", ".physanimator-status"))
+        stage = editor.selector(".physanimator-stage").bounding_box()
+        status = editor.selector(".physanimator-status").bounding_box()
         assert status["y"] >= stage["y"] + stage["height"] - 1
         assert "1280 × 720 px" in editor.selector(".physanimator-status").inner_text()
         editor.press("expand")
@@ -198,12 +201,14 @@ _OUTSIDE = """(() => {
     .map(([one]) => one.outerHTML.slice(0, 80));
 })()"""
 _BOXES = """(() => {
-  const holder = editor.root.closest('[data-node-id]');
   const frame = editor.frame.getBoundingClientRect();
-  if (holder) { const box = holder.getBoundingClientRect(); return [frame.left - box.left, box.right - frame.right, box.bottom - frame.bottom]; }
-  const { ds } = app.canvas; const page = app.canvas.canvas.getBoundingClientRect();
-  const left = page.left + (node.pos[0] + ds.offset[0]) * ds.scale, top = page.top + (node.pos[1] + ds.offset[1]) * ds.scale;
-  return [frame.left - left, left + node.size[0] * ds.scale - frame.right, top + node.size[1] * ds.scale - frame.bottom];
+  const holder = editor.root.closest('[data-node-id]')?.getBoundingClientRect();
+  const { ds } = app.canvas;
+  const page = app.canvas.canvas.getBoundingClientRect();
+  const left = holder?.left ?? page.left + (node.pos[0] + ds.offset[0]) * ds.scale;
+  const right = holder?.right ?? left + node.size[0] * ds.scale;
+  const bottom = holder?.bottom ?? page.top + (node.pos[1] + node.size[1] + ds.offset[1]) * ds.scale;
+  return [frame.left - left, right - frame.right, bottom - frame.bottom];
 })()"""
 
 
@@ -239,13 +244,19 @@ def test_the_same_scene_in_another_spelling_is_not_simulated_again(editor: Edito
     assert editor.value().get("strokes", []) == [], "the steps to undo are still there"
 
 
+_LISTEN = """(() => {
+  const said = (window.saidByPhysAnimator = []);
+  const look = () => {
+    const text = editor.notes.root.querySelector('[data-note=run]')?.firstChild?.data ?? '';
+    if (said.at(-1) !== text) said.push(text);
+  };
+  new MutationObserver(look).observe(editor.notes.root, { childList: true, subtree: true });
+})()"""
+
+
 def test_what_is_said_while_the_node_runs(editor: EditorPage) -> None:
     draw(editor)
-    editor.ask(
-        "(window.saidByPhysAnimator = [], editor.notes.root && new MutationObserver(() => { const text = "
-        "editor.notes.root.querySelector('[data-note=run]')?.firstChild?.data ?? ''; if (window.saidByPhysAnimator.at(-1) !== text)"
-        " window.saidByPhysAnimator.push(text); }).observe(editor.notes.root, { childList: true, subtree: true }), 0)"
-    )
+    editor.ask(_LISTEN)
     editor.run_node()
     editor.wait("editor.live.measured.frames > 3")
     editor.wait("!editor.notes.shown.has('run')")

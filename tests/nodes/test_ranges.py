@@ -16,11 +16,26 @@ import pytest
 from bar_graphs import core, moving_bar, ours
 
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
-LONG = {"frames", "width", "height", "longest_side", "points", "working_size", "static_points", "elements_across"}
+LONG = {
+    "frames",
+    "loop",
+    "width",
+    "height",
+    "longest_side",
+    "points",
+    "working_size",
+    "static_points",
+    "elements_across",
+}
 """Of these only the lower end is tried: the upper one would take minutes."""
 NETWORKS = {"sketch-guided SVD", "soft inpainting", "tooncrafter", "drawing network", "segment anything"}
 """Choices whose models a test does not have."""
-NAMES_ONE = {"FrameAsLayers frame", "MaskToMesh mask_index"}
+NAMES_ONE = {
+    "FirstAndLastFrame first_frame",
+    "FirstAndLastFrame last_frame",
+    "FrameAsLayers frame",
+    "MaskToMesh mask_index",
+}
 """Numbers of something that is there or not, and of which as many are offered as there may be."""
 Given = dict[str, Any]
 
@@ -60,29 +75,35 @@ def tried(name: str, options: Given) -> Iterator[float]:
         yield low + 0.3 * step
 
 
-LINKS: dict[str, Given] = {
-    "MaskToMesh": {"mask": ["mask", 0]},
-    "Body": {"mesh": ["mesh", 0]},
-    "Scene": {"bodies": ["body", 0], "strokes": ["wind", 0]},
-    "AutomaticScene": {"bodies": ["body", 0]},
+OF_KIND = {
+    "IMAGE": ["picture", 0],
+    "MASK": ["mask", 0],
+    "PHYSANIMATOR_BODIES": ["body", 0],
+    "PHYSANIMATOR_FLOW": ["flow", 0],
+    "PHYSANIMATOR_MESH": ["mesh", 0],
+    "PHYSANIMATOR_MOTION": ["motion", 0],
+    "PHYSANIMATOR_SCENE": ["scene", 0],
+}
+"""What gives each kind of thing that a node must be connected to."""
+BESIDES: dict[str, Given] = {
+    "Scene": {"strokes": ["wind", 0]},
     "EnergyStroke": {"path": "[[10, 40], [150, 40]]"},
     "RigPoint": {"position": "[[72, 20]]"},
-    "Simulate": {"scene": ["scene", 0], "frames": 4},
-    "PreviewMotion": {"motion": ["motion", 0]},
-    "PreviewFlow": {"flow": ["flow", 0]},
-    "Tracks": {"motion": ["motion", 0]},
-    "ExtractSketch": {"image": ["picture", 0]},
-    "WarpSketch": {"sketch": ["picture", 0], "flow": ["flow", 0]},
-    "SaveAnimation": {"image": ["picture", 0], "motion": ["motion", 0], "filename_prefix": "film", "file_type": "gif"},
-    "WarpedVideo": {"image": ["picture", 0], "motion": ["motion", 0]},
-    "LineControlVideo": {"sketches": ["sketches", 0], "motion": ["motion", 0]},
-    "FirstAndLastFrame": {"frames": ["render", 0]},
-    "FrameAsLayers": {"motion": ["motion", 0]},
-    "SegmentByPoints": {"image": ["picture", 0], "points": "[[70, 40, 1]]"},
-    "Interpolate": {"frames": ["render", 0], "motion": ["motion", 0]},
-    "PaintMaterial": {"mesh": ["mesh", 0], "mask": ["mask", 0]},
-}  # fmt: skip
-"""What each node needs besides what a new one has."""
+    "Simulate": {"frames": 4},
+    "SaveAnimation": {"filename_prefix": "film", "file_type": "gif"},
+    "SegmentByPoints": {"points": "[[70, 40, 1]]"},
+    "PaintMaterial": {"stiffness": ["mask", 0]},
+}
+"""What each node needs besides what it must be connected to."""
+
+
+def needed(node: str) -> Given:
+    """What a node runs with."""
+    described = SCHEMAS[f"PhysAnimator_{node}"]["input"]
+    required = described.get("required", {}).items()
+    links = {name: OF_KIND[kind] for name, (kind, *_) in required if isinstance(kind, str) and kind in OF_KIND}
+    return usual(described) | links | BESIDES.get(node, {})
+
 
 CASES = [
     (node.removeprefix("PhysAnimator_"), name, chosen, value)
@@ -95,15 +116,14 @@ CASES = [
 
 def graph() -> Given:
     made = moving_bar()
-    made["wind"] = ours("EnergyStroke", **usual(SCHEMAS["PhysAnimator_EnergyStroke"]["input"]))
-    made["wind"]["inputs"]["path"] = "[[10, 40], [150, 40]]"
+    made["wind"] = ours("EnergyStroke", **needed("EnergyStroke"))
     made["flow"] = ours("OpticalFlow", motion=["motion", 0])
     return made
 
 
 @pytest.mark.parametrize(("node", "name", "chosen", "value"), CASES)
 def test_a_node_takes_what_its_input_offers(standin: Any, node: str, name: str, chosen: Given, value: float) -> None:
-    given = usual(SCHEMAS[f"PhysAnimator_{node}"]["input"]) | chosen | LINKS.get(node, {}) | {name: value}
+    given = needed(node) | chosen | {name: value}
     prompt = graph() | {"tried": ours(node, **given), "end": core("PreviewAny", source=["tried", 0])}
     try:
         said = standin.error_of(prompt)
@@ -120,5 +140,4 @@ def test_it_runs_with_what_a_new_node_has(standin: Any, node: str) -> None:
     """Else nothing would be found out above."""
     if node == "ArtworkToBodies":
         pytest.skip("needs layers")
-    given = usual(SCHEMAS[f"PhysAnimator_{node}"]["input"]) | LINKS.get(node, {})
-    standin.run(graph() | {"tried": ours(node, **given), "end": core("PreviewAny", source=["tried", 0])})
+    standin.run(graph() | {"tried": ours(node, **needed(node)), "end": core("PreviewAny", source=["tried", 0])})
