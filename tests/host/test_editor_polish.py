@@ -89,7 +89,7 @@ def test_numbers_have_sliders(editor: EditorPage) -> None:
     assert editor.value()["strokes"][0]["strength"] == -3
     editor.press("undo")
     editor.press("undo")
-    assert editor.value()["strokes"] == [] or editor.value()["strokes"][0]["strength"] == 2
+    assert [stroke["strength"] for stroke in editor.value().get("strokes", [])] in ([], [2])
 
 
 def test_lanes_have_names_and_scroll(editor: EditorPage) -> None:

@@ -380,10 +380,10 @@ export class Editor {
    */
   #draw(now, asked) {
     const { stage, live } = this;
-    const frame = live.playback.shown;
+    const { shown: frame, plays } = live.playback;
     // An editor out of sight rests; it is drawn again when it gets its size back.
     const more = live.playback.advance(now) && stage.across > 0;
-    if (!asked && frame === live.playback.shown) return more;
+    if (!asked && frame === live.playback.shown && plays === live.playback.plays) return more;
     if (this.stale) this.#showPanels();
     const { shows } = live;
     const meshShown = this.shown.mesh || !live.player.ready;

@@ -129,7 +129,7 @@ export const STYLE = `
 .physanimator-status > :last-child { flex: none; }
 .physanimator-empty { padding: 6px 2px; color: var(--physanimator-dim); }
 .physanimator-dialog .physanimator-frame {
-  color: var(--physanimator-text); font-size: 14px; grid-template: "toolbar toolbar toolbar" auto "tools stage inspector" minmax(0, 1fr) "tools status inspector" auto "timeline timeline timeline" auto / auto minmax(0, 1fr) 280px;
+  color: var(--physanimator-text); font-size: 14px; grid-template: "toolbar toolbar toolbar" auto "tools stage inspector" minmax(0, 1fr) "tools status inspector" auto "timeline timeline timeline" auto / auto minmax(0, 1fr) 264px;
 }
 .physanimator-dialog .physanimator-frame[data-panel="false"] { grid-template-columns: auto minmax(0, 1fr) 0; }
 .physanimator-dialog .physanimator-toolbar { display: contents; }
@@ -147,7 +147,7 @@ export const STYLE = `
 .physanimator-dialog .physanimator-heading { font-size: 15px; }
 .physanimator-dialog .physanimator-field { min-height: 30px; }
 .physanimator-dialog .physanimator-bar { height: 42px; }
-.physanimator-dialog .physanimator-lanes { --physanimator-names: 180px; height: 124px; }
+.physanimator-dialog .physanimator-lanes { --physanimator-names: 180px; height: 100px; }
 .physanimator-dialog .physanimator-row { height: 24px; }
 .physanimator-dialog .physanimator-lane { height: 16px; }
 .physanimator-dialog .physanimator-lane-name { font-size: 13px; }
