@@ -9,7 +9,7 @@ export const STYLE = `
   --physanimator-accent: var(--p-primary-color, #3b82f6);
   container-type: size;
   box-sizing: border-box; width: 100%; height: 100%; min-height: max(300px, var(--node-height, 0px) - 140px);
-  color: var(--physanimator-text); font: 13px/1.35 Inter, system-ui, sans-serif; text-align: left;
+  color: var(--physanimator-text); font: 13px/1.35 Inter, system-ui, sans-serif; text-align: left; scrollbar-color: var(--physanimator-dim) transparent;
 }
 .physanimator-editor *, .physanimator-editor *::before { box-sizing: border-box; }
 .physanimator-frame {
