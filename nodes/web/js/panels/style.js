@@ -168,7 +168,6 @@ export const STYLE = `
   .physanimator-editor > .physanimator-frame .physanimator-side { border-left: 0; border-top: 1px solid var(--physanimator-rim); }
   .physanimator-layers { max-height: 110px; }
   .physanimator-heading, .physanimator-section, .physanimator-table, .physanimator-field[data-field="region"] { grid-column: 1 / -1; }
-  .physanimator-inspector .physanimator-unit { width: 40px; }
 }
 @container (max-width: 379px) {
   .physanimator-editor > .physanimator-frame .physanimator-inspector { grid-template-columns: minmax(0, 1fr); }
