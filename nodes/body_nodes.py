@@ -54,7 +54,8 @@ class Material(io.ComfyNode):
         if "lambda" in values:
             values["lambda_"] = values.pop("lambda")  # no name that Python lets a field have
         if "stretch_limit" in values:
-            values["stretch_limit"] = values["stretch_limit"] or None
+            # A widget has no gap between 0, which is no limit, and the least.
+            values["stretch_limit"] = max(values["stretch_limit"], 1.0) if values["stretch_limit"] else None
         return io.NodeOutput(preset_material(name, **values) if name in PRESETS else PhysicalMaterial(**values))
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from comfy_api.latest import io, ui
 
-from ..physics.errors import InvalidInputError, require
+from ..physics.errors import InvalidInputError, counted, require
 from .example_nodes import FOLDER
 from .host import (
     batch_of_masks,
@@ -123,7 +123,7 @@ class LayersFromImageBatch(io.ComfyNode):
         pictures = pictures_of(images, name="images", alpha=True)
         titles = [line.strip() for line in names.rstrip().splitlines()] if names.strip() else []
         most = len(pictures)
-        require("names", f"{len(titles)} lines", len(titles) <= most, f"at most {most}, one for each picture")
+        require("names", counted(len(titles), "line"), len(titles) <= most, f"at most {most}, one for each picture")
         titles += [""] * (len(pictures) - len(titles))
         items: list[dict[str, Any]] = [
             {"image": picture[None], "name": title or f"layer {number}"}

@@ -28,7 +28,7 @@ from .host import (
 )
 from .host.field_inputs import ADVANCED
 from .host.wires import MaskedMesh, MeshWire
-from .mesh_inputs import mesh_inputs
+from .mesh_inputs import mesh_inputs, spacing_advice, spacing_of
 from .models import segmenter_advice
 from .models.sam_backend import missing_sam_files, sam_inputs, sam_network
 
@@ -162,6 +162,10 @@ def _points_of(text: str, width: int, height: int, *, needed: bool) -> list[Quer
     found = parse_points(text, width=width, height=height) if text.strip() else []
     if needed and not found:
         raise InvalidInputError(_NO_POINTS)
+    if needed:
+        from ..rendering.segmentation import require_object
+
+        require_object(np.array([point.positive for point in found]), None)
     return found
 
 
@@ -238,11 +242,11 @@ class MaskToMesh(io.ComfyNode):
         if not (coverage > 0.5).any():
             raise MeshingError(_EMPTY)
         coverage = fitted(coverage, picture.shape[1], picture.shape[0])
-        told = tell_user(cls, mask_advice(coverage))
+        told = tell_user(cls, [*mask_advice(coverage), *spacing_advice(spacing)])
         front = in_front_of(in_front, picture.shape[1], picture.shape[0])
         if front is not None:
             coverage = behind_still(coverage, front > 0.5)
         meshed = partial(part_mesh, picture) if given and not pixel_art else mesh_from_mask
-        mesh = meshed(coverage, spacing=spacing or None, elements_across=elements_across, uniform=uniform)
+        mesh = meshed(coverage, spacing=spacing_of(spacing), elements_across=elements_across, uniform=uniform)
         preview = batch_of_pictures([draw_wireframe(over(picture), mesh)], 1)
         return io.NodeOutput(MaskedMesh(mesh, coverage, front), preview, ui=shown_with(ui.PreviewImage(preview), told))

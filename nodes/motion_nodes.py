@@ -62,7 +62,8 @@ class Simulate(io.ComfyNode):
                     step=0.5,
                     optional=True,
                     tooltip="Length of a seamless loop [s]: the last frame leads back to the first, which is not the"
-                    " drawing then. All that acts is fitted to it. 0 is off, unless the scene has a loop.",
+                    " drawing then. All that acts is fitted to it. 0 is off, unless the scene has a loop;"
+                    " the shortest has 2 frames.",
                 ),
                 io.Float.Input(
                     "max_minutes",
@@ -129,6 +130,7 @@ class Simulate(io.ComfyNode):
         from ..physics.scene import advice
         from ..physics.simulation import compile_aside, simulate, simulated_aside
 
+        loop = max(loop, 2 / scene.scene.frame_rate) if loop else 0.0  # a widget has no gap between 0 and the least
         said: dict[str, Any] = {"loop": loop, "time_step": time_step, "sag": sag}
         said["strokes_as"] = "" if strokes_as == _AS_THE_SCENE else strokes_as
         acting = replace(scene.scene, **{name: value for name, value in said.items() if value})

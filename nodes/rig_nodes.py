@@ -9,6 +9,7 @@ from typing import Any
 from comfy_api.latest import io
 
 from ..physics.document import parse_polyline
+from ..physics.limits import MAX_BODIES
 from ..physics.rig import Combined, Pinned, RigMotion
 from ..physics.rig import RigPoint as PhysicalRigPoint
 from .host import PATH_FORMS, refusal
@@ -64,7 +65,7 @@ class RigPoint(io.ComfyNode):
                     "body",
                     default=-1,
                     min=-1,
-                    max=4095,
+                    max=MAX_BODIES - 1,
                     tooltip="Number of the body it acts on, counted from 0 along the chain; -1 is every body.",
                 ),
                 io.DynamicCombo.Input(

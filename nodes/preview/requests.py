@@ -9,7 +9,7 @@ from typing import Any
 
 from ...physics.checks import is_whole
 from ...physics.document import LayerMasks, read_json
-from ...physics.errors import InvalidInputError, require
+from ...physics.errors import InvalidInputError, counted, require
 from ...physics.limits import MAX_SIDE
 from ...physics.scene import Body, Scene
 from ...physics.simulation import loop_frames
@@ -71,7 +71,9 @@ def read_request(body: bytes) -> PreviewRequest:
     Raises:
         InvalidInputError: it is no such request, or larger than the limits.
     """
-    require("the request", f"{len(body)} bytes", len(body) <= MAX_REQUEST_BYTES, f"at most {MAX_REQUEST_BYTES} bytes")
+    require(
+        "the request", counted(len(body), "byte"), len(body) <= MAX_REQUEST_BYTES, f"at most {MAX_REQUEST_BYTES} bytes"
+    )
     _require_few_signs(body)
     data = read_json(body)
     _require_small(data)
@@ -82,8 +84,8 @@ def read_request(body: bytes) -> PreviewRequest:
     require("editor", _shown(editor), is_name, f"a text of 1 to {MAX_EDITOR_NAME} characters")
     require("key", _shown(key), is_key(key), "64 hexadecimal digits")
     require("scene", _shown(document), isinstance(document, dict), "a scene document, an object in braces")
-    counted = type(frames) is int and 1 <= frames <= MAX_FRAMES
-    require("frames", _shown(frames), counted, f"a whole number from 1 to {MAX_FRAMES}")
+    whole = type(frames) is int and 1 <= frames <= MAX_FRAMES
+    require("frames", _shown(frames), whole, f"a whole number from 1 to {MAX_FRAMES}")
     _require_few(document, "strokes", MAX_PREVIEW_STROKES)
     _require_few(document, "rig_points", MAX_PREVIEW_RIG_POINTS)
     points, pixels = _count_points(document)

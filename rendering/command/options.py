@@ -201,7 +201,9 @@ def _add_direction(parser: argparse.ArgumentParser) -> None:
         help="slit parts along the lines that are drawn between their strands, so that these swing apart (default: hair"
         " and ribbon; with --scene, as it says)",
     )
-    how.add_argument("--spacing", metavar="PX", type=float, help="distance of mesh vertices (default: from the mask)")
+    how.add_argument(
+        "--spacing", metavar="PX", type=float, help="distance of mesh vertices, at least 2 (default: from the mask)"
+    )
     add_physics(parser)
 
 

@@ -13,13 +13,13 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...physics.errors import InvalidInputError, require
+from ...physics.errors import InvalidInputError
 from ..pictures import as_picture, as_uint8
 from ..sketch import extract_sketch
 from .line_clicks import off_lines
 from .noise import noise_of, without_noise
 from .outline_cuts import cut_by_majority, grab_cut, window_of, without_foreign_lines
-from .prompts import Box, checked_box, checked_points
+from .prompts import Box, checked_box, checked_points, require_object
 from .trimap import trimap_from_points
 
 __all__ = ["segment"]
@@ -75,7 +75,7 @@ def segment(
     picture = _as_uint8(image)
     height, width = picture.shape[:2]
     seeds, positive = checked_points(points, labels, width, height)
-    require("points", f"{len(seeds)} points", bool(positive.any()) or box is not None, "at least one positive point")
+    require_object(positive, box)
     if (factor := _ENOUGH // max(width, height)) > 1:
         options = {"tolerance": tolerance, "iterations": iterations, "largest_hole": largest_hole}
         return _enlarged(picture, seeds, positive, box, factor, options)

@@ -73,9 +73,9 @@ painted in the mask editor, or from *Segment by Points*.
 
 **Softer or stiffer:** *preset* in *Body*, or connect a *Material*.
 
-**Draw the wind yourself:** see the workflow *every_step*.
+**Draw the wind yourself**, and see it move at once: the workflow *scene_editor*.
 
-Every node has a help page: select it and press **?**.
+Every node has a help page: select it and press the **info** button above it.
 """
 
 STEPS_NOTE = """\

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bar_graphs import core, moving_bar, ours
 from PIL import Image
 
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
@@ -16,31 +17,6 @@ IN_WORKFLOWS = {node["class_type"] for path in API for node in json.loads(path.r
 RUN_HERE = {"FrameAsLayers", "LayersFromImageBatch", "SaveAnimation", "SaveLayers", "SaveSpineOrGltf"}
 """Nodes that stand in no published workflow, all of which are run in test_running_workflows.py."""
 FILE_TYPES = SCHEMAS["PhysAnimator_SaveAnimation"]["input"]["required"]["file_type"][1]["options"]
-
-
-def core(node_type: str, /, **inputs: Any) -> dict[str, Any]:
-    return {"class_type": node_type, "inputs": inputs}
-
-
-def ours(node_type: str, /, **inputs: Any) -> dict[str, Any]:
-    return core(f"PhysAnimator_{node_type}", **inputs)
-
-
-def moving_bar(frames: int = 4) -> dict[str, Any]:
-    """A white bar that hangs at its top and is blown to the right, as a picture and its motion."""
-    return {
-        "black": core("SolidMask", value=0.0, width=160, height=96),
-        "white": core("SolidMask", value=1.0, width=24, height=64),
-        "mask": core("MaskComposite", destination=["black", 0], source=["white", 0], x=60, y=16, operation="add"),
-        "picture": core("MaskToImage", mask=["mask", 0]),
-        "mesh": ours("MaskToMesh", mask=["mask", 0], spacing=8.0, elements_across=2, mask_index=0),
-        "body": ours("Body", mesh=["mesh", 0], preset="ribbon", layer=0, attach="top"),
-        "scene": ours("AutomaticScene", bodies=["body", 0], wind_strength=3.0, wind_angle=0.0, sway_by_size=True,
-                      frame_rate=12.0),
-        "motion": ours("Simulate", scene=["scene", 0], frames=frames),
-        "render": ours("Render", image=["picture", 0], motion=["motion", 0]),
-        "seen": core("PreviewImage", images=["render", 0]),
-    }  # fmt: skip
 
 
 def pictures(standin: Any, outputs: dict[str, Any], key: str) -> np.ndarray:
@@ -64,6 +40,23 @@ def test_a_bar_moves_and_what_was_not_changed_is_not_computed_again(standin: Any
     standin.run(prompt)
     assert "mesh" not in standin.executed
     assert {"scene", "motion", "render"} <= set(standin.executed)
+
+
+def test_the_same_scene_in_another_spelling_is_not_simulated_again(standin: Any) -> None:
+    document = {"version": 2, "width": 160, "height": 96, "frame_rate": 12,
+                "strokes": [{"kind": "wind", "path": [[10, 40], [150, 40]], "radius": 80, "speed": 300}]}  # fmt: skip
+    prompt = moving_bar(3)
+    prompt["scene"] = ours("SceneEditor", scene=json.dumps(document), bodies=["body", 0])
+    standin.run(prompt)
+    assert "motion" in standin.executed
+    document |= {"width": 160.0, "frame_rate": 12.0}
+    prompt["scene"]["inputs"]["scene"] = json.dumps(dict(reversed(document.items())), indent=2)
+    standin.run(prompt)
+    assert standin.executed == []
+    document["strokes"][0]["speed"] = 301
+    prompt["scene"]["inputs"]["scene"] = json.dumps(document)
+    standin.run(prompt)
+    assert {"scene", "motion"} <= set(standin.executed)
 
 
 def test_an_output_is_made_once_somebody_takes_it(standin: Any) -> None:

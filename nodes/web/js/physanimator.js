@@ -12,8 +12,8 @@ import { POINT_GROUPS, SCENE_GROUPS } from "./panels/toolbar.js";
 
 /** @type {Record<string, import("./host/attach.js").Kind>} */
 const KINDS = {
-  PhysAnimator_SceneEditor: { input: "scene", format: SCENE, groups: SCENE_GROUPS, moves: true, size: [810, 580] },
-  PhysAnimator_SegmentByPoints: { input: "points", format: POINTS, groups: POINT_GROUPS, moves: false, size: [400, 400], empty: say("Click on what shall move.") },
+  PhysAnimator_SceneEditor: { title: say("Scene Editor"), input: "scene", format: SCENE, groups: SCENE_GROUPS, moves: true, size: [810, 580] },
+  PhysAnimator_SegmentByPoints: { title: say("Segment by Points"), input: "points", format: POINTS, groups: POINT_GROUPS, moves: false, size: [400, 400], empty: say("Click on what shall move.") },
 };
 
 app.registerExtension({

@@ -223,6 +223,7 @@ export class Commands {
 
   #play() {
     const { live } = this.editor;
+    if (!live.playback.moving) return;
     live.playback.toggle();
     live.playback.moment = performance.now();
     this.editor.redraw();

@@ -10,6 +10,7 @@
  * @property {string[][]} groups  of buttons
  * @property {boolean} moves  whether there is time and motion
  * @property {string} [empty]  what to do while there are no points
+ * @property {string} [title]  of the large view
  * @property {import("../preview/client.js").Fetch} fetch
  * @property {(text: string) => void} onChange  a new value
  * @property {() => void} onKept  the same, a moment later where something is about to move
@@ -18,6 +19,7 @@
 
 import { say } from "../host/words.js";
 import { ACTIONS } from "../panels/toolbar.js";
+import { canonical } from "../scene/canonical.js";
 import { emptyDocument, itemAt, withItem, withValue } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
 import { withFoundHolds, withLostHolds } from "../scene/holds.js";
@@ -176,6 +178,7 @@ export class Editor {
 
   /** @param {import("../scene/layers.js").Layer[]} layers  of which none moves by its name */
   refuseLayers(layers) {
+    this.backdrop.waiting = false;
     this.live.setRun(null, null);
     this.setLayers(layers);
     this.backdrop.offerRun(say("No layer moves by its name: switch on in the list what is to move, then run this node."));
@@ -228,7 +231,8 @@ export class Editor {
     try {
       const document = this.options.format.read(text);
       this.notes.show("value", "");
-      this.store.load(document);
+      // Spelled in another way it is the same scene, with the same steps to undo.
+      if (canonical(document) !== canonical(this.document)) this.store.load(document);
       this.resize(document);
     } catch (error) {
       const anew = () => this.commit(emptyDocument(this.document.width, this.document.height), null);
@@ -244,8 +248,10 @@ export class Editor {
     if (this.live.run && !isAsRun(this.document, this.layerList.layers)) {
       this.live.hold();
       this.backdrop.offerRun(say("Other layers are to move: run this node to see them move."));
-    } else if (this.live.run) this.live.request(this.document, this.frameCount);
-    else this.backdrop.offerRun();
+    } else if (this.live.run) {
+      this.live.request(this.document, this.frameCount);
+      if (!this.live.playback.moving && this.live.asked) this.backdrop.prepare();
+    } else this.backdrop.offerRun();
   }
 
   get frameCount() {
@@ -258,6 +264,7 @@ export class Editor {
     this.root.dataset.released = "true";
     this.scheduler.stop();
     this.stage.release();
+    this.toolbar.release();
     this.live.release();
     if (this.dialog.open) this.dialog.close();
   }
@@ -342,8 +349,8 @@ export class Editor {
   #showStatus() {
     const { width, height } = this.document;
     const zoom = Math.round(this.stage.view.scale * 100);
-    const text = `${ACTIONS[this.tool.id].title} · ${zoom} % · ${width} × ${height} px`;
-    if (this.status.textContent !== text) this.status.textContent = text;
+    const said = [ACTIONS[this.tool.id].title, `${zoom} % · ${width} × ${height} px`];
+    [...this.status.children].forEach((part, i) => part.textContent !== said[i] && (part.textContent = said[i]));
   }
 
   /** Let the host hear of the last change at once, if it has not yet. */
@@ -373,10 +380,10 @@ export class Editor {
    */
   #draw(now, asked) {
     const { stage, live } = this;
-    const frame = live.playback.shown;
+    const { shown: frame, plays } = live.playback;
     // An editor out of sight rests; it is drawn again when it gets its size back.
     const more = live.playback.advance(now) && stage.across > 0;
-    if (!asked && frame === live.playback.shown) return more;
+    if (!asked && frame === live.playback.shown && plays === live.playback.plays) return more;
     if (this.stale) this.#showPanels();
     const { shows } = live;
     const meshShown = this.shown.mesh || !live.player.ready;

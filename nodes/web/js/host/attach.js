@@ -8,9 +8,11 @@
  * @property {boolean} moves
  * @property {[number, number]} size  of a new node, at least
  * @property {string} [empty]  what to do while there are no points
+ * @property {string} [title]  of the large view
  */
 
 import { Editor } from "../editor/editor.js";
+import { shareGestures } from "./gestures.js";
 import { executionId, runNode } from "./queueing.js";
 import { upstreamPicture } from "./upstream.js";
 import { chain, hide, tell } from "./widgets.js";
@@ -21,6 +23,8 @@ const SETTLED = 150;
 /** Time from one look at the graph to the next [ms]. */
 const LOOKS = 500;
 const OUTPUT = "physanimator_editor";
+/** What the host tells of a run that is over. */
+const ENDS = ["execution_error", "execution_interrupted", "execution_success"];
 /** What a node sends that refuses to go on because no layer moves; see nodes/layer_lists.py. */
 export const LAYERS = "physanimator.layers";
 
@@ -38,7 +42,10 @@ export function attachEditor(app, api, node, kind) {
     fetch: (path, options) => api.fetchApi(path, options),
     onChange: (text) => (value.value = text),
     onKept: () => tell(app, node, value),
-    onRun: () => runNode(app, node),
+    onRun: () => {
+      editor.backdrop.wait();
+      runNode(app, node).then((queued) => queued === false && editor.backdrop.stopWaiting(), () => editor.backdrop.stopWaiting());
+    },
   });
   hide(value);
   const widget = node.addDOMWidget("physanimator_editor", "physanimator_editor", editor.root, {
@@ -48,6 +55,7 @@ export function attachEditor(app, api, node, kind) {
   });
   // A widget that is only shown must not be saved: it would shift the values of all that come after it.
   widget.serialize = false;
+  shareGestures(app, node, editor.root);
   follow(app, api, node, value, editor);
   grow(node, kind.size, editor.root);
   return editor;
@@ -100,7 +108,7 @@ function follow(app, api, node, value, editor) {
   const ran = (/** @type {any} */ output) => {
     const [info] = output?.[OUTPUT] ?? [];
     editor.advise(output?.advice ?? []);
-    if (info) editor.backdrop.setRun(runOf(api, info)).catch((error) => editor.say(error.message));
+    if (info) editor.backdrop.setRun(runOf(api, info)).catch((error) => editor.backdrop.trouble(error));
   };
   chain(node, "onConfigure", () => queueMicrotask(look));
   chain(node, "onConnectionsChange", () => queueMicrotask(look));
@@ -118,8 +126,11 @@ function follow(app, api, node, value, editor) {
     if (node.graph && detail.node === executionId(node, app.rootGraph ?? app.graph)) editor.refuseLayers(detail.layers);
   };
   api.addEventListener(LAYERS, refused);
+  const ended = () => editor.backdrop.stopWaiting();
+  for (const name of ENDS) api.addEventListener(name, ended);
   chain(node, "onRemoved", () => {
     clearInterval(remains);
+    for (const name of ENDS) api.removeEventListener(name, ended);
     api.removeEventListener(LAYERS, refused);
     editor.release();
   });

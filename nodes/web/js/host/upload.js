@@ -43,7 +43,7 @@ export function attachUpload(app, api, node, name) {
       for (const file of chosen.files) stored = await upload(api, file, chosen.subfolder);
       choose(app, node, name, chosen.subfolder || stored);
     } catch (error) {
-      warn(app, say("The file could not be uploaded: {reason}", { reason: error instanceof Error ? error.message : error }));
+      warn(app, say("The file could not be uploaded: {reason}", { reason: reasonOf(error) }));
     }
   };
   picker.addEventListener("change", () => {
@@ -61,6 +61,15 @@ export function attachUpload(app, api, node, name) {
     take(files);
     return true;
   };
+}
+
+/**
+ * @param {unknown} error
+ * @returns {string}
+ */
+function reasonOf(error) {
+  if (error instanceof TypeError) return say("the server does not answer");
+  return error instanceof Error ? error.message : String(error);
 }
 
 /**

@@ -4,6 +4,8 @@
  * @typedef {any} GraphNode  of LiteGraph
  */
 
+import { isConnected, linkInto } from "./links.js";
+
 /** Origin of a link that comes from outside of a subgraph. */
 const SUBGRAPH_INPUT = -10;
 const FARTHEST = 200;
@@ -34,7 +36,7 @@ export function upstreamPicture(node, rootGraph) {
 
 /** @param {GraphNode} node whether a picture is connected to the node itself */
 function isPicture(node) {
-  return (node.inputs ?? []).some((/** @type {any} */ input) => input.type === "IMAGE" && input.link != null);
+  return (node.inputs ?? []).some((/** @type {any} */ input, /** @type {number} */ slot) => input.type === "IMAGE" && isConnected(node, slot));
 }
 
 /** @param {GraphNode} node */
@@ -56,24 +58,23 @@ function pictureOf(node) {
  * @returns {GraphNode[]}
  */
 function sourcesOf(node, rootGraph, type) {
-  const inputs = (node.inputs ?? []).filter((/** @type {any} */ input) => input.link != null && (!type || input.type === type));
-  return inputs.map((/** @type {any} */ input) => sourceOf(node, input.link, rootGraph)).filter(Boolean);
+  const slots = (node.inputs ?? []).flatMap((/** @type {any} */ input, /** @type {number} */ slot) => (!type || input.type === type ? [slot] : []));
+  return slots.map((/** @type {number} */ slot) => sourceOf(node, slot, rootGraph)).filter(Boolean);
 }
 
 /**
  * @param {GraphNode} node
- * @param {number} linkId
+ * @param {number} slot  of an input
  * @param {any} rootGraph
  * @returns {GraphNode | null}
  */
-function sourceOf(node, linkId, rootGraph) {
+function sourceOf(node, slot, rootGraph) {
   const { graph } = node;
-  const link = graph?.getLink?.(linkId) ?? graph?.links?.get?.(linkId) ?? graph?.links?.[linkId];
-  if (!link) return null;
+  const link = linkInto(node, slot);
+  if (!link || !graph) return null;
   if (link.origin_id !== SUBGRAPH_INPUT) return graph.getNodeById(link.origin_id);
   const holder = holderOf(graph, rootGraph);
-  const outer = holder?.inputs?.[link.origin_slot]?.link;
-  return holder && outer != null ? sourceOf(holder, outer, rootGraph) : null;
+  return holder ? sourceOf(holder, link.origin_slot, rootGraph) : null;
 }
 
 /**
