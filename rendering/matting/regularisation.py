@@ -10,7 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.interruption import checkpoint
 from ..pictures import window_around
+from .kept_masks import KeptMasks
 from .mask_edges import FAINT, SQUARE, edge_strength, grown
 from .mask_forms import NOISE, MaskEdge, edge_of, from_edge, in_blocks, is_noisy, up_to_white
 from .moved_edges import (
@@ -69,7 +71,7 @@ def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
     margin = _MARGIN
     while True:
         window = window_around(mask > FAINT, margin=margin)
-        found = _regular(image[window], mask[window])
+        found = _REGULAR(image[window], mask[window])
         # A strand may go on beyond what has been looked at.
         if found.shape == mask.shape or not _meets_border(found, mask[window]):
             break
@@ -93,6 +95,7 @@ def _meets_border(found: FloatImage, mask: FloatImage) -> bool:
 
 
 def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
+    checkpoint()
     edge = edge_of(mask)
     noisy = edge.median_width() < _BLURRED and is_noisy(mask)
     if noisy:
@@ -110,6 +113,9 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
     narrowed = np.clip(_HALF + (mask - _HALF) * np.maximum(edge.width, 1), 0, 1)
     stays = ~displaced & ~noisy & (edge.width <= _BLURRED) & ((narrowed > _HALF) == shape) & ~in_blocks(mask)
     return np.where(rewritten & near & ~wanted, np.where(stays, narrowed, shape), mask).astype(np.float32)
+
+
+_REGULAR = KeptMasks(_regular)
 
 
 def _shape(image: FloatImage, mask: FloatImage, edge: MaskEdge, blurred: Mask) -> tuple[Mask, bool]:

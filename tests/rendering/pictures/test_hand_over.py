@@ -17,7 +17,7 @@ FRAME = np.full((32, 32, 3), 120, np.uint8)
 
 
 def writing_threads() -> list[threading.Thread]:
-    return [each for each in threading.enumerate() if each.name == "physanimator-writing"]
+    return [each for each in threading.enumerate() if each.name == "physanimator-beside"]
 
 
 def test_all_items_arrive_in_order_in_another_thread() -> None:
