@@ -1,16 +1,18 @@
-"""Something that another thread makes while this one goes on."""
+"""Something that other threads make while this one goes on, or waits for all of them."""
 
 from __future__ import annotations
 
+import os
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextvars import copy_context
 from types import TracebackType
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from .interruption import checkpoint, interruptible
 
-__all__ = ["Beside"]
+__all__ = ["Beside", "side_by_side"]
 
 T = TypeVar("T")
 
@@ -88,3 +90,29 @@ class Beside(Generic[T]):
                 self._made.append(self._make())
         except BaseException as error:  # raised in the other thread, whatever it is
             self._error = error
+
+
+def side_by_side(function: Callable[..., T], *arguments: Iterable[Any]) -> Iterator[T]:
+    """What a function returns for each of several arguments, as ``map`` gives it, computed on all cores.
+
+    Raises:
+        BaseException: the first in the order of the arguments that the function has raised; what has not begun is
+            left out then.
+
+    Examples:
+        >>> from physanimator.physics.beside import side_by_side
+        >>> list(side_by_side(pow, [2, 3], [5, 2]))
+        [32, 9]
+    """
+    calls = list(zip(*arguments, strict=True))
+    cores = os.cpu_count() or 1
+    if min(cores, len(calls)) < 2:
+        yield from (function(*each) for each in calls)
+        return
+    pool = ThreadPoolExecutor(min(cores, len(calls)), thread_name_prefix="physanimator-beside")
+    try:
+        begun = [pool.submit(copy_context().run, function, *each) for each in calls]
+        for each in begun:
+            yield each.result()
+    finally:
+        pool.shutdown(cancel_futures=True)

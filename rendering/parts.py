@@ -11,6 +11,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from ..physics.beside import side_by_side
 from ..physics.document import LayerMasks, order_of_layers
 from ..physics.errors import InvalidInputError
 from ..physics.material import Material, preset
@@ -72,6 +73,7 @@ class Parts:
         layer_mask: gives the mask of the still layer of a name, or refuses it; None where there are no layers.
         notes: a sentence for each layer that stands still against its name.
         order: names of layers that somebody put in another order than the file's, from back to front.
+        needs_motion: whether the renderer must know the motion when it is made.
     """
 
     image: Image
@@ -88,6 +90,12 @@ class Parts:
     layer_mask: LayerMasks | None = None
     notes: tuple[str, ...] = ()
     order: tuple[str, ...] = ()
+    needs_motion: bool = True
+
+    def drawn_at_rest(self, scene: Scene) -> LayeredRenderer | PixelArtRenderer:
+        """What draws the bodies of a scene as they are in the drawing; made without their motion."""
+        rest = np.concatenate([body.mesh.vertices for body in scene.bodies]).astype(np.float32)
+        return self.renderer(Motion(scene.bodies, rest[None], scene.frame_rate))
 
     def covered(self, scene: Scene) -> Scene:
         """The scene with what is in front of its bodies and behind them, in the order of the parts."""
@@ -161,10 +169,11 @@ def parts_of_picture(
         return renderer_of(image, masks, motion, plate=plate, pixel_art=pixel_art, in_front=in_front)
 
     seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
-    meshes = tuple(_meshed(mask, spacing, name, seen) for mask, name in zip(masks, names, strict=True))
+    meshes = tuple(side_by_side(lambda mask, name: _meshed(mask, spacing, name, seen), masks, names))
     count = len(masks)
     nothing, guessed = (None,) * count, tuple[Held, ...](["auto"] * count)
-    return Parts(image, tuple(masks), meshes, ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer)
+    found = Parts(image, tuple(masks), meshes, ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer)
+    return replace(found, needs_motion=pixel_art)
 
 
 def parts_of_artwork(

@@ -21,7 +21,7 @@ from ..errors import PhysAnimatorError
 from ..interruption import checkpoint
 from ..runtime import TaichiWorker, kernel_cache, taichi_runtime
 
-__all__ = ["compile_aside", "simulated_aside"]
+__all__ = ["begin_aside", "compile_aside", "simulated_aside"]
 
 _POLL_SECONDS = 0.05
 
@@ -47,13 +47,18 @@ def compile_aside(*, contact: bool, check: Callable[[], None] = checkpoint) -> N
         check()
 
 
-def simulated_aside(*, contact: bool) -> AbstractContextManager[None]:
-    """What is simulated meanwhile, in this thread, shall not keep others in this process from answering.
+def begin_aside() -> None:
+    """Start the process in which ``simulated_aside`` simulates, and let it read its kernels; returns at once."""
+    taichi_runtime.begin_aside(_read_kernels)
+
+
+def simulated_aside(wanted: bool = True) -> AbstractContextManager[None]:
+    """What is simulated meanwhile, in this thread, shall not keep others in this process from going on.
 
     Args:
-        contact: whether parts touch.
+        wanted: whether it shall not; servers want it where parts touch, whose kernels take seconds to be read.
     """
-    return taichi_runtime.aside(contact)
+    return taichi_runtime.aside(wanted)
 
 
 def _compile(contact: bool, done: threading.Event) -> None:
@@ -76,6 +81,13 @@ def _compile(contact: bool, done: threading.Event) -> None:
         logging.exception("PhysAnimator: kernels could not be compiled aside")
     finally:
         done.set()
+
+
+def _read_kernels(_constant: None, _state: None) -> None:
+    """Bring what bodies that do not touch need of kernels into the other process, on Taichi's thread there."""
+    from .sample_simulations import simulate_samples
+
+    simulate_samples(contact=False)
 
 
 def _compile_here(contact: bool) -> None:

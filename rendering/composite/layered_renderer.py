@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from copy import copy
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -147,6 +148,12 @@ class LayeredRenderer:
         renderer.drawn_plate = True
         renderer._artwork, renderer._sources = artwork, pieces.sources
         return renderer
+
+    def showing(self, motion: Motion) -> LayeredRenderer:
+        """The same for another motion of the same bodies; only where the illustration is flat."""
+        other = copy(self)
+        other.motion = motion
+        return other
 
     @property
     def moving_layers(self) -> list[int]:
