@@ -70,21 +70,25 @@ def _matched(
 
 def _voted(level: Level, current: FloatImage, finds: Finds) -> FloatImage:
     """The hole filled with the weighted mean of what all patches around each of its pixels propose."""
-    height, width = level.hole.shape
-    pixels = np.flatnonzero(level.hole)
-    row, column = np.divmod(pixels, width)
+    width = level.hole.shape[1]
+    # Around the picture there is room for patches of no trust, so that none has to be looked for.
+    trust, source = (
+        cv2.copyMakeBorder(each, *[RADIUS] * 4, cv2.BORDER_CONSTANT, value=0).ravel()
+        for each in (finds.trust, finds.source.astype(np.int32))
+    )
+    row, column = np.nonzero(level.hole)
+    beside = (row + RADIUS) * (width + 2 * RADIUS) + column + RADIUS
     # Where no patch is to be trusted at all, a pixel stays as it is.
-    weights = np.full(len(pixels), _LEAST_WEIGHT, dtype=np.float32)
+    weights = np.full(len(row), _LEAST_WEIGHT, dtype=np.float32)
     total = current[level.hole] * weights[:, None]
     colours = level.picture.reshape(-1, 3)
     for down in range(-RADIUS, RADIUS + 1):
         for right in range(-RADIUS, RADIUS + 1):
-            y, x = row - down, column - right
-            within = (y >= 0) & (y < height) & (x >= 0) & (x < width)
-            y, x = np.where(within, y, 0), np.where(within, x, 0)
-            weight = finds.trust[y, x] * within
-            source = np.clip(finds.source[y, x] + down * width + right, 0, height * width - 1)
-            total += colours[source] * weight[:, None]
+            at = beside - (down * (width + 2 * RADIUS) + right)
+            weight = trust.take(at)
+            proposed = colours.take(source.take(at) + (down * width + right), axis=0, mode="clip")
+            proposed *= weight[:, None]
+            total += proposed
             weights += weight
     filled = current.copy()
     filled[level.hole] = total / weights[:, None]
