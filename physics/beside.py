@@ -66,9 +66,16 @@ class Beside(Generic[T]):
         if self._error is not None:
             raise self._error
 
-    def result(self) -> T:
-        """What has been made; waits for it, and raises what the function has raised."""
-        self._wait()
+    def result(self, *, meanwhile: Callable[[], None] | None = None) -> T:
+        """What has been made; waits for it, and raises what the function has raised.
+
+        Args:
+            meanwhile: called now and then while it is waited for; may raise to give it up.
+        """
+        while self._thread.is_alive():
+            if meanwhile is not None:
+                meanwhile()
+            self._thread.join(_POLL_SECONDS)
         self.check()
         return self._made[0]
 

@@ -17,6 +17,7 @@ from ..physics.errors import InvalidInputError
 from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
+from ..physics.progress import Progress
 from ..physics.scene import Body, Held, Scene
 from .composite import (
     LayeredRenderer,
@@ -145,6 +146,7 @@ def parts_of_picture(
     plate: Image | None,
     in_front: Mask | None,
     pixel_art: bool,
+    progress: Progress | None = None,
 ) -> Parts:
     """Parts that masks show in a flat picture.
 
@@ -157,6 +159,7 @@ def parts_of_picture(
         in_front: mask of what stands still in front of all parts, 0 to 1, shape [h, w]; None for nothing. Parts go on
             behind it.
         pixel_art: see :class:`PixelArtRenderer`.
+        progress: called before the first part and after each with (parts done, parts); may raise to stop.
 
     Raises:
         InvalidInputError: a mask gives no mesh.
@@ -169,10 +172,16 @@ def parts_of_picture(
         return renderer_of(image, masks, motion, plate=plate, pixel_art=pixel_art, in_front=in_front)
 
     seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
-    meshes = tuple(side_by_side(lambda mask, name: _meshed(mask, spacing, name, seen), masks, names))
-    count = len(masks)
+    count, meshes = len(masks), list[TriangleMesh]()
+    report = progress or (lambda _done, _total: None)
+    report(0, count)
+    for mesh in side_by_side(lambda mask, name: _meshed(mask, spacing, name, seen), masks, names):
+        meshes.append(mesh)
+        report(len(meshes), count)
     nothing, guessed = (None,) * count, tuple[Held, ...](["auto"] * count)
-    found = Parts(image, tuple(masks), meshes, ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer)
+    found = Parts(
+        image, tuple(masks), tuple(meshes), ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer
+    )
     return replace(found, needs_motion=pixel_art)
 
 

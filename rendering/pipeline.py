@@ -134,9 +134,13 @@ def animate(
             check_networks(networks)
     if isinstance(image, Artwork):
         _check_layers_alone(masks=masks, points=points, plate=plate, in_front=in_front, pixel_art=pixel_art or None)
+        if watch.progress is not None:
+            watch.progress("mesh", 0, 1)
         with timed(seconds, "mesh"):
             said = None if isinstance(scene, Scene) else scene
             parts = parts_of_artwork(image, move=layers.move, still=layers.still, spacing=spacing, document=said)
+            if watch.progress is not None:
+                watch.progress("mesh", 1, 1)
     else:
         if not pixel_art:
             begin_aside()
@@ -145,7 +149,7 @@ def animate(
         with timed(seconds, "segment"):
             cut = flat.cut(networks, watch)
         with timed(seconds, "mesh"):
-            parts = flat.parts(cut, spacing=spacing, pixel_art=pixel_art)
+            parts = flat.parts(cut, spacing=spacing, pixel_art=pixel_art, progress=stage_of("mesh", watch.progress))
     if watch.on_note is not None:
         for note in parts.notes:
             watch.on_note(note)
@@ -181,12 +185,20 @@ def _simulated(
             hears(done, total)
 
     drawing = Beside(lambda: parts.drawn_at_rest(scene))
+
+    def wait() -> None:
+        if watch.progress is not None:
+            watch.progress("prepare", 0, 1)
+
     # A kernel holds Python's global lock: in this process it would stop the other thread.
     with simulated_aside(), drawing:
         with timed(seconds, "simulate"):
             motion = simulate(scene, frames=timing.frames, progress=advance, max_minutes=max_minutes)
         with timed(seconds, "prepare"):
-            return motion, drawing.result().showing(motion)  # type: ignore[union-attr]
+            waited, renderer = not drawing.ended, drawing.result(meanwhile=wait)
+            if waited and watch.progress is not None:
+                watch.progress("prepare", 1, 1)
+            return motion, renderer.showing(motion)  # type: ignore[union-attr]
 
 
 def _check_length(timing: Timing, scene: Scene, networks: NetworkOptions) -> None:
