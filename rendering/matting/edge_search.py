@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.beside import side_by_side
 from ..pictures import nearest_pixels
 from .mask_edges import SQUARE
 from .random_walk import chance_of_core
@@ -138,12 +139,13 @@ def explained(image: FloatImage, band: Mask, side: Mask) -> FloatImage:
     numbers = np.flatnonzero(band)
     row, column = np.divmod(nearest.ravel()[numbers], band.shape[1])
     places = (row + np.int64(_FAR)) * (band.shape[1] + 2 * _FAR) + column + _FAR
-    found = np.empty(len(numbers), dtype=np.float32)
-    for start in range(0, len(numbers), _AT_ONCE):
-        some = slice(start, start + _AT_ONCE)
+
+    def share(some: slice) -> FloatImage:
         best = _best_of(colours[numbers[some]], colours, beside, places[some], away)
-        found[some] = np.exp(-best / (2 * _ALIKE**2)).mean(axis=0)
-    return found
+        return np.asarray(np.exp(-best / (2 * _ALIKE**2)).mean(axis=0), dtype=np.float32)
+
+    blocks = [slice(start, start + _AT_ONCE) for start in range(0, len(numbers), _AT_ONCE)]
+    return np.concatenate([np.zeros(0, np.float32), *side_by_side(share, blocks)])
 
 
 def _best_of(

@@ -65,7 +65,9 @@ def clean_plate(image: NDArray[Any], mask: ArrayLike) -> NDArray[Any]:
         raise InvalidInputError("mask must leave some of the picture to fill the rest with. Got: all is white")
     picture = as_float(image)
     # An outline along the mask belongs to what is removed: it must not run on into the fill.
-    whole = hole | with_outline(picture, regular_mask(picture, coverage)) | with_outline(picture, coverage)
+    whole, regular = hole | with_outline(picture, coverage), regular_mask(picture, coverage)
+    if (regular != coverage).any():
+        whole |= with_outline(picture, regular)
     filled = fill_hole(picture, hole if whole.all() else whole)
     plate = image.copy()
     plate[hole] = as_dtype(filled[hole], image.dtype)

@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pictures import window_around
 from .colour_spreading import spread_sides
 
 __all__ = ["smooth_fill"]
@@ -154,9 +155,11 @@ def _harmonic(picture: FloatImage, hole: Mask) -> FloatImage:
     coarse = _harmonic(total / np.maximum(known, 1e-6)[..., None], known < 0.5)
     guess = cv2.resize(coarse, hole.shape[::-1], interpolation=cv2.INTER_LINEAR)
     filled = np.where(hole[..., None], guess, picture)
+    window = window_around(hole, margin=1)
+    swept, where = filled[window], hole[window][..., None]
     for _ in range(_SWEEPS):
-        mean = cv2.filter2D(filled, -1, _MEAN_OF_FOUR, borderType=cv2.BORDER_REPLICATE)
-        np.copyto(filled, mean, where=hole[..., None])
+        mean = cv2.filter2D(swept, -1, _MEAN_OF_FOUR, borderType=cv2.BORDER_REPLICATE)
+        np.copyto(swept, mean, where=where)
     return filled
 
 
