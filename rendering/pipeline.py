@@ -142,10 +142,10 @@ def animate(
             if watch.progress is not None:
                 watch.progress("mesh", 1, 1)
     else:
-        if not pixel_art:
-            begin_aside()
         flat = FlatPicture.of(image, masks, points, plate, in_front)
         _colliders(touching.colliders, flat.image)
+        if not pixel_art:
+            begin_aside()
         with timed(seconds, "segment"):
             cut = flat.cut(networks, watch)
         with timed(seconds, "mesh"):
