@@ -85,7 +85,8 @@ MAY_IMPORT = {
     ),
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
-        "physics/scene rendering rendering/artwork rendering/composite rendering/figures rendering/files "
+        "physics/scene physics/simulation rendering rendering/artwork rendering/composite rendering/figures "
+        "rendering/files "
         "rendering/inbetweens rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "
         "rendering/segmentation"
     ),
