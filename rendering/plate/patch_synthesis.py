@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.beside import side_by_side
+from ...physics.interruption import checkpoint
 from .patch_search import RADIUS, Finds, Level, PatchSearch, usable_sources
 
 __all__ = ["continue_texture"]
@@ -70,6 +71,7 @@ def _matched(
     """Alternate between matching patches and voting for colours."""
     search = PatchSearch(level, finds, random)
     for _ in range(_ROUNDS):
+        checkpoint()
         found = search.round(current)
         current = _voted(level, current, found)
     return current, found

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...physics.errors import InvalidInputError
+from ...physics.interruption import checkpoint
 from ...physics.mesh import coverage_of, fitted
 from ..matting import regular_mask, with_outline
 from ..pictures import as_dtype, as_float, as_picture, window_around
@@ -87,6 +88,7 @@ def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
     window = window_around(hole, margin=_CONTEXT)
     around, inside = picture[window], hole[window]
     lined, lines = continue_lines(around, inside)
+    checkpoint()
     smooth = smooth_fill(lined, inside & ~lines, continued=lines)
     # Fine scales take long in a large hole, and most of it stays hidden.
     finest = max(0, int(np.ceil(np.log2(inside.sum() / _MATCHED_PIXELS) / 2)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ import av
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError, PhysAnimatorError
+from physanimator.physics.interruption import checkpoint
 from physanimator.physics.material import PRESETS
 from physanimator.physics.scene import Scene
 from physanimator.rendering.animation import Animation, timed
@@ -356,3 +358,19 @@ def test_a_picture_with_transparency_moves_on_it(tmp_path: Path) -> None:
 def test_in_betweens_cannot_be_transparent(windy: Animation) -> None:
     with pytest.raises(InvalidInputError, match="one by one"):
         windy.frames(transparent=True, every=2)
+
+
+def test_whoever_gives_up_while_the_illustration_is_taken_apart_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
+    def endless(self: Parts, scene: Scene) -> None:
+        while True:
+            checkpoint()
+            time.sleep(0.005)
+
+    def stop(stage: str, done: int, total: int) -> None:
+        if stage == "prepare":
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(Parts, "drawn_at_rest", endless)
+    with pytest.raises(KeyboardInterrupt):
+        animate(picture(), [strip()], timing=Timing(frames=2), watch=Watch(progress=stop))
+    assert not [each for each in threading.enumerate() if each.name.startswith("physanimator-beside")]

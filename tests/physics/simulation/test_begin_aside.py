@@ -24,7 +24,7 @@ def test_the_motion_is_the_same(scene: Scene) -> None:
     with simulated_aside():
         aside = simulate(scene, frames=6).positions
     np.testing.assert_array_equal(aside, here)
-    assert np.ptp(aside, axis=0).max() > 0.1
+    assert np.ptp(aside, axis=0).max() > 0.01
 
 
 def test_where_no_process_can_be_started_it_runs_here(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
