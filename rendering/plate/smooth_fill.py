@@ -156,10 +156,11 @@ def _harmonic(picture: FloatImage, hole: Mask) -> FloatImage:
     guess = cv2.resize(coarse, hole.shape[::-1], interpolation=cv2.INTER_LINEAR)
     filled = np.where(hole[..., None], guess, picture)
     window = window_around(hole, margin=1)
-    swept, where = filled[window], hole[window][..., None]
+    swept, where = filled[window].copy(), hole[window].astype(np.uint8)
     for _ in range(_SWEEPS):
         mean = cv2.filter2D(swept, -1, _MEAN_OF_FOUR, borderType=cv2.BORDER_REPLICATE)
-        np.copyto(swept, mean, where=where)
+        swept = cv2.copyTo(mean, where, swept)
+    filled[window] = swept
     return filled
 
 
