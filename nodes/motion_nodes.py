@@ -135,7 +135,7 @@ class Simulate(io.ComfyNode):
         told = tell_user(cls, advice(acting, masks=False))  # Mask to Mesh has spoken of those
         wanted = None if acting.loop else frames
         touches, serves = acting.contact is not None, server() is not None  # it has to answer meanwhile
-        with interruptible(host_check()), simulated_aside(touches and serves):
+        with interruptible(host_check()), simulated_aside(contact=touches and serves):
             if serves:
                 compile_aside(contact=touches)
             motion = simulate(acting, frames=wanted, progress=host_progress(), max_minutes=max_minutes)

@@ -20,7 +20,7 @@ from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
 from ..physics.process_end import working
 from ..physics.scene import Attachment, Collider, Contact, Scene, held_where_said
-from ..physics.simulation import begin_aside, simulate, simulated_aside
+from ..physics.simulation import begin_aside, simulate, simulated_beside
 from .animation import Animation, timed
 from .drawing_checks import check_drawing
 from .flat_pictures import FlatPicture
@@ -190,8 +190,7 @@ def _simulated(
         if watch.progress is not None:
             watch.progress("prepare", 0, 1)
 
-    # A kernel holds Python's global lock: in this process it would stop the other thread.
-    with simulated_aside(), drawing:
+    with simulated_beside(), drawing:
         with timed(seconds, "simulate"):
             motion = simulate(scene, frames=timing.frames, progress=advance, max_minutes=max_minutes)
         with timed(seconds, "prepare"):

@@ -186,7 +186,7 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue, po
         compile_aside(contact=scene.contact is not None, check=run.check)
         if prepared is None:
             prepared = run.prepare(scene)
-        with simulated_aside(scene.contact is not None):
+        with simulated_aside(contact=scene.contact is not None):
             simulate(
                 scene,
                 frames=None if scene.loop else frames,
@@ -224,7 +224,7 @@ def warm_up(*, contact: bool = False) -> None:
     from ...physics.runtime import keep_compiled
 
     compile_aside(contact=contact)
-    with simulated_aside(contact):
+    with simulated_aside(contact=contact):
         simulate_samples(contact=contact)
         if keep_compiled():
             simulate_samples(contact=contact)

@@ -21,7 +21,7 @@ from ..errors import PhysAnimatorError
 from ..interruption import checkpoint
 from ..runtime import TaichiWorker, kernel_cache, taichi_runtime
 
-__all__ = ["begin_aside", "compile_aside", "simulated_aside"]
+__all__ = ["begin_aside", "compile_aside", "simulated_aside", "simulated_beside"]
 
 _POLL_SECONDS = 0.05
 
@@ -48,17 +48,25 @@ def compile_aside(*, contact: bool, check: Callable[[], None] = checkpoint) -> N
 
 
 def begin_aside() -> None:
-    """Start the process in which ``simulated_aside`` simulates, and let it read its kernels; returns at once."""
+    """Start the process in which ``simulated_beside`` simulates, and let it read its kernels; returns at once."""
     taichi_runtime.begin_aside(_read_kernels)
 
 
-def simulated_aside(wanted: bool = True) -> AbstractContextManager[None]:
-    """What is simulated meanwhile, in this thread, shall not keep others in this process from going on.
+def simulated_aside(*, contact: bool) -> AbstractContextManager[None]:
+    """What is simulated meanwhile, in this thread, shall not keep others in this process from answering.
 
     Args:
-        wanted: whether it shall not; servers want it where parts touch, whose kernels take seconds to be read.
+        contact: whether parts touch.
     """
-    return taichi_runtime.aside(wanted)
+    return taichi_runtime.aside(contact)
+
+
+def simulated_beside() -> AbstractContextManager[None]:
+    """What is simulated meanwhile, in this thread, leaves the processor's other cores to this process's other threads.
+
+    In this process, a kernel would hold Python's global lock.
+    """
+    return taichi_runtime.aside()
 
 
 def _compile(contact: bool, done: threading.Event) -> None:

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError
-from ...physics.interruption import checkpoint
 from ..files import (
     StrPath,
     check_folder_place,
@@ -25,7 +24,6 @@ from ..files import (
     uninterrupted,
 )
 from .frame_record import RECORD, Record, WrittenFrame, read_record, recorded, write_record
-from .hand_over import consumed_beside
 
 __all__ = ["check_frame_folder", "frames_in", "is_frame_name", "write_frame_folder"]
 
@@ -78,8 +76,7 @@ def write_frame_folder(frames: Iterable[NDArray[np.uint8]], path: StrPath) -> No
     inside = os.path.isdir(place)
     name, parent = (".frames", place) if inside else (place.name, place.parent)
     with naming_place(path), made_beside(name, parent, is_folder=True) as staging:
-        record: list[WrittenFrame] = []
-        consumed_beside(frames, lambda each: record.extend(_written(each, staging)))
+        record = _written(frames, staging)
         with uninterrupted(), putting_in_place(path):
             if inside:
                 _exchange(place, staging, record, path)
@@ -92,7 +89,6 @@ def _written(frames: Iterable[NDArray[np.uint8]], staging: Path) -> Record:
 
     record = []
     for index, frame in enumerate(frames):
-        checkpoint()
         picture = staging / _NAME.format(index)
         save_image(picture, frame)
         record.append(recorded(picture))

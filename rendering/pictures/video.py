@@ -107,7 +107,7 @@ def write_animation(
     check_output(path, alpha=first.shape[2] == 4, size=(first.shape[1], first.shape[0]))
     every: Iterable[NDArray[np.uint8]] = itertools.chain([first], iterator)
     if is_folder_name(path):
-        write_frame_folder(every, path)
+        consumed_beside(every, lambda each: write_frame_folder(each, path))
         return
     chosen = FORMATS[suffix_of(path)]
     if first.shape[2] == 4 and chosen.mixes_neighbours and not exact:

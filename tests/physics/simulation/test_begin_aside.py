@@ -9,7 +9,7 @@ from physanimator.physics.mesh import mesh_from_mask
 from physanimator.physics.runtime import taichi_runtime
 from physanimator.physics.runtime.worker import TaichiWorker
 from physanimator.physics.scene import Body, Scene, automatic_scene
-from physanimator.physics.simulation import begin_aside, simulate, simulated_aside
+from physanimator.physics.simulation import begin_aside, simulate, simulated_beside
 
 
 @pytest.fixture
@@ -21,7 +21,7 @@ def test_the_motion_is_the_same(scene: Scene) -> None:
     here = simulate(scene, frames=6).positions
     begin_aside()
     begin_aside()
-    with simulated_aside():
+    with simulated_beside():
         aside = simulate(scene, frames=6).positions
     np.testing.assert_array_equal(aside, here)
     assert np.ptp(aside, axis=0).max() > 0.01
@@ -35,5 +35,5 @@ def test_where_no_process_can_be_started_it_runs_here(scene: Scene, monkeypatch:
     monkeypatch.setattr(TaichiWorker, "start", fail)
     monkeypatch.setattr(taichi_runtime._taichi_thread, "_worker_fails", False)
     begin_aside()
-    with simulated_aside():
+    with simulated_beside():
         np.testing.assert_array_equal(simulate(scene, frames=4).positions, before)
