@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from contextvars import copy_context
 from types import TracebackType
 from typing import Any, Generic, TypeVar
@@ -120,6 +120,8 @@ def side_by_side(function: Callable[..., T], *arguments: Iterable[Any]) -> Itera
     try:
         begun = [pool.submit(copy_context().run, function, *each) for each in calls]
         for each in begun:
+            while not wait([each], _POLL_SECONDS).done:
+                pass
             yield each.result()
     finally:
         pool.shutdown(cancel_futures=True)
