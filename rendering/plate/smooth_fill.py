@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.beside import Beside
 from ..pictures import window_around
 from .colour_spreading import spread_sides
 
@@ -76,11 +77,13 @@ def smooth_fill(picture: FloatImage, hole: Mask, *, continued: Mask | None = Non
     """
     trend, curved = _trend(picture, hole)
     sources = ~hole & ~_ink(picture, ~hole if continued is None else ~hole & ~continued)
-    near = np.where(hole[..., None], spread_sides(picture - trend, sources, hole, power=_FILL_POWER) + trend, picture)
+    # A plane is harmonic by itself, and where the hole meets the picture's border better left out.
+    flat = trend if curved else np.float32(0)
+    with Beside(lambda: _harmonic(picture - flat, hole) + flat) as solving:
+        near = spread_sides(picture - trend, sources, hole, power=_FILL_POWER) + trend
+    deep, near = solving.result(), np.where(hole[..., None], near, picture)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.minimum(depth / np.float32(_DEPTH), 1)[..., None]
-    # A plane is harmonic by itself, and where the hole meets the picture's border better left out.
-    deep = _harmonic(picture - trend, hole) + trend if curved else _harmonic(picture, hole)
     # Where it is far from what is beside, colours of another side shine through.
     share = share * np.exp(-((np.linalg.norm(deep - near, axis=-1, keepdims=True) / np.float32(_AGREEMENT)) ** 2))
     known = picture[~hole]
