@@ -86,7 +86,8 @@ MAY_IMPORT = {
     ),
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
-        "physics/scene rendering rendering/artwork rendering/composite rendering/export rendering/figures "
+        "physics/scene physics/simulation rendering rendering/artwork rendering/composite rendering/export "
+        "rendering/figures "
         "rendering/files "
         "rendering/inbetweens rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "
         "rendering/segmentation"

