@@ -6,6 +6,7 @@ import { showAdvice } from "./host/advice.js";
 import { attachEditor } from "./host/attach.js";
 import { attachLayers } from "./host/attach_layers.js";
 import { POINTS, SCENE } from "./host/formats.js";
+import { translateWidgets } from "./host/labels.js";
 import { attachUpload } from "./host/upload.js";
 import { say } from "./host/words.js";
 import { POINT_GROUPS, SCENE_GROUPS } from "./panels/toolbar.js";
@@ -26,6 +27,7 @@ app.registerExtension({
    * @param {any} nodeData
    */
   beforeRegisterNodeDef(nodeType, nodeData) {
+    if (nodeData.name.startsWith("PhysAnimator_")) translateWidgets(nodeType);
     const kind = KINDS[nodeData.name];
     const uploads = nodeData.name === "PhysAnimator_LoadLayers";
     const lists = nodeData.name === "PhysAnimator_ArtworkToBodies";
