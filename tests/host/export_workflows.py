@@ -27,6 +27,7 @@ from graphs import WORKFLOWS, Group, without_models
 from layer_graphs import LAYER_WORKFLOWS
 from paper_graphs import PAPER_WORKFLOWS
 from showcase_graphs import SHOWCASE_WORKFLOWS
+from stamps import stamped
 from video_model_graphs import VIDEO_MODEL_WORKFLOWS, without_video_model
 
 SCHEMAS = ROOT / "tests" / "nodes" / "node_schemas.json"
@@ -101,7 +102,7 @@ def export(page: Page, name: str, groups: tuple[Group, ...]) -> tuple[dict[str, 
     ui, api = graphs["ui"], graphs["api"]
     ui["id"] = str(uuid.uuid5(uuid.NAMESPACE_URL, f"physanimator/{name}"))
     ui["extra"] = {"ds": _view(ui)}
-    return ui, api
+    return stamped(ui), api
 
 
 def _view(ui: dict[str, Any]) -> dict[str, Any]:
