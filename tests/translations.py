@@ -38,6 +38,7 @@ _SAID = re.compile(rf"\bsay\(\s*({_LITERAL})")
 _LISTED = re.compile(rf"\bwords\(\s*({_LITERAL}(?:,\s*{_LITERAL})*),?\s*\)")
 _OF_FILES = re.compile(r"(^|_)model$|^file$")
 """Names of inputs whose options are files."""
+_FILE = re.compile(r"\.\w{2,11}$|/$")
 
 Translate = Callable[[str], str]
 Leaves = dict[tuple[str, ...], str]
@@ -116,7 +117,7 @@ def _collect(described: Mapping[str, Any], found: dict[str, None], *, brought: b
             if kind == _DYNAMIC:
                 found[choice["key"]] = None
                 _collect(choice["inputs"], found, brought=True)
-            elif re.search("[a-z]{3}", choice) and not _OF_FILES.search(name):
+            elif re.search("[a-z]{3}", choice) and not (_OF_FILES.search(name) or _FILE.search(choice)):
                 found[choice] = None
 
 

@@ -13,15 +13,17 @@ ROOT = Path(__file__).resolve().parents[2]
 LANGUAGES = sorted(path.name for path in (ROOT / "locales").iterdir())
 
 _SHOWN = """
-(type) => {
+async (type) => {
   const node = LiteGraph.createNode(type);
   app.graph.add(node);
+  await new Promise((done) => setTimeout(done, 50));
+  const shown = (widget) => widget.options?.getOptionLabel?.(widget.value);
   return {
     title: node.title,
     inputs: Object.fromEntries(node.inputs.map((slot) => [slot.name, slot.label ?? slot.localized_name ?? slot.name])),
     outputs: node.outputs.map((slot) => slot.label ?? slot.localized_name ?? slot.name),
     widgets: Object.fromEntries((node.widgets ?? []).map((widget) => [widget.name, {
-      label: widget.label, tooltip: widget.tooltip, shown: widget.options?.getOptionLabel?.(widget.value), value: widget.value,
+      label: widget.label, tooltip: widget.tooltip, shown: shown(widget), value: widget.value,
     }])),
     category: node.constructor.category,
   };

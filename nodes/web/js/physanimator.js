@@ -7,6 +7,7 @@ import { attachEditor } from "./host/attach.js";
 import { attachLayers } from "./host/attach_layers.js";
 import { POINTS, SCENE } from "./host/formats.js";
 import { translateWidgets } from "./host/labels.js";
+import { presentTemplates } from "./host/templates.js";
 import { attachUpload } from "./host/upload.js";
 import { say } from "./host/words.js";
 import { POINT_GROUPS, SCENE_GROUPS } from "./panels/toolbar.js";
@@ -16,6 +17,8 @@ const KINDS = {
   PhysAnimator_SceneEditor: { input: "scene", format: SCENE, groups: SCENE_GROUPS, moves: true, size: [810, 580] },
   PhysAnimator_SegmentByPoints: { input: "points", format: POINTS, groups: POINT_GROUPS, moves: false, size: [400, 400], empty: say("Click on what shall move.") },
 };
+
+presentTemplates(api);
 
 app.registerExtension({
   name: "PhysAnimator.Editor",
