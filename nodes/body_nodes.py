@@ -33,7 +33,7 @@ class Material(io.ComfyNode):
         options.append(io.DynamicCombo.Option(_LAME, _inputs(_AS_IN_THE_PAPER, "mu", "lambda_", "density")))
         return io.Schema(
             node_id="PhysAnimator_Material",
-            display_name="Material",
+            display_name="Material (PhysAnimator)",
             category="PhysAnimator/scene",
             description="What a body is made of. Presets look alike at any size of picture.",
             inputs=[
@@ -64,9 +64,10 @@ class Body(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_Body",
-            display_name="Body",
+            display_name="Body (PhysAnimator)",
             category="PhysAnimator/scene",
-            description="Makes a mesh a body that moves. Chain several Body nodes for several parts.",
+            description="Makes a mesh a soft body that moves, such as hair, cloth or a leaf. Chain several Body nodes"
+            " for several parts.",
             inputs=[
                 MeshWire.Input("mesh", tooltip="Its shape, from Mask to Mesh."),
                 io.Combo.Input(

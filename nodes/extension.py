@@ -22,6 +22,7 @@ from .rig_nodes import RigPoint
 from .save_nodes import SaveAnimation
 from .scene_editor_nodes import SceneEditor
 from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
+from .search_words import findable
 from .sketch_nodes import ExtractSketch, WarpSketch
 from .stroke_nodes import EnergyStroke
 from .track_nodes import Tracks
@@ -73,4 +74,4 @@ class PhysAnimatorExtension(ComfyExtension):
     async def get_node_list(self) -> list[type[io.ComfyNode]]:
         register_routes()  # here, because host 0.8.0 does not call on_load
         watch_prompts()
-        return [checked(node) for node in NODES]
+        return [checked(findable(node)) for node in NODES]

@@ -46,7 +46,7 @@ class LoadLayers(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_LoadLayers",
-            display_name="Load Layers",
+            display_name="Load Layers (PhysAnimator)",
             category="PhysAnimator/layers",
             description="Reads an illustration in layers: PSD, PSB, OpenRaster (Krita), or a folder of PNG files.",
             inputs=[
@@ -165,7 +165,7 @@ class SaveLayers(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_SaveLayers",
-            display_name="Save Layers",
+            display_name="Save Layers (PhysAnimator)",
             category="PhysAnimator/layers",
             description="Writes layers as a PSD file for painting programs.",
             is_output_node=True,

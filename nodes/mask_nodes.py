@@ -69,7 +69,7 @@ class SegmentByPoints(io.ComfyNode):
                     multiline=True,
                     tooltip="Click on the picture, or give points in pixels as JSON: [[x, y, 1], ...] with 1 on the"
                     " part, 0 beside it; and for several parts [[x, y, 1, part], ...] with the part's number, from 0;"
-                    ' also [{"x": .., "y": ..}] and {"positive": [...], "negative": [...]} from point editors,'
+                    " also objects with x and y, and lists named positive and negative, from point editors,"
                     " and a scene document with query_points.",
                 ),
                 io.DynamicCombo.Input(
@@ -174,7 +174,7 @@ class MaskToMesh(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_MaskToMesh",
-            display_name="Mask to Mesh",
+            display_name="Mask to Mesh (PhysAnimator)",
             category="PhysAnimator/mesh",
             description="Fills a mask with triangles: the shape that the physics bends.",
             inputs=[

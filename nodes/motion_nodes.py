@@ -41,9 +41,10 @@ class Simulate(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_Simulate",
-            display_name="Simulate",
+            display_name="Simulate (PhysAnimator)",
             category="PhysAnimator/motion",
-            description="Computes how the bodies of a scene move.",
+            description="Computes by physics how the bodies of a scene move: hair sways, cloth flutters, jelly"
+            " wobbles.",
             inputs=[
                 SceneWire.Input("scene", tooltip="What moves, and what acts on it."),
                 io.Int.Input(
@@ -151,7 +152,7 @@ class PreviewMotion(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_PreviewMotion",
-            display_name="Preview Motion",
+            display_name="Preview Motion (PhysAnimator)",
             category="PhysAnimator/motion",
             description="Shows the moving meshes on the picture, with strokes and rig points.",
             is_output_node=True,

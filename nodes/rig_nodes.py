@@ -42,7 +42,7 @@ class RigPoint(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_RigPoint",
-            display_name="Rig Point",
+            display_name="Rig Point (PhysAnimator)",
             category="PhysAnimator/scene",
             description="Holds a region of a body still, swings it, leads it along a path, turns it or squashes it.",
             inputs=[

@@ -44,7 +44,7 @@ class SaveAnimation(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_SaveAnimation",
-            display_name="Save Animation",
+            display_name="Save Animation (PhysAnimator)",
             category="PhysAnimator/render",
             description="Paints the frames as Render does and writes each to disk at once: long clips of large pictures"
             " need no memory for a batch.",

@@ -35,7 +35,7 @@ class SceneEditor(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_SceneEditor",
-            display_name="Scene Editor",
+            display_name="Scene Editor (PhysAnimator)",
             category="PhysAnimator/scene",
             description="Draw wind, pushes, pins and paths on the picture and see it move.",
             is_output_node=True,
