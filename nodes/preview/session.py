@@ -173,7 +173,9 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue, po
     prepared = run.wants
     acting = scene if scene.loop is None else periodic(scene)
     encoder = FrameEncoder(acting, frames=frames, first_frame=0 if scene.loop is None else first_frame(acting))
-    queue.put(record(HEADER, encoder.header(frames=frames, points=points)), run.check)
+    header = encoder.header(frames=frames, points=points)
+    header["unheld"] = [] if prepared is None else _unheld(prepared, len(scene.bodies))
+    queue.put(record(HEADER, header), run.check)
 
     def send(number: int, positions: NDArray[np.float32]) -> None:
         nonlocal largest
@@ -199,6 +201,13 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue, po
     stiffness = _stiffness(prepared.system.sway, len(scene.bodies))
     end = {"frames": frames, "seconds": seconds, "largest_displacement": largest, "stiffness": stiffness}
     return record(END, end)
+
+
+def _unheld(prepared: Prepared, count: int) -> list[int]:
+    """Numbers of the bodies that no rig point holds or leads: forces carry them away."""
+    system = prepared.system
+    held = set(np.unique(system.bodies[(system.leaders >= 0) | (system.grips > 0)]).tolist())
+    return [number for number in range(count) if number not in held]
 
 
 def _stiffness(sway: Sequence[SwayPart], count: int) -> list[float | None]:

@@ -153,6 +153,11 @@ class LayeredRenderer:
         """Indices of the layers of an artwork that move; none where the illustration is flat."""
         return sorted({source for source in self._sources if source is not None})
 
+    @property
+    def source(self) -> Artwork | None:
+        """The layered artwork that is drawn, at rest; None where the illustration is flat."""
+        return self._artwork
+
     def artwork(self, t: int, *, only: int | None = None) -> Artwork:
         """Frame ``t`` of layered artwork as layers again: those that move bent, the others as they are.
 
