@@ -5,6 +5,7 @@
  * @typedef {import("./live.js").Run} Run
  */
 
+import { say } from "../host/words.js";
 import { hasItems } from "../scene/document.js";
 import { rescaled } from "../scene/rescaling.js";
 import { loaded } from "./pictures.js";
@@ -57,9 +58,9 @@ export class Backdrop {
   }
 
   /** @param {string} reason why nothing moves */
-  offerRun(reason = "Nothing moves yet: the bodies are known once this node has run.") {
+  offerRun(reason = say("Nothing moves yet: the bodies are known once this node has run.")) {
     const { notes, options } = this.editor;
-    if (options.moves) notes.show("run", reason, { button: ["Run this node", options.onRun] });
+    if (options.moves) notes.show("run", reason, { button: [say("Run this node"), options.onRun] });
   }
 
   /** @param {Error | null} error of the preview */
@@ -91,8 +92,12 @@ export class Backdrop {
     if (hasItems(before) && !before.sizeless) {
       editor.commit(after, editor.selection);
       editor.say(
-        `The picture is ${width} × ${height} px now; what is drawn has been scaled along` +
-          ` from ${before.width} × ${before.height} px.`,
+        say("The picture is {width} × {height} px now; what is drawn has been scaled along from {oldWidth} × {oldHeight} px.", {
+          width,
+          height,
+          oldWidth: before.width,
+          oldHeight: before.height,
+        }),
       );
     } else editor.store.load(after);
     editor.resize(after);

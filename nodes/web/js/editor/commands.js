@@ -4,6 +4,7 @@
  * @typedef {import("./editor.js").Editor} Editor
  */
 
+import { say } from "../host/words.js";
 import { itemAt, withAdded, withItem, withoutItems } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
 import { withAttach, withHoldsAnew } from "../scene/holds.js";
@@ -87,7 +88,7 @@ export class Commands {
     editor.tool.cancel();
     editor.tool = /** @type {import("../stage/tool.js").Tool} */ (editor.tools.get(id));
     editor.replacing = waiting;
-    editor.say(kind === "brush" ? "Paint the region." : "Draw the region.");
+    editor.say(kind === "brush" ? say("Paint the region.") : say("Draw the region."));
     editor.show();
   }
 
@@ -159,7 +160,7 @@ export class Commands {
   async #holdAll() {
     const { editor } = this;
     const key = editor.live.run?.key;
-    if (!key) return editor.backdrop.offerRun("Where the bodies are held is known once this node has run.");
+    if (!key) return editor.backdrop.offerRun(say("Where the bodies are held is known once this node has run."));
     try {
       const sides = new Map([["found", await editor.live.client.holds(key, "found")]]);
       const holds = [];
@@ -172,7 +173,7 @@ export class Commands {
         holds.push(sides.get(side)?.find((hold) => hold.body === found.body) ?? found);
       }
       editor.commit(withHoldsAnew(document, holds, editor.layerList.layers), null);
-      editor.say("All bodies are held where they are found to be held.");
+      editor.say(say("All bodies are held where they are found to be held."));
     } catch (error) {
       editor.backdrop.trouble(/** @type {Error} */ (error));
     }

@@ -16,6 +16,7 @@
  * @property {() => void} onRun  the user wants this node to run
  */
 
+import { say } from "../host/words.js";
 import { ACTIONS } from "../panels/toolbar.js";
 import { emptyDocument, itemAt, withItem, withValue } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
@@ -177,7 +178,7 @@ export class Editor {
   refuseLayers(layers) {
     this.live.setRun(null, null);
     this.setLayers(layers);
-    this.backdrop.offerRun("No layer moves by its name: switch on in the list what is to move, then run this node.");
+    this.backdrop.offerRun(say("No layer moves by its name: switch on in the list what is to move, then run this node."));
     this.redraw();
   }
 
@@ -232,7 +233,7 @@ export class Editor {
     } catch (error) {
       const anew = () => this.commit(emptyDocument(this.document.width, this.document.height), null);
       const { message } = /** @type {Error} */ (error);
-      this.notes.show("value", message, { kind: "error", button: ["Start anew", anew] });
+      this.notes.show("value", message, { kind: "error", button: [say("Start anew"), anew] });
     }
     this.backdrop.refit();
     this.simulate();
@@ -242,7 +243,7 @@ export class Editor {
     if (!this.options.moves) return;
     if (this.live.run && !isAsRun(this.document, this.layerList.layers)) {
       this.live.hold();
-      this.backdrop.offerRun("Other layers are to move: run this node to see them move.");
+      this.backdrop.offerRun(say("Other layers are to move: run this node to see them move."));
     } else if (this.live.run) this.live.request(this.document, this.frameCount);
     else this.backdrop.offerRun();
   }

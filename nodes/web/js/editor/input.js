@@ -4,6 +4,7 @@
  * @typedef {import("./editor.js").Editor} Editor
  */
 
+import { say } from "../host/words.js";
 import { itemAt } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
 import { moved } from "../scene/shapes.js";
@@ -117,5 +118,5 @@ function usePicture(editor, file, event) {
   take(event);
   editor.backdrop.forgetRun();
   editor.backdrop.setPicture(URL.createObjectURL(file));
-  editor.say("This picture is only drawn on. Connect a Load Image node to animate it.");
+  editor.say(say("This picture is only drawn on. Connect a Load Image node to animate it."));
 }

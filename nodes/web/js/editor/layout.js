@@ -4,6 +4,7 @@
  * @typedef {import("./editor.js").Editor} Editor
  */
 
+import { say } from "../host/words.js";
 import { element } from "../panels/elements.js";
 import { Inspector } from "../panels/inspector.js";
 import { LayerList } from "../panels/layer_list.js";
@@ -49,7 +50,7 @@ export function layout(editor) {
   const frame = element("div", { className: "physanimator-frame" }, rows);
   const onclose = () => editor.commands.shrink();
   /** @type {HTMLDialogElement} */
-  const dialog = element("dialog", { className: "physanimator-dialog", "aria-label": "Scene editor", onclose });
+  const dialog = element("dialog", { className: "physanimator-dialog", "aria-label": say("Scene editor"), onclose });
   const style = element("style", { textContent: STYLE });
   /** @type {HTMLElement} */
   const root = element("div", { className: "physanimator-editor", "data-capture-wheel": "true" }, [style, frame, dialog]);

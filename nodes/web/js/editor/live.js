@@ -27,6 +27,7 @@
  * @property {() => void} moved  the first frame in which something moves is on the screen
  */
 
+import { say } from "../host/words.js";
 import { PreviewClient } from "../preview/client.js";
 import { layerAt } from "../preview/layered_picture.js";
 import { MOVES, mark } from "../preview/marks.js";
@@ -175,7 +176,7 @@ export class Live {
     if (record.type === "header") {
       const fits = record.header.vertices * 2 === this.mesh?.positions.length;
       if (fits) this.playback.begin(record.header, performance.now());
-      this.listener.trouble(fits ? null : new Error("The bodies have changed: run the node again."));
+      this.listener.trouble(fits ? null : new Error(say("The bodies have changed: run the node again.")));
     } else if (record.type === "frame" && this.playback.header) {
       this.playback.add(record.frame);
       this.measured.frames += 1;

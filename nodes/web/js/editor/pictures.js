@@ -1,6 +1,8 @@
+/** Pictures for the background: from the graph, from a run, pasted or dropped. */
+
+import { say } from "../host/words.js";
+
 /**
- * Pictures for the background: from the graph, from a run, pasted or dropped.
- *
  * @param {string} url
  * @returns {Promise<HTMLImageElement>}
  */
@@ -8,7 +10,7 @@ export function loaded(url) {
   return new Promise((resolve, reject) => {
     const image = new Image();
     image.onload = () => resolve(image);
-    image.onerror = () => reject(new Error("The picture cannot be shown."));
+    image.onerror = () => reject(new Error(say("The picture cannot be shown.")));
     image.src = url;
   });
 }

@@ -12,6 +12,7 @@ import { isAsRun, withMoves, withPlace, withPreset } from "../scene/layers.js";
 import { LAYERS } from "./attach.js";
 import { executionId, runNode } from "./queueing.js";
 import { chain, hide, tell } from "./widgets.js";
+import { say } from "./words.js";
 
 /** Time from one look at the graph to the next [ms]. */
 const LOOKS = 500;
@@ -19,10 +20,10 @@ const SHORTEST = 120;
 /** @type {[number, number]} of a new node, at least */
 const SIZE = [400, 660];
 const OUTPUT = "physanimator_layers";
-const NOT_YET = "The layers are listed here once this node has run.";
-const NONE = "No layer moves by its name: switch on what is to move, then run.";
-const OTHERS = "Other layers are to move in the next run.";
-const CONNECTED = "The scene that is connected says what moves.";
+const NOT_YET = say("The layers are listed here once this node has run.");
+const NONE = say("No layer moves by its name: switch on what is to move, then run.");
+const OTHERS = say("Other layers are to move in the next run.");
+const CONNECTED = say("The scene that is connected says what moves.");
 
 /**
  * @param {any} app  the host's
@@ -87,7 +88,7 @@ export class NodeLayers {
       place: (layer, places) => this.#commit(withPlace(this.document, layer, places, layers()), layer.name),
     });
     this.note = element("div", { className: "physanimator-list-note", role: "status" });
-    this.run = element("button", { type: "button", "data-action": "run", title: "Run the graph", onclick: () => runNode(app, node) }, ["Run"]);
+    this.run = element("button", { type: "button", "data-action": "run", title: say("Run the graph"), onclick: () => runNode(app, node) }, [say("Run")]);
     const style = element("style", { textContent: STYLE });
     const line = element("div", { className: "physanimator-list-line" }, [this.note, this.run]);
     /** @type {HTMLElement} */

@@ -1,6 +1,7 @@
 /** How the two nodes keep what is drawn. */
 
 import { emptyDocument, parseDocument, serialise } from "../scene/document.js";
+import { say } from "./words.js";
 
 /**
  * @typedef {import("../scene/document.js").Item} Item
@@ -35,7 +36,7 @@ function decoded(text) {
   try {
     return JSON.parse(text) ?? [];
   } catch {
-    throw new Error("These points are not JSON.");
+    throw new Error(say("These points are not JSON."));
   }
 }
 
@@ -52,6 +53,6 @@ function listed({ x, y, positive, part }) {
 /** @param {any} one @returns {Item} */
 function pointOf(one) {
   const [x, y, label, part] = Array.isArray(one) ? one : [one?.x, one?.y, one?.label, one?.part];
-  if (!Number.isFinite(x) || !Number.isFinite(y)) throw new Error("These points are not understood here.");
+  if (!Number.isFinite(x) || !Number.isFinite(y)) throw new Error(say("These points are not understood here."));
   return { x, y, positive: !["0", 0, "negative", false].includes(label), ...(part ? { part } : {}) };
 }

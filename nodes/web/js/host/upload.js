@@ -6,6 +6,8 @@
  * @typedef {any} GraphNode  of LiteGraph
  */
 
+import { say } from "./words.js";
+
 const ACCEPTED = ".psd,.psb,.ora,.png,.json";
 const LAYERED = /\.(psd|psb|ora)$/i;
 const OF_A_FOLDER = /\.(png|json)$/i;
@@ -35,13 +37,13 @@ export function attachUpload(app, api, node, name) {
   const picker = Object.assign(document.createElement("input"), { type: "file", accept: ACCEPTED, multiple: true });
   const take = async (/** @type {File[]} */ files) => {
     const chosen = uploadOf(files, `layers_${Date.now().toString(36)}`);
-    if (!chosen) return warn(app, "Choose a .psd, .psb or .ora file, or several PNG files of one size.");
+    if (!chosen) return warn(app, say("Choose a .psd, .psb or .ora file, or several PNG files of one size."));
     try {
       let stored = "";
       for (const file of chosen.files) stored = await upload(api, file, chosen.subfolder);
       choose(app, node, name, chosen.subfolder || stored);
     } catch (error) {
-      warn(app, `The file could not be uploaded: ${error instanceof Error ? error.message : error}`);
+      warn(app, say("The file could not be uploaded: {reason}", { reason: error instanceof Error ? error.message : error }));
     }
   };
   picker.addEventListener("change", () => {
@@ -49,8 +51,8 @@ export function attachUpload(app, api, node, name) {
     picker.value = "";
   });
   const button = node.addWidget("button", "upload", "upload", () => picker.click(), { serialize: false });
-  button.label = "choose a layered file to upload";
-  button.tooltip = "A .psd, .psb or .ora file, or all PNG files of a folder together.";
+  button.label = say("choose a layered file to upload");
+  button.tooltip = say("A .psd, .psb or .ora file, or all PNG files of a folder together.");
   button.serialize = false;
   node.onDragOver = (/** @type {DragEvent} */ event) => !!event.dataTransfer?.types?.includes("Files");
   node.onDragDrop = (/** @type {DragEvent} */ event) => {
@@ -72,7 +74,7 @@ async function upload(api, file, subfolder) {
   body.append("image", file);
   if (subfolder) body.append("subfolder", subfolder);
   const answer = await api.fetchApi("/upload/image", { method: "POST", body });
-  if (answer.status === 413) throw new Error("it is larger than the server takes (--max-upload-size)");
+  if (answer.status === 413) throw new Error(say("it is larger than the server takes (--max-upload-size)"));
   if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`);
   const stored = await answer.json();
   return stored.subfolder ? `${stored.subfolder}/${stored.name}` : stored.name;
@@ -98,5 +100,5 @@ function choose(app, node, name, value) {
  * @param {string} sentence
  */
 function warn(app, sentence) {
-  app.extensionManager?.toast?.add({ severity: "warn", summary: "Load Layers", detail: sentence, life: 10_000 });
+  app.extensionManager?.toast?.add({ severity: "warn", summary: say("Load Layers"), detail: sentence, life: 10_000 });
 }

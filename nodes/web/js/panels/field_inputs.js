@@ -5,6 +5,7 @@
  * @typedef {(changes: [string, any][], key: string) => void} Change  new values by their paths; undefined removes one
  */
 
+import { say } from "../host/words.js";
 import { valueAt } from "../scene/document.js";
 import { element } from "./elements.js";
 
@@ -36,7 +37,7 @@ export function fieldRow(field, item, change) {
  */
 function singleInput(field, value, change) {
   if (field.kind === "choice") {
-    const options = (field.choices ?? []).map((choice) => element("option", { value: choice }, [choice]));
+    const options = (field.choices ?? []).map((choice) => element("option", { value: choice }, [say(choice)]));
     const choose = (/** @type {Event} */ event) => change([[field.path, /** @type {any} */ (event.target).value]], "");
     const select = element("select", { "aria-label": field.title, onchange: choose }, options);
     select.value = value;
@@ -134,11 +135,11 @@ function keysRow(field, item, change) {
     );
     const remove = () => put(rows.filter((_, i) => i !== index), "");
     const fewest = field.paths ? 2 : 0;
-    const button = element("button", { type: "button", title: "Remove this key", "aria-label": "Remove this key", onclick: remove, disabled: rows.length <= fewest }, ["×"]);
+    const button = element("button", { type: "button", title: say("Remove this key"), "aria-label": say("Remove this key"), onclick: remove, disabled: rows.length <= fewest }, ["×"]);
     return element("div", { className: "physanimator-key" }, numbered ? cells : [...cells, button]);
   });
   const add = () => put([...rows, nextKey(rows, field)], "");
-  const more = numbered ? [] : [element("button", { type: "button", title: "Add a key", onclick: add }, ["+ key"])];
+  const more = numbered ? [] : [element("button", { type: "button", title: say("Add a key"), onclick: add }, [say("+ key")])];
   const named = rows.length ? `${field.title}: ${columns.join(", ")}` : field.title;
   const note = element("span", { className: "physanimator-caption" }, [named]);
   return element("div", { className: "physanimator-field physanimator-table", title: field.hint, "data-field": field.path }, [

@@ -12,6 +12,7 @@
  * @property {(target: import("../scene/materials.js").Target) => void} chooseBody
  */
 
+import { say, words } from "../host/words.js";
 import { itemAt, LISTS } from "../scene/document.js";
 import { CONTACT_FIELDS, fieldsOf, newMotion, SCENE_FIELDS, WIND_FIELDS } from "../scene/fields.js";
 import { titleOf } from "../scene/items.js";
@@ -31,7 +32,7 @@ export class Inspector {
     );
     /** The body that is chosen, by its name or its number; -1 for none. */
     this.body = { name: "", number: -1 };
-    this.root = element("div", { className: "physanimator-inspector", role: "group", "aria-label": "Values" });
+    this.root = element("div", { className: "physanimator-inspector", role: "group", "aria-label": say("Values") });
   }
 
   /**
@@ -89,10 +90,10 @@ export class Inspector {
     const chosen = this.material.shows(this.body);
     return [
       ...(chosen ? material : []),
-      this.#heading("Scene"),
+      this.#heading(say("Scene")),
       ...SCENE_FIELDS.map((field) => fieldRow(field, document, change)),
-      ...this.#section("Wind everywhere", "wind", document, WIND_FIELDS, change),
-      ...this.#section("Contact", "contact", document, CONTACT_FIELDS, change),
+      ...this.#section(say("Wind everywhere"), "wind", document, WIND_FIELDS, change),
+      ...this.#section(say("Contact"), "contact", document, CONTACT_FIELDS, change),
       ...(chosen ? [] : material),
     ];
   }
@@ -125,18 +126,18 @@ export class Inspector {
 
   /** @param {any} item */
   #regionRow(item) {
-    const kinds = /** @type {const} */ (["circle", "polygon", "brush"]);
+    const kinds = /** @type {("circle" | "polygon" | "brush")[]} */ (words("circle", "polygon", "brush"));
     const current = item.region?.type === "mask" ? "brush" : (item.region?.type ?? "circle");
     const buttons = kinds.map((kind) =>
       element("button", {
         type: "button",
-        title: `Draw the region anew: ${kind}`,
+        title: say("Draw the region anew: {kind}", { kind: say(kind) }),
         "aria-pressed": String(kind === current),
         onclick: () => this.listener.redrawRegion(kind),
-      }, [kind]),
+      }, [say(kind)]),
     );
     return element("div", { className: "physanimator-field", "data-field": "region" }, [
-      element("span", { className: "physanimator-caption" }, ["Region"]),
+      element("span", { className: "physanimator-caption" }, [say("Region")]),
       element("span", { className: "physanimator-inputs" }, buttons),
     ]);
   }
@@ -144,7 +145,7 @@ export class Inspector {
   /** @param {{radius: number}} brush */
   #brushRow(brush) {
     const field = /** @type {import("../scene/fields.js").Field} */ ({
-      path: "radius", title: "Brush radius", unit: "px", kind: "number", min: 1, max: 5000, step: 1, hint: "How broad the brush is; the keys [ and ] change it too.",
+      path: "radius", title: say("Brush radius"), unit: "px", kind: "number", min: 1, max: 5000, step: 1, hint: say("How broad the brush is; the keys [ and ] change it too."),
     });
     return fieldRow(field, brush, (changes) => this.listener.brushSize(changes[0][1]));
   }

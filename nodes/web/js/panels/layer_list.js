@@ -24,6 +24,7 @@
  * @property {any} attach
  */
 
+import { say } from "../host/words.js";
 import { SIDES } from "../scene/holds.js";
 import { attachIn, inOrder, movesIn, PRESETS, presetIn } from "../scene/layers.js";
 import { element } from "./elements.js";
@@ -43,8 +44,8 @@ export class LayerList {
     /** @type {Row[]} as they are shown */
     this.rows = [];
     this.list = element("ul", { className: "physanimator-layer-list", onkeydown: (/** @type {KeyboardEvent} */ event) => this.#step(event) });
-    this.root = element("div", { className: "physanimator-layers", role: "group", "aria-label": "Layers", hidden: true }, [
-      element("div", { className: "physanimator-heading" }, ["Layers"]),
+    this.root = element("div", { className: "physanimator-layers", role: "group", "aria-label": say("Layers"), hidden: true }, [
+      element("div", { className: "physanimator-heading" }, [say("Layers")]),
       this.list,
     ]);
   }
@@ -78,7 +79,7 @@ export class LayerList {
       row.more.hidden = !moves || layer !== chosen;
       if (!moves) continue;
       const [made, held] = [presetIn(document, layer), attachIn(document, layer)];
-      row.said.textContent = `${made} · ${SIDES[/** @type {"auto"} */ (held)] ?? held}`;
+      row.said.textContent = `${say(made)} · ${SIDES[/** @type {"auto"} */ (held)] ?? held}`;
       choose(row.preset, made);
       choose(row.attach, held);
     }
@@ -105,27 +106,29 @@ export class LayerList {
   #row(layer) {
     const { listener } = this;
     const { name } = layer;
-    const why = layer.shown ? (layer.why ?? "") : "hidden in the file";
+    const why = layer.shown ? (layer.why ?? "") : say("hidden in the file");
     const eye = listener.look && element("button", {
-      type: "button", className: "physanimator-eye", innerHTML: icon("items"), disabled: !layer.shown, "aria-label": `Show ${name}`,
-      title: layer.shown ? "Show it in this preview; what is rendered stays the same" : "Hidden in the file", "data-eye": name, onclick: () => listener.look?.(layer),
+      type: "button", className: "physanimator-eye", innerHTML: icon("items"), disabled: !layer.shown, "aria-label": say("Show {name}", { name }),
+      title: layer.shown ? say("Show it in this preview; what is rendered stays the same") : say("Hidden in the file"), "data-eye": name, onclick: () => listener.look?.(layer),
     });
     const title = element("button", {
-      type: "button", className: "physanimator-layer-name", title: `${name}${why && ` (${why})`}; drag it, or Alt and arrows, to move it in front of others`,
+      type: "button", className: "physanimator-layer-name", title: say("{name}; drag it, or Alt and arrows, to move it in front of others", { name: name + (why && ` (${why})`) }),
       "data-layer": name, onclick: () => listener.choose(layer), onpointerdown: (/** @type {PointerEvent} */ event) => this.#drag(event, layer),
     }, [name]);
     const moves = element("input", {
-      type: "checkbox", "aria-label": `${name} moves`, "data-moves": name,
-      title: layer.fixed ? "Another input of this node says whether it moves" : "Whether it moves; at least one layer must",
+      type: "checkbox", "aria-label": say("{name} moves", { name }), "data-moves": name,
+      title: layer.fixed ? say("Another input of this node says whether it moves") : say("Whether it moves; at least one layer must"),
       onchange: (/** @type {any} */ event) => listener.move(layer, event.target.checked),
     });
-    const preset = this.#select(`What ${name} is made of`, "data-preset", name, PRESETS.map((each) => [each, each]), (value) => listener.make(layer, value));
-    const attach = this.#select(`Where ${name} is held`, "data-attach", name, Object.entries(SIDES), (value) => listener.attach(layer, value));
-    const step = (/** @type {number} */ places, /** @type {string} */ sign, /** @type {string} */ where) =>
-      element("button", { type: "button", className: "physanimator-place", title: `One further to the ${where}`, "aria-label": `${name} further to the ${where}`, "data-place": `${where} ${name}`, onclick: () => listener.place(layer, places) }, [sign]);
-    const said = element("span", { className: "physanimator-layer-said", title: "What it is made of, and where it is held; click to change it", onclick: () => listener.choose(layer) });
+    const preset = this.#select(say("What {name} is made of", { name }), "data-preset", name, PRESETS.map((each) => [each, say(each)]), (value) => listener.make(layer, value));
+    const attach = this.#select(say("Where {name} is held", { name }), "data-attach", name, Object.entries(SIDES), (value) => listener.attach(layer, value));
+    const step = (/** @type {number} */ places, /** @type {string} */ sign, /** @type {string} */ where, /** @type {string} */ title, /** @type {string} */ label) =>
+      element("button", { type: "button", className: "physanimator-place", title, "aria-label": label, "data-place": `${where} ${name}`, onclick: () => listener.place(layer, places) }, [sign]);
+    const front = step(1, "▴", "front", say("One further to the front"), say("{name} further to the front", { name }));
+    const back = step(-1, "▾", "back", say("One further to the back"), say("{name} further to the back", { name }));
+    const said = element("span", { className: "physanimator-layer-said", title: say("What it is made of, and where it is held; click to change it"), onclick: () => listener.choose(layer) });
     const more = element("div", { className: "physanimator-layer-more", hidden: true }, [preset, attach]);
-    const line = element("div", { className: "physanimator-layer-line" }, [...(eye ? [eye] : []), title, said, step(1, "▴", "front"), step(-1, "▾", "back"), moves]);
+    const line = element("div", { className: "physanimator-layer-line" }, [...(eye ? [eye] : []), title, said, front, back, moves]);
     const root = element("li", { className: "physanimator-layer", "data-shown": String(layer.shown) }, [line, more]);
     return { layer, root, eye, name: title, moves, said, more, preset, attach };
   }
@@ -199,6 +202,6 @@ export class LayerList {
  * @param {string} value  which need not be among its options
  */
 function choose(select, value) {
-  if (![...select.options].some((option) => option.value === value)) select.append(element("option", { value }, [value || "own"]));
+  if (![...select.options].some((option) => option.value === value)) select.append(element("option", { value }, [say(value || "own")]));
   if (select.value !== value) select.value = value;
 }

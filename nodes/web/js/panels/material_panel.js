@@ -7,6 +7,7 @@
  * @typedef {import("../scene/materials.js").Target} Target
  */
 
+import { say } from "../host/words.js";
 import { materialFields, targetsOf, wholeOf, withMaterial, writtenOf } from "../scene/materials.js";
 import { element } from "./elements.js";
 import { fieldRow } from "./field_inputs.js";
@@ -64,12 +65,12 @@ export class MaterialPanel {
   #heading(targets, target) {
     const options = targets.map((one, i) => element("option", { value: String(i) }, [one.label]));
     const take = (/** @type {any} */ event) => this.choose(targets[Number(event.target.value)]);
-    const select = element("select", { "aria-label": "Body", title: "Whose material it is; a click on the picture chooses, too", "data-body": "", onchange: take }, options);
+    const select = element("select", { "aria-label": say("Body"), title: say("Whose material it is; a click on the picture chooses, too"), "data-body": "", onchange: take }, options);
     select.value = String(targets.indexOf(target));
     return [
-      element("div", { className: "physanimator-heading" }, ["Material"]),
+      element("div", { className: "physanimator-heading" }, [say("Material")]),
       element("label", { className: "physanimator-field", "data-field": "material.body" }, [
-        element("span", { className: "physanimator-caption" }, ["Body"]),
+        element("span", { className: "physanimator-caption" }, [say("Body")]),
         element("span", { className: "physanimator-inputs" }, [select]),
       ]),
     ];

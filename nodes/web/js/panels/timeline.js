@@ -16,6 +16,7 @@
  * @property {(reference: Reference, item: Item, done: boolean) => void} retime  an item acts at other times
  */
 
+import { say } from "../host/words.js";
 import { allItems } from "../scene/document.js";
 import { titleOf } from "../scene/items.js";
 import { departures, edgesOf, spansOf, withEdge } from "../scene/timing.js";
@@ -31,13 +32,13 @@ export class Timeline {
   constructor(listener) {
     this.listener = listener;
     this.play = element("button", { type: "button", "data-action": "play", onclick: listener.toggle });
-    this.loop = element("button", { type: "button", innerHTML: icon("loop"), title: "Play again and again", "aria-label": "Play again and again", "data-action": "loop", onclick: listener.loop });
-    this.slider = element("input", { type: "range", min: "0", step: "1", "aria-label": "Frame", className: "physanimator-slider", oninput: () => listener.seek(Number(this.slider.value)) });
+    this.loop = element("button", { type: "button", innerHTML: icon("loop"), title: say("Play again and again"), "aria-label": say("Play again and again"), "data-action": "loop", onclick: listener.loop });
+    this.slider = element("input", { type: "range", min: "0", step: "1", "aria-label": say("Frame"), className: "physanimator-slider", oninput: () => listener.seek(Number(this.slider.value)) });
     this.readout = element("span", { className: "physanimator-readout", "aria-live": "off" }, [""]);
-    this.length = element("input", { type: "number", min: "2", max: String(MOST_FRAMES), step: "1", title: "Length of the preview [frames]", "aria-label": "Length of the preview [frames]", className: "physanimator-length", onchange: () => this.#setLength() });
+    this.length = element("input", { type: "number", min: "2", max: String(MOST_FRAMES), step: "1", title: say("Length of the preview [frames]"), "aria-label": say("Length of the preview [frames]"), className: "physanimator-length", onchange: () => this.#setLength() });
     this.lanes = element("div", { className: "physanimator-track" });
     this.now = element("div", { className: "physanimator-now" });
-    const bar = element("div", { className: "physanimator-bar" }, [this.play, this.loop, this.slider, this.readout, this.length, element("span", { className: "physanimator-unit" }, ["frames"])]);
+    const bar = element("div", { className: "physanimator-bar" }, [this.play, this.loop, this.slider, this.readout, this.length, element("span", { className: "physanimator-unit" }, [say("frames")])]);
     this.root = element("div", { className: "physanimator-timeline" }, [bar, element("div", { className: "physanimator-lanes" }, [this.lanes])]);
     /** @type {Partial<Record<"playing" | "looping" | "frame" | "duration" | "frameRate", any>>} */
     this.shown = {};
@@ -114,7 +115,7 @@ export class Timeline {
 
   /** @param {boolean} playing */
   #showPlaying(playing) {
-    const title = playing ? "Pause (Space)" : "Play (Space)";
+    const title = playing ? say("Pause (Space)") : say("Play (Space)");
     this.play.innerHTML = icon(playing ? "pause" : "play");
     this.play.title = title;
     this.play.setAttribute("aria-label", title);
@@ -140,7 +141,7 @@ export class Timeline {
       this.rows.forEach(({ root }, number) => root !== before[number].root && before[number].root.replaceWith(root));
       return;
     }
-    const empty = element("div", { className: "physanimator-empty" }, ["What you draw appears here, with the times at which it acts."]);
+    const empty = element("div", { className: "physanimator-empty" }, [say("What you draw appears here, with the times at which it acts.")]);
     this.lanes.replaceChildren(...(this.rows.length ? this.rows.map(({ root }) => root) : [empty]), this.now);
   }
 
@@ -158,7 +159,8 @@ export class Timeline {
     const edges = edgesOf(reference, item, duration).map(([edge, time]) => {
       const grip = this.#piece("physanimator-edge", time, time, duration);
       grip.dataset.edge = edge;
-      grip.title = `${titleOf(reference, item)}: drag its ${edge}`;
+      const values = { item: titleOf(reference, item) };
+      grip.title = edge === "start" ? say("{item}: drag its start", values) : say("{item}: drag its end", values);
       grip.addEventListener("pointerdown", (/** @type {PointerEvent} */ event) => this.#grasp(event, reference, item, edge));
       return grip;
     });

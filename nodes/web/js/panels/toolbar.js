@@ -9,37 +9,38 @@
  * @property {boolean} [toggle]
  */
 
+import { say } from "../host/words.js";
 import { element } from "./elements.js";
 import { icon } from "./icons.js";
 
 /** @type {Record<string, Action>} */
 export const ACTIONS = {
-  select: { id: "select", title: "Select and drag items, points and handles", key: "V", tool: true },
-  "query-positive": { id: "query-positive", title: "Point on the part", key: "Q", tool: true },
-  "query-negative": { id: "query-negative", title: "Point beside the part", key: "N", tool: true },
-  wind: { id: "wind", title: "Wind: draw where it blows", key: "W", tool: true },
-  repel: { id: "repel", title: "Repel: draw what pushes away (a click rests)", key: "R", tool: true },
-  attract: { id: "attract", title: "Attract: draw what pulls closer (a click rests)", key: "A", tool: true },
-  pin: { id: "pin", title: "Pin: click to hold a spot", key: "P", tool: true },
-  path: { id: "path", title: "Lead: drag a spot along, as fast as it shall go", key: "L", tool: true },
-  wave: { id: "wave", title: "Wave: drag as far as it shall swing", key: "S", tool: true },
-  "region-circle": { id: "region-circle", title: "Held circle: drag from its middle", key: "C", tool: true },
-  "region-polygon": { id: "region-polygon", title: "Held outline: draw around it, or click its corners", key: "G", tool: true },
-  "region-brush": { id: "region-brush", title: "Held area: paint it; Alt takes away, [ and ] change the size", key: "B", tool: true },
-  stiffness: { id: "stiffness", title: "Stiffness: paint what is stiffer; Alt takes away, [ and ] change the size", key: "F", tool: true },
-  erase: { id: "erase", title: "Erase what the pointer passes over", key: "E", tool: true },
-  hold: { id: "hold", title: "Hold every body where it is found to be held, instead of its pins", key: "T" },
-  undo: { id: "undo", title: "Undo", key: "Ctrl+Z" },
-  redo: { id: "redo", title: "Redo", key: "Ctrl+Shift+Z" },
-  duplicate: { id: "duplicate", title: "Duplicate the selected item", key: "Ctrl+D" },
-  delete: { id: "delete", title: "Delete the selected item", key: "Delete" },
-  "zoom-out": { id: "zoom-out", title: "Zoom out", key: "-" },
-  fit: { id: "fit", title: "Show the whole picture", key: "0" },
-  "zoom-in": { id: "zoom-in", title: "Zoom in", key: "+" },
-  mesh: { id: "mesh", title: "Show the mesh", key: "M", toggle: true },
-  items: { id: "items", title: "Show what is drawn", key: "H", toggle: true },
-  panel: { id: "panel", title: "Show the values", key: "I", toggle: true },
-  expand: { id: "expand", title: "Edit in the whole window", key: "X", toggle: true },
+  select: { id: "select", title: say("Select and drag items, points and handles"), key: "V", tool: true },
+  "query-positive": { id: "query-positive", title: say("Point on the part"), key: "Q", tool: true },
+  "query-negative": { id: "query-negative", title: say("Point beside the part"), key: "N", tool: true },
+  wind: { id: "wind", title: say("Wind: draw where it blows"), key: "W", tool: true },
+  repel: { id: "repel", title: say("Repel: draw what pushes away (a click rests)"), key: "R", tool: true },
+  attract: { id: "attract", title: say("Attract: draw what pulls closer (a click rests)"), key: "A", tool: true },
+  pin: { id: "pin", title: say("Pin: click to hold a spot"), key: "P", tool: true },
+  path: { id: "path", title: say("Lead: drag a spot along, as fast as it shall go"), key: "L", tool: true },
+  wave: { id: "wave", title: say("Wave: drag as far as it shall swing"), key: "S", tool: true },
+  "region-circle": { id: "region-circle", title: say("Held circle: drag from its middle"), key: "C", tool: true },
+  "region-polygon": { id: "region-polygon", title: say("Held outline: draw around it, or click its corners"), key: "G", tool: true },
+  "region-brush": { id: "region-brush", title: say("Held area: paint it; Alt takes away, [ and ] change the size"), key: "B", tool: true },
+  stiffness: { id: "stiffness", title: say("Stiffness: paint what is stiffer; Alt takes away, [ and ] change the size"), key: "F", tool: true },
+  erase: { id: "erase", title: say("Erase what the pointer passes over"), key: "E", tool: true },
+  hold: { id: "hold", title: say("Hold every body where it is found to be held, instead of its pins"), key: "T" },
+  undo: { id: "undo", title: say("Undo"), key: "Ctrl+Z" },
+  redo: { id: "redo", title: say("Redo"), key: "Ctrl+Shift+Z" },
+  duplicate: { id: "duplicate", title: say("Duplicate the selected item"), key: "Ctrl+D" },
+  delete: { id: "delete", title: say("Delete the selected item"), key: "Delete" },
+  "zoom-out": { id: "zoom-out", title: say("Zoom out"), key: "-" },
+  fit: { id: "fit", title: say("Show the whole picture"), key: "0" },
+  "zoom-in": { id: "zoom-in", title: say("Zoom in"), key: "+" },
+  mesh: { id: "mesh", title: say("Show the mesh"), key: "M", toggle: true },
+  items: { id: "items", title: say("Show what is drawn"), key: "H", toggle: true },
+  panel: { id: "panel", title: say("Show the values"), key: "I", toggle: true },
+  expand: { id: "expand", title: say("Edit in the whole window"), key: "X", toggle: true },
 };
 
 export const SCENE_GROUPS = [
@@ -69,7 +70,7 @@ export class Toolbar {
   constructor(groups, onAction) {
     /** @type {Map<string, HTMLButtonElement>} */
     this.buttons = new Map();
-    this.root = element("div", { className: "physanimator-toolbar", role: "toolbar", "aria-label": "Scene editor" });
+    this.root = element("div", { className: "physanimator-toolbar", role: "toolbar", "aria-label": say("Scene editor") });
     for (const group of groups) {
       const made = group.map((id) => this.#button(ACTIONS[id], onAction));
       this.root.append(element("div", { className: "physanimator-group" }, made));
@@ -107,7 +108,7 @@ export class Toolbar {
     const expand = this.buttons.get("expand");
     if (expand && "expand" in pressed) {
       expand.innerHTML = icon(pressed.expand ? "shrink" : "expand");
-      expand.title = pressed.expand ? "Back to the node (Esc)" : `${ACTIONS.expand.title} (X)`;
+      expand.title = pressed.expand ? say("Back to the node (Esc)") : `${ACTIONS.expand.title} (X)`;
     }
   }
 }

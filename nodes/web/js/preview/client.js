@@ -6,6 +6,7 @@
  * @typedef {(path: string, options?: any) => Promise<Response>} Fetch
  */
 
+import { say } from "../host/words.js";
 import { meshOf, RecordReader } from "./records.js";
 
 const SUPERSEDED = "superseded";
@@ -144,5 +145,5 @@ export class PreviewClient {
  */
 async function refusal(answer) {
   const said = await answer.json().catch(() => null);
-  return new Refusal(said?.error ?? `The server answered ${answer.status} ${answer.statusText}.`, answer.status);
+  return new Refusal(said?.error ?? say("The server answered {status}.", { status: `${answer.status} ${answer.statusText}` }), answer.status);
 }

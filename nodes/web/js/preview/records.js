@@ -27,6 +27,8 @@
  * @typedef {{type: "header", header: Header} | {type: "frame", frame: Frame} | {type: "end", end: any} | {type: "error", error: string}} PreviewRecord
  */
 
+import { say } from "../host/words.js";
+
 const HEAD = 8;
 const [HEADER, FRAME, END, ERROR] = [0, 1, 2, 3];
 const KINDS = { float32: Float32Array, uint32: Uint32Array };
@@ -74,7 +76,7 @@ export class RecordReader {
     }
     if (type === END) return { type: "end", end: data };
     if (type === ERROR) return { type: "error", error: data.error };
-    throw new Error(`The preview sent a record of unknown type ${type}.`);
+    throw new Error(say("The preview sent a record of unknown type {type}.", { type }));
   }
 }
 
@@ -122,7 +124,7 @@ export function meshOf(buffer) {
   for (const { name, dtype, shape } of header.arrays) {
     at = Math.ceil(at / 4) * 4;
     const kind = KINDS[/** @type {"float32"} */ (dtype)];
-    if (!kind) throw new Error(`The mesh has an array of unknown type ${dtype}.`);
+    if (!kind) throw new Error(say("The mesh has an array of unknown type {type}.", { type: dtype }));
     const count = shape.reduce((/** @type {number} */ all, /** @type {number} */ one) => all * one, 1);
     arrays[name] = new kind(buffer, at, count);
     at += count * kind.BYTES_PER_ELEMENT;

@@ -9,6 +9,8 @@
  * @typedef {{list: string, index: number}} Reference  where an item stands
  */
 
+import { say } from "../host/words.js";
+
 export const VERSION = 2;
 
 /** The lists that hold items, from the lowest to the topmost on the picture. */
@@ -33,18 +35,18 @@ export function parseDocument(text) {
   try {
     data = JSON.parse(text);
   } catch (error) {
-    throw new Error(`The scene is not valid JSON: ${/** @type {Error} */ (error).message}`);
+    throw new Error(say("The scene is not valid JSON: {reason}", { reason: /** @type {Error} */ (error).message }));
   }
   if (data === null || typeof data !== "object" || Array.isArray(data)) {
-    throw new Error("A scene must be an object in braces.");
+    throw new Error(say("A scene must be an object in braces."));
   }
   if (!(data.version <= VERSION)) {
-    throw new Error(`This scene has version ${data.version}; up to ${VERSION} can be shown.`);
+    throw new Error(say("This scene has version {version}; up to {newest} can be shown.", { version: data.version, newest: VERSION }));
   }
   for (const list of LISTS) {
-    if (data[list] !== undefined && !Array.isArray(data[list])) throw new Error(`${list} must be a list.`);
+    if (data[list] !== undefined && !Array.isArray(data[list])) throw new Error(say("{list} must be a list.", { list }));
   }
-  if (!(data.width > 0 && data.height > 0)) throw new Error("A scene must say its width and height in pixels.");
+  if (!(data.width > 0 && data.height > 0)) throw new Error(say("A scene must say its width and height in pixels."));
   return data;
 }
 

@@ -11,20 +11,21 @@
  * @property {Item[]} points  rig points without a body
  */
 
+import { say } from "../host/words.js";
 import { bodyOf, withNames, withOfBody } from "./layers.js";
 
 /** Where a body can be held, and what that is called in a list. */
 export const SIDES = {
-  none: "not held",
-  auto: "by its shape",
-  top: "top",
-  bottom: "bottom",
-  left: "left",
-  right: "right",
-  head: "head",
-  crown: "forehead",
-  covered: "behind head",
-  end: "at its end",
+  none: say("not held"),
+  auto: say("by its shape"),
+  top: say("top"),
+  bottom: say("bottom"),
+  left: say("left"),
+  right: say("right"),
+  head: say("head"),
+  crown: say("forehead"),
+  covered: say("behind head"),
+  end: say("at its end"),
 };
 
 /**

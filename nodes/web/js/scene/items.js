@@ -7,6 +7,7 @@
  * @typedef {import("./document.js").Reference} Reference
  */
 
+import { say } from "../host/words.js";
 import { distance, middle, rounded, tenth } from "./geometry.js";
 import { bitmapOf, measured } from "./masks.js";
 
@@ -143,17 +144,28 @@ export function middleOf(document, region) {
  * @param {Item} item
  */
 export function titleOf(reference, item) {
-  const number = reference.index + 1;
-  if (reference.list === "strokes") return `${capital(item.kind ?? "wind")} stroke ${number}`;
-  if (reference.list === "rig_points") return `${motionTitle(item.motion)} ${number}`;
-  if (reference.list === "paint") return `Painted material ${number}`;
-  if (reference.list === "query_points") return `${item.positive === false ? "Point beside" : "Point on the part"} ${number}`;
-  return `Collider ${number}`;
+  const title = kindTitle(reference.list, item);
+  return `${title} ${reference.index + 1}`;
 }
 
-/** @param {Item | undefined} motion */
-function motionTitle(motion) {
-  return { pinned: "Pin", path: "Led point" }[/** @type {string} */ (motion?.type ?? "pinned")] ?? capital(motion?.type);
+/** @type {Record<string, string>} */
+const STROKES = { wind: say("Wind stroke"), repel: say("Repel stroke"), attract: say("Attract stroke") };
+/** @type {Record<string, string>} */
+const MOTIONS = {
+  pinned: say("Pin"), path: say("Led point"), wave: say("Wave"), rotation: say("Rotation"), swing: say("Swing"), squash: say("Squash"), pulse: say("Pulse"),
+};
+
+/**
+ * @param {string} list
+ * @param {Item} item
+ * @returns {string}
+ */
+function kindTitle(list, item) {
+  if (list === "strokes") return STROKES[item.kind ?? "wind"] ?? capital(item.kind);
+  if (list === "rig_points") return MOTIONS[item.motion?.type ?? "pinned"] ?? capital(item.motion.type);
+  if (list === "paint") return say("Painted material");
+  if (list === "query_points") return item.positive === false ? say("Point beside") : say("Point on the part");
+  return say("Collider");
 }
 
 /** @param {string} text */

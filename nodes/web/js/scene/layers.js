@@ -16,8 +16,10 @@
  * @property {boolean} [fixed]  whether another input of the node says so, which stands above the document
  */
 
+import { words } from "../host/words.js";
+
 /** Materials that a layer can be made of. */
-export const PRESETS = ["hair", "ribbon", "cloth", "leaf", "jelly"];
+export const PRESETS = words("hair", "ribbon", "cloth", "leaf", "jelly");
 
 /** Lists whose entries may speak of a body by its number. */
 const OF_BODIES = ["rig_points", "paint"];

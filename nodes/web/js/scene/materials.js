@@ -19,10 +19,11 @@
  * @property {Item} material  that it had
  */
 
+import { say, words } from "../host/words.js";
 import { bodyOf, movesIn, withNames } from "./layers.js";
 
 /** How a material can say how stiff it is. */
-export const STIFFNESS = ["sway", "Young", "Lame"];
+export const STIFFNESS = words("sway", "Young", "Lame");
 const [SWAY, YOUNG, LAME] = STIFFNESS;
 
 /** Digits to which numbers are converted. */
@@ -42,7 +43,7 @@ export function targetsOf(document, materials, layers) {
   if (!materials) return [];
   const { bodies } = materials;
   if (!layers.length) {
-    return [...materials.order].reverse().map((number) => ({ ...bodies[number], number, label: bodies[number].name || `Body ${number}` }));
+    return [...materials.order].reverse().map((number) => ({ ...bodies[number], number, label: bodies[number].name || say("Body {number}", { number }) }));
   }
   return layers.filter((layer) => movesIn(document, layer)).map(({ name, preset }) => {
     const number = bodies.findIndex((body) => body.name === name);
@@ -196,31 +197,31 @@ function number(path, title, unit, more) {
 const STIFFEST = 1e12;
 const MODULUS = "density side²/s²";
 /** Shown instead, for want of room. */
-const SHOWN = "side²/s²";
+const SHOWN = say("side²/s²");
 
 /** @type {Record<string, Field[]>} */
 const OF_STIFFNESS = {
   [SWAY]: [
-    number("sway_frequency", "Sway", "Hz", { optional: true, min: 0.001, max: 1000, step: 0.1, hint: "How often it sways about where it is held; the stiffness follows from it." }),
-    number("poisson_ratio", "Poisson's ratio", "", { default: 0.3, min: 0, max: 0.499, step: 0.01, hint: "How much a stretched body narrows: 0 not at all, near 0.5 like rubber." }),
+    number("sway_frequency", say("Sway"), "Hz", { optional: true, min: 0.001, max: 1000, step: 0.1, hint: say("How often it sways about where it is held; the stiffness follows from it.") }),
+    number("poisson_ratio", say("Poisson's ratio"), "", { default: 0.3, min: 0, max: 0.499, step: 0.01, hint: say("How much a stretched body narrows: 0 not at all, near 0.5 like rubber.") }),
   ],
   [YOUNG]: [
-    number("youngs_modulus", "Young's modulus", MODULUS, { default: 500, min: 1e-6, max: STIFFEST, step: 10, hint: "How hard it is to stretch and bend. Twice the sway needs four times as much." }),
-    number("poisson_ratio", "Poisson's ratio", "", { default: 0.3, min: 0, max: 0.499, step: 0.01, hint: "How much a stretched body narrows: 0 not at all, near 0.5 like rubber." }),
+    number("youngs_modulus", say("Young's modulus"), MODULUS, { default: 500, min: 1e-6, max: STIFFEST, step: 10, hint: say("How hard it is to stretch and bend. Twice the sway needs four times as much.") }),
+    number("poisson_ratio", say("Poisson's ratio"), "", { default: 0.3, min: 0, max: 0.499, step: 0.01, hint: say("How much a stretched body narrows: 0 not at all, near 0.5 like rubber.") }),
   ],
   [LAME]: [
-    number("mu", "mu", MODULUS, { min: 1e-6, max: STIFFEST, step: 10, hint: "Lame parameter: resistance to stretching, bending and shear, as in the paper." }),
-    number("lambda", "lambda", MODULUS, { min: 0, max: STIFFEST, step: 10, hint: "Lame parameter: resistance to a change of area, as in the paper; 0 for none." }),
+    number("mu", say("mu"), MODULUS, { min: 1e-6, max: STIFFEST, step: 10, hint: say("Lame parameter: resistance to stretching, bending and shear, as in the paper.") }),
+    number("lambda", say("lambda"), MODULUS, { min: 0, max: STIFFEST, step: 10, hint: say("Lame parameter: resistance to a change of area, as in the paper; 0 for none.") }),
   ],
 };
 
 /** @type {Field[]} */
 const OTHERS = [
-  number("density", "Density", "", { default: 1, min: 1e-6, max: 1e6, step: 0.1, hint: "Mass for its size; 1 is ordinary." }),
-  number("damping", "Damping", "1/s", { default: 1.5, min: 0, max: 1e6, step: 0.1, hint: "How fast motion dies away: 0 never, 1 within some seconds, 5 almost at once." }),
-  number("stretch_limit", "Stretch limit", "×", { optional: true, min: 1, max: 1e6, step: 0.01, hint: "How many times as far as drawn a point gets from where it is held. Empty: no limit." }),
-  number("wind_response", "Wind response", "×", { default: 1, min: 0, max: 1e6, step: 0.1, hint: "How strongly wind and strokes act on it." }),
-  number("root_stiffness", "Root stiffness", "×", { default: 1, min: 1, max: 1000, step: 1, hint: "How many times as stiff it is where it is held as at its tip." }),
+  number("density", say("Density"), "", { default: 1, min: 1e-6, max: 1e6, step: 0.1, hint: say("Mass for its size; 1 is ordinary.") }),
+  number("damping", say("Damping"), "1/s", { default: 1.5, min: 0, max: 1e6, step: 0.1, hint: say("How fast motion dies away: 0 never, 1 within some seconds, 5 almost at once.") }),
+  number("stretch_limit", say("Stretch limit"), "×", { optional: true, min: 1, max: 1e6, step: 0.01, hint: say("How many times as far as drawn a point gets from where it is held. Empty: no limit.") }),
+  number("wind_response", say("Wind response"), "×", { default: 1, min: 0, max: 1e6, step: 0.1, hint: say("How strongly wind and strokes act on it.") }),
+  number("root_stiffness", say("Root stiffness"), "×", { default: 1, min: 1, max: 1000, step: 1, hint: say("How many times as stiff it is where it is held as at its tip.") }),
 ];
 
 /**
@@ -240,12 +241,12 @@ export const MATERIAL_FIELDS = [...Object.values(OF_STIFFNESS).flat(), ...OTHERS
  * @returns {Field[]}
  */
 export function materialFields(materials, written) {
-  const own = written.preset ? [] : ["own"];
+  const own = written.preset ? [] : words("own");
   const whole = wholeOf(written, materials);
   const way = stiffnessOf(whole);
   return [
-    { path: "preset", title: "Preset", kind: "choice", default: "own", choices: [...own, ...Object.keys(materials.presets)], hint: "What it is made of, with its usual values." },
-    { path: "stiffness", title: "Stiffness by", kind: "choice", default: way, choices: STIFFNESS, hint: "How often it sways, Young's modulus and Poisson's ratio, or the Lame parameters mu and lambda." },
+    { path: "preset", title: say("Preset"), kind: "choice", default: "own", choices: [...own, ...Object.keys(materials.presets)], hint: say("What it is made of, with its usual values.") },
+    { path: "stiffness", title: say("Stiffness by"), kind: "choice", default: way, choices: STIFFNESS, hint: say("How often it sways, Young's modulus and Poisson's ratio, or the Lame parameters mu and lambda.") },
     ...OF_STIFFNESS[way].map((field) => (field.unit === MODULUS ? { ...field, unit: SHOWN, step: stepOf(whole[field.path] || whole.mu) } : field)),
     ...OTHERS,
   ];

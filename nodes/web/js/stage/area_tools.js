@@ -7,6 +7,7 @@
  * @typedef {import("../scene/masks.js").Bitmap} Bitmap
  */
 
+import { say } from "../host/words.js";
 import { itemAt, withAdded, withItem, withoutItems } from "../scene/document.js";
 import { areaOf, distance, middle, rounded, simplified } from "../scene/geometry.js";
 import { middleOf, newRigPoint } from "../scene/items.js";
@@ -53,7 +54,7 @@ export class PolygonTool extends Tool {
     if (!path || !pressed || !this.fresh) return;
     if (path.every((one) => distance(one, pressed) < CLICK * this.desk.pixel)) {
       this.draft = { path: [pressed, point], closed: true, colour: COLOURS.pin };
-      this.desk.say("Click the next corners; click the first one again or press Enter to close.");
+      this.desk.say(say("Click the next corners; click the first one again or press Enter to close."));
     } else this.#close(simplified(path, SMOOTHING * this.desk.pixel).map((i) => path[i]));
   }
 
@@ -73,7 +74,7 @@ export class PolygonTool extends Tool {
   #close(corners) {
     this.cancel();
     if (corners.length < 3 || areaOf(corners) < 4 * this.desk.pixel ** 2) {
-      this.desk.say("A region needs at least three corners.");
+      this.desk.say(say("A region needs at least three corners."));
       return;
     }
     const points = corners.map(rounded);

@@ -6,6 +6,7 @@
  * @typedef {import("./tool.js").Desk} Desk
  */
 
+import { say } from "../host/words.js";
 import { withAdded, withItem } from "../scene/document.js";
 import { distance, rounded, simplified } from "../scene/geometry.js";
 import { newLead, newRigPoint, newStroke, newWave, usualCircle } from "../scene/items.js";
@@ -65,7 +66,7 @@ export class StrokeTool extends Freehand {
     const { path, pressures, clicked } = this.drawn();
     this.cancel();
     if (clicked && kind === "wind") {
-      this.desk.say("Drag to draw where the wind blows.");
+      this.desk.say(say("Drag to draw where the wind blows."));
       return;
     }
     // A single point is a particle at rest, which has no way to go.
@@ -81,7 +82,7 @@ export class LeadTool extends Freehand {
     const { path, times, clicked } = this.drawn();
     this.cancel();
     if (clicked) {
-      this.desk.say("Drag to draw the way along which the point is led, as fast as it shall go.");
+      this.desk.say(say("Drag to draw the way along which the point is led, as fast as it shall go."));
       return;
     }
     const { document, reference } = withAdded(this.desk.document, "rig_points", newLead(this.desk.document, path, times));

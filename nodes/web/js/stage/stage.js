@@ -5,6 +5,7 @@
  * @typedef {import("../scene/geometry.js").View} View
  */
 
+import { say } from "../host/words.js";
 import { mark, PEN_UP } from "../preview/marks.js";
 import { fittingView, toPicture, zoomed } from "../scene/geometry.js";
 
@@ -40,7 +41,7 @@ export class Stage {
     // Ctrl+Z the last change of the graph, and the middle button would move the graph.
     this.keys = document.createElement("input");
     Object.assign(this.keys, { className: "physanimator-keys", readOnly: true, inputMode: "none" });
-    this.keys.setAttribute("aria-label", "Picture");
+    this.keys.setAttribute("aria-label", say("Picture"));
     root.append(this.film, this.still, this.overlay, this.keys);
     /** @type {View} */
     this.view = { scale: 1, x: 0, y: 0 };
