@@ -57,17 +57,24 @@ export class Backdrop {
     this.editor.redraw();
   }
 
+  /** There is no picture any more. */
+  forgetPicture() {
+    this.picture = this.wanted = null;
+    this.editor.show();
+  }
+
   /** @param {string} reason why nothing moves */
   offerRun(reason = say("Nothing moves yet: the bodies are known once this node has run.")) {
     const { notes, options } = this.editor;
-    if (options.moves) notes.show("run", reason, { button: [say("Run this node"), options.onRun] });
+    if (options.moves && !options.picks) notes.show("run", reason, { button: [say("Run this node"), options.onRun] });
   }
 
   /** @param {Error | null} error of the preview */
   trouble(error) {
     const gone = /** @type {any} */ (error)?.status === 404;
     this.editor.notes.show("motion", error && !gone ? error.message : "", { kind: "error" });
-    if (!gone) return;
+    if (gone) this.editor.picking?.renew();
+    if (!gone || this.editor.picking) return;
     this.editor.live.setRun(null, null);
     this.offerRun(/** @type {Error} */ (error).message);
   }

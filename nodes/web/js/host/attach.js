@@ -7,7 +7,9 @@
  * @property {string[][]} groups
  * @property {boolean} moves
  * @property {[number, number]} size  of a new node, at least
- * @property {string} [empty]  what to do while there are no points
+ * @property {(app: any, api: any, node: any) => import("../editor/picking.js").PickOptions} [picks]  where parts are picked
+ * @property {(node: any, rootGraph: any) => string | null} [picture]  path of the picture, where it is not that upstream
+ * @property {boolean} [result]  whether what the node shows of a run is shown here
  */
 
 import { Editor } from "../editor/editor.js";
@@ -35,6 +37,7 @@ export function attachEditor(app, api, node, kind) {
   if (!value) return null;
   const editor = new Editor({
     ...kind,
+    picks: kind.picks?.(app, api, node) ?? null,
     fetch: (path, options) => api.fetchApi(path, options),
     onChange: (text) => (value.value = text),
     onKept: () => tell(app, node, value),
@@ -48,7 +51,7 @@ export function attachEditor(app, api, node, kind) {
   });
   // A widget that is only shown must not be saved: it would shift the values of all that come after it.
   widget.serialize = false;
-  follow(app, api, node, value, editor);
+  follow(app, api, node, value, editor, kind);
   grow(node, kind.size, editor.root);
   return editor;
 }
@@ -83,23 +86,34 @@ function grow(node, size, root) {
  * @param {any} node
  * @param {any} value
  * @param {Editor} editor
+ * @param {Kind} kind
  */
-function follow(app, api, node, value, editor) {
+function follow(app, api, node, value, editor, kind) {
   let picture = /** @type {string | null | undefined} */ (undefined);
   const look = () => {
     if (!node.graph) return;
     takePlace(node, editor.root);
     editor.load(String(value.value ?? ""));
-    const found = upstreamPicture(node, app.rootGraph ?? app.graph);
+    const found = (kind.picture ?? upstreamPicture)(node, app.rootGraph ?? app.graph);
+    editor.picking?.changed();
     if (found === picture) return;
     const first = picture === undefined;
     picture = found;
     if (!first) editor.backdrop.forgetRun();
-    if (found) editor.backdrop.setPicture(api.apiURL(found));
+    if (found) editor.backdrop.setPicture(api.apiURL(found)).then(() => editor.picking?.changed());
+    else if (editor.picking) editor.backdrop.forgetPicture();
   };
+  editor.look = look;
+  // The editor shows what the node shows: in the Vue canvas the host has a word for that, in the other it draws here.
+  if (kind.result) Object.assign(node, { hideOutputImages: true, onDrawBackground: () => {} });
   const ran = (/** @type {any} */ output) => {
     const [info] = output?.[OUTPUT] ?? [];
     editor.advise(output?.advice ?? []);
+    const [shown] = (kind.result && output?.images) || [];
+    const [seen] = output?.physanimator_picture ?? [];
+    const path = (/** @type {any} */ saved) => `/view?${new URLSearchParams(saved)}`;
+    if (seen) node.physanimatorSeen = path(seen);
+    if (shown) editor.picking?.takeResult(api.apiURL(path(shown)), /\.mp4$/.test(shown.filename));
     if (info) editor.backdrop.setRun(runOf(api, info)).catch((error) => editor.say(error.message));
   };
   chain(node, "onConfigure", () => queueMicrotask(look));
