@@ -72,7 +72,7 @@ def read_pick(body: bytes) -> PickRequest:
     require("alpha", repr(data["alpha"])[:60], isinstance(data["alpha"], bool), "true or false")
     require("points", "another form", isinstance(points, dict), "a document, an object in braces")
     listed = points.get("query_points", [])
-    few = isinstance(listed, list) and len(listed) <= MAX_PICKED_POINTS, MAX_PICKED_SIZE
+    few = isinstance(listed, list) and len(listed) <= MAX_PICKED_POINTS
     require("query_points", "others", few, f"a list of at most {MAX_PICKED_POINTS}")
     cleaning, move = _cleaning_of(data["cleaning"]), data["move"]
     return PickRequest(editor, picture, data["alpha"], points, cleaning, None if move is None else _move_of(move))
