@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Drawn", "draw"]
 
-_SIDE = 640
+_SIDE = 960
 """Longest side of what is shown [px]."""
 
 

@@ -1,4 +1,4 @@
-"""What an editor is shown while somebody picks: the cut that the node makes, the scene that it moves, and the newest."""
+"""What an editor is shown while somebody picks: the cut that the node makes, what moves it, and the newest."""
 
 from __future__ import annotations
 
