@@ -27,6 +27,7 @@ from .host import (
     layered_files,
     not_made,
     refusal,
+    send_to_page,
     sent_inputs,
     shown_with,
 )
@@ -41,6 +42,9 @@ if TYPE_CHECKING:
     import torch
 
 __all__ = ["AnimateIllustration"]
+
+PICTURE_EVENT = "physanimator.picture"
+"""Name of the message by which a picture that other nodes have made appears in the node: see nodes/web/js/host."""
 
 _FRAMES = 0  # number of the output
 
@@ -189,9 +193,11 @@ class AnimateIllustration(io.ComfyNode):
     ) -> io.NodeOutput:
         behind, report = background_chosen(background), host_progress()
         given = given_picture(cls, picture, image, image_alpha, layers)
-        shown = (
-            {} if image is None or given.picture is None else {"physanimator_picture": [saved_picture(given.picture)]}
-        )
+        shown: dict[str, Any] = {}
+        if image is not None and given.picture is not None:
+            shown = {"physanimator_picture": [saved_picture(given.picture)]}
+            # At once: where nothing is picked yet, it has to be seen to be clicked on.
+            send_to_page(PICTURE_EVENT, shown["physanimator_picture"][0])
         timing = {"loop": loop, "frames": frames, "fps": fps}
         if isinstance(scene, MaskedScene):
             moved = motion_of_scene(cls, scene, given, points, pixel_art, timing, report)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,7 +15,7 @@ from ...physics.errors import InvalidInputError, require
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["as_load_image", "picture_files", "picture_place"]
+__all__ = ["as_load_image", "picture_files", "picture_place", "require_small"]
 
 _ENDINGS = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".gif", ".tif", ".tiff", ".avif")
 _FOLDERS = ("input", "output", "temp")
@@ -50,34 +52,51 @@ def picture_place(name: str) -> Path:
     return place
 
 
-def as_load_image(place: Path, *, most_pixels: int | None = None) -> NDArray[np.uint8]:
+def as_load_image(place: Path) -> NDArray[np.uint8]:
     """A picture with the very colours that the host's Load Image gives: RGB, shape [h, w, 3].
 
     Args:
         place: of the file.
-        most_pixels: what it may have; None for any number that Pillow opens.
 
     Raises:
-        InvalidInputError: it is no picture, or a larger one.
+        InvalidInputError: it is no picture.
     """
     from PIL import Image, ImageOps
 
+    with _reading(place), Image.open(place) as opened:
+        picture = ImageOps.exif_transpose(opened)
+        if picture.mode == "I":
+            picture = picture.point(lambda level: level * (1 / 255))
+        return np.array(picture.convert("RGB"))
+
+
+def require_small(place: Path, most: int) -> None:
+    """Refuse a picture by what its file says of its size, before any of it is unpacked.
+
+    Args:
+        place: of the file.
+        most: pixels that it may have.
+
+    Raises:
+        InvalidInputError: it is no picture, or has more.
+    """
+    from PIL import Image
+
+    with _reading(place), Image.open(place) as opened:
+        width, height = opened.size
+    fits = width * height <= most
+    require("picture", f"{width} x {height} px", fits, f"of at most {most:,} pixels to be cut while you click")
+
+
+@contextmanager
+def _reading(place: Path) -> Iterator[None]:
+    """Let an error tell which file cannot be read."""
+    from PIL import Image
+
     try:
-        with Image.open(place) as opened:
-            _require_small(opened, most_pixels)
-            picture = ImageOps.exif_transpose(opened)
-            if picture.mode == "I":
-                picture = picture.point(lambda level: level * (1 / 255))
-            return np.array(picture.convert("RGB"))
+        yield
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise InvalidInputError(f"picture must be a file that can be read. Got: {place.name[:60]!r}") from error
-
-
-def _require_small(opened: Any, most: int | None) -> None:
-    width, height = opened.size
-    if most is not None:
-        fits = width * height <= most
-        require("picture", f"{width} x {height} px", fits, f"of at most {most:,} pixels to be cut while you click")
 
 
 def _folder(kind: str) -> Path:

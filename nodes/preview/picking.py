@@ -20,7 +20,7 @@ from ...physics.document import scene_to_dict
 from ...physics.errors import require
 from ...physics.mesh import runs_of
 from ..host import boxes_of
-from ..host.pictures import as_load_image, picture_place
+from ..host.pictures import as_load_image, picture_place, require_small
 from .limits import MAX_EDITOR_NAME, MAX_FRAMES, MAX_PICKED_PIXELS, MAX_PICKED_POINTS, MAX_PICKED_SIZE
 from .requests import read_bounded
 from .store import PreviewBodies, PreviewStore
@@ -196,15 +196,12 @@ class _Kept:
 
 
 def _read(place: Path, alpha: bool) -> NDArray[np.uint8]:
+    require_small(place, MAX_PICKED_PIXELS)
     if not alpha:
-        return as_load_image(place, most_pixels=MAX_PICKED_PIXELS)
+        return as_load_image(place)
     from ...rendering.pictures import load_image
 
-    picture = load_image(place, alpha=True)
-    height, width = picture.shape[:2]
-    fits = width * height <= MAX_PICKED_PIXELS
-    require("picture", f"{width} x {height} px", fits, f"of at most {MAX_PICKED_PIXELS:,} pixels to be cut live")
-    return picture
+    return load_image(place, alpha=True)
 
 
 def _told(masks: Sequence[Mask], numbers: Sequence[int]) -> list[dict[str, Any]]:

@@ -1,7 +1,7 @@
 """Routes of the host's server for the scene editor: meshes, and live previews by the real solver.
 
-Requests come from whoever reaches the server: only the host's own pages may use the routes, nothing in a request names
-a file, everything has a limit, and a simulation never runs on the thread that answers.
+Requests come from whoever reaches the server: only the host's own pages may use the routes, no request names a file but
+a picture of the host's own folders, everything has a limit, and nothing is cut or simulated on the thread that answers.
 """
 
 from __future__ import annotations

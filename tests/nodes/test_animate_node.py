@@ -137,6 +137,16 @@ def test_masks_may_stand_in_for_points_and_a_connected_picture_for_the_file(stan
     assert "mask 0 without any" in standin.error_of(prompt)
 
 
+def test_a_picture_that_other_nodes_make_is_shown_before_anything_is_picked(standin: Any) -> None:
+    prompt = animate("gone.png", "") | {"picture": core("EmptyImage", width=64, height=48, batch_size=1, color=200)}
+    prompt["animate"]["inputs"]["image"] = ["picture", 0]
+    assert "click on what shall move" in standin.error_of(prompt)
+    name, told = standin.server.messages[-1]
+    assert (name, told["node"]) == ("physanimator.picture", "animate")
+    with Image.open(standin.file({key: told[key] for key in ("filename", "subfolder", "type")})) as shown:
+        assert shown.size == (64, 48)
+
+
 def test_a_scene_of_other_nodes_brings_what_moves(standin: Any) -> None:
     prompt = {
         "black": core("SolidMask", value=0.0, width=160, height=96),

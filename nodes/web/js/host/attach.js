@@ -25,6 +25,8 @@ const LOOKS = 500;
 const OUTPUT = "physanimator_editor";
 /** What a node sends that refuses to go on because no layer moves; see nodes/layer_lists.py. */
 export const LAYERS = "physanimator.layers";
+/** What a node sends of a picture that other nodes have made; see nodes/animate_nodes.py. */
+const PICTURE = "physanimator.picture";
 
 /**
  * @param {any} app  the host's
@@ -111,9 +113,8 @@ function follow(app, api, node, value, editor, kind) {
     editor.advise(output?.advice ?? []);
     const [shown] = (kind.result && output?.images) || [];
     const [seen] = output?.physanimator_picture ?? [];
-    const path = (/** @type {any} */ saved) => `/view?${new URLSearchParams(saved)}`;
-    if (seen) node.physanimatorSeen = path(seen);
-    if (shown) editor.picking?.takeResult(api.apiURL(path(shown)), /\.mp4$/.test(shown.filename));
+    if (seen) node.physanimatorSeen = pathOf(seen);
+    if (shown) editor.picking?.takeResult(api.apiURL(pathOf(shown)), /\.mp4$/.test(shown.filename));
     if (info) editor.backdrop.setRun(runOf(api, info)).catch((error) => editor.say(error.message));
   };
   chain(node, "onConfigure", () => queueMicrotask(look));
@@ -131,10 +132,17 @@ function follow(app, api, node, value, editor, kind) {
   const refused = (/** @type {any} */ { detail }) => {
     if (node.graph && detail.node === executionId(node, app.rootGraph ?? app.graph)) editor.refuseLayers(detail.layers);
   };
+  const pictured = (/** @type {any} */ { detail: { node: id, ...saved } }) => {
+    if (!node.graph || !kind.picture || id !== executionId(node, app.rootGraph ?? app.graph)) return;
+    node.physanimatorSeen = pathOf(saved);
+    look();
+  };
   api.addEventListener(LAYERS, refused);
+  api.addEventListener(PICTURE, pictured);
   chain(node, "onRemoved", () => {
     clearInterval(remains);
     api.removeEventListener(LAYERS, refused);
+    api.removeEventListener(PICTURE, pictured);
     editor.release();
   });
   queueMicrotask(() => {
@@ -154,6 +162,11 @@ function takePlace(node, root) {
   if (root.isConnected) return;
   const left = document.querySelector(`[data-node-id="${CSS.escape(String(node.id))}"] .physanimator-editor[data-released]`);
   left?.replaceWith(root);
+}
+
+/** @param {any} saved  as the host tells where a file is */
+function pathOf(saved) {
+  return `/view?${new URLSearchParams(saved)}`;
 }
 
 /**

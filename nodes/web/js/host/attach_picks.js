@@ -127,6 +127,7 @@ function hintOf(node, picture) {
   const file = String(valueOf(node, "picture") ?? "");
   const layered = isLinked(node, "layers") || (!isLinked(node, "image") && file !== EXAMPLE_FILE && !PICTURE.test(file));
   if (layered) return say("Layers move by their names: run this node to see them move.");
+  if (picture && isLinked(node, "masks")) return say("Click on what else shall move, or run this node: the masks that are connected move.");
   if (picture) return say("Click on what shall move.");
   if (isLinked(node, "image")) return say("Run this node once to see its picture here, then click on what shall move.");
   return say("Drop a picture here, or choose one.");
