@@ -106,6 +106,7 @@ def test_what_is_picked_is_simulated_as_the_node_does(bars: str) -> None:
 def test_the_example_needs_no_file_and_nothing_else_can_be_named(standin: Any, bars: str, tmp_path: Path) -> None:
     Image.new("RGB", (20, 20), "white").save(standin.folder / "outside.png")
     (standin.folder / "input" / "text.png").write_text("no picture")
+    Image.new("L", (4200, 4000)).save(standin.folder / "input" / "large.png")
 
     async def test(server: Served) -> None:
         size = {"width": 1280, "height": 720}
@@ -116,6 +117,9 @@ def test_the_example_needs_no_file_and_nothing_else_can_be_named(standin: Any, b
             status, found = await pick(server, asked(name, POINTS))
             assert status == 422, name
             assert "picture must be a file of the host's" in found["error"]
+        for alpha in (False, True):
+            status, found = await pick(server, asked("large.png", POINTS) | {"alpha": alpha})
+            assert (status, "4200 x 4000 px" in found["error"]) == (422, True)
         status, found = await pick(server, asked("text.png", POINTS))
         assert (status, "can be read" in found["error"]) == (422, True)
 
