@@ -62,9 +62,10 @@ def draw(
     if wanted:
         told = announce_batch(node, count, motion.width, motion.height, channels=channels, instead=instead)
     batch = picture_batch(count) if wanted else None
-    name, path = _place(".webp" if background.has_alpha else ".mp4")
+    lossless = background.has_alpha or exact
+    name, path = _place(".webp" if lossless else ".mp4")
     frames = _frames(renderer, background, batch, report, exact=exact)
-    write_animation(frames, path, motion.frame_rate, exact=exact and background.has_alpha)
+    write_animation(frames, path, motion.frame_rate, exact=exact)
     saved = ui.SavedImages([ui.SavedResult(name, "", io.FolderType.temp)], is_animated=True)
     return Drawn(batch, saved, told)
 

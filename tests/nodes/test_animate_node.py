@@ -218,6 +218,12 @@ def test_it_can_be_interrupted(standin: Any, bars: str) -> None:
     assert len(standin.progress) < 20
 
 
+def test_pixel_art_is_shown_with_its_very_colours(standin: Any, bars: str) -> None:
+    (saved,) = standin.run(animate(bars, [ON_RED], pixel_art=True, frames=2))["animate"]["images"]
+    first = next(iter(read_clip(standin.file(saved))))
+    assert first[60, 60].tolist() == list(RED)
+
+
 def test_a_transparent_background_is_shown_and_given(standin: Any, bars: str) -> None:
     outputs = standin.run(seen(animate(bars, [ON_RED], background="parts", frames=3)))
     frames = pictures(standin, outputs["frames"])

@@ -7,7 +7,7 @@
 
 import { choose, upload, uploadOf, warn } from "./upload.js";
 import { EXAMPLE, pathOfFile, upstreamPicture } from "./upstream.js";
-import { say } from "./words.js";
+import { say, words } from "./words.js";
 
 /** The example in the node's list of pictures; see nodes/animated_inputs.py. */
 const EXAMPLE_FILE = "PhysAnimator example.png";
@@ -17,6 +17,7 @@ const PICTURE = /\.(png|jpe?g|webp|bmp|gif|tiff?|avif)$/i;
 const CLEANING = ["box", "smallest_speck", "largest_hole", "smoothing"];
 const MOVE = ["preset", "wind", "wind_angle", "loop", "frames", "fps"];
 const GRABCUT = "grabcut";
+const [LINKED] = words("The points come from another node: run this node to see what they cut out.");
 
 /**
  * @param {GraphNode} node
@@ -127,6 +128,7 @@ function hintOf(node, picture) {
   const file = String(valueOf(node, "picture") ?? "");
   const layered = isLinked(node, "layers") || (!isLinked(node, "image") && file !== EXAMPLE_FILE && !PICTURE.test(file));
   if (layered) return say("Layers move by their names: run this node to see them move.");
+  if (isLinked(node, "points")) return say(LINKED);
   if (picture && isLinked(node, "masks")) return say("Click on what else shall move, or run this node: the masks that are connected move.");
   if (picture) return say("Click on what shall move.");
   if (isLinked(node, "image")) return say("Run this node once to see its picture here, then click on what shall move.");
@@ -175,6 +177,6 @@ export function picksOfSegmentation(app, api, node) {
     choosePicture: null,
     takePicture: null,
     setLength: () => {},
-    hint: () => say("Click on what shall move."),
+    hint: () => (isLinked(node, "points") ? say(LINKED) : say("Click on what shall move.")),
   };
 }
