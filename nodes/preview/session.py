@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...physics.assembly import Preparations, Prepare, Prepared, SwayPart
 from ...physics.errors import Cancelled, PhysAnimatorError
 from ...physics.interruption import interruptible
-from ...physics.scene import Scene
+from ...physics.scene import Holds, Scene
 from ...physics.simulation import compile_aside, first_frame, periodic, simulate_samples, simulated_aside
 from .limits import MAX_EDITORS, MAX_PREVIEW_WORK
 from .queue import RecordQueue
@@ -174,7 +174,7 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue, po
     acting = scene if scene.loop is None else periodic(scene)
     encoder = FrameEncoder(acting, frames=frames, first_frame=0 if scene.loop is None else first_frame(acting))
     header = encoder.header(frames=frames, points=points)
-    header["unheld"] = [] if prepared is None else _unheld(prepared, len(scene.bodies))
+    header["unheld"] = [] if prepared is None or prepared.holds is None else _unheld(prepared.holds)
     queue.put(record(HEADER, header), run.check)
 
     def send(number: int, positions: NDArray[np.float32]) -> None:
@@ -203,11 +203,10 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue, po
     return record(END, end)
 
 
-def _unheld(prepared: Prepared, count: int) -> list[int]:
+def _unheld(holds: Holds) -> list[int]:
     """Numbers of the bodies that no rig point holds or leads: forces carry them away."""
-    system = prepared.system
-    held = set(np.unique(system.bodies[(system.leaders >= 0) | (system.grips > 0)]).tolist())
-    return [number for number in range(count) if number not in held]
+    held = zip(holds.leaders, holds.grips, strict=True)
+    return [number for number, (leaders, grips) in enumerate(held) if (leaders < 0).all() and not grips.any()]
 
 
 def _stiffness(sway: Sequence[SwayPart], count: int) -> list[float | None]:
