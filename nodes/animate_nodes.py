@@ -192,6 +192,7 @@ class AnimateIllustration(io.ComfyNode):
         pixel_art: bool = False,
     ) -> io.NodeOutput:
         behind, report = background_chosen(background), host_progress()
+        report(0, 2)  # the bar appears at once: cutting and meshing have no steps of their own
         given = given_picture(cls, picture, image, image_alpha, layers)
         shown: dict[str, Any] = {}
         if image is not None and given.picture is not None:

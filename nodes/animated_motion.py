@@ -104,7 +104,8 @@ def motion_of_parts(
     parts, presets, notes = (), None if said["preset"] == AUTO else said["preset"], list[str]()
     told: dict[str, list[str]] = {}
     if given.picture is not None:
-        chosen = chosen_parts(node, given.picture, points, masks, said["preset"])
+        with interruptible(host_check()):
+            chosen = chosen_parts(node, given.picture, points, masks, said["preset"])
         parts, told = chosen.masks, chosen.told
         presets = list(chosen.presets) if document is None or said["preset"] != AUTO else None
     elif masks is not None:
