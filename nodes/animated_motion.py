@@ -107,7 +107,9 @@ def motion_of_parts(
         with interruptible(host_check()):
             chosen = chosen_parts(node, given.picture, points, masks, said["preset"])
         parts, told = chosen.masks, chosen.told
-        presets = list(chosen.presets) if document is None or said["preset"] != AUTO else None
+        # What a document says of bodies stands above what was picked, but not above what the user has chosen for all.
+        told_by_scene = bool((document or {}).get("bodies")) and said["preset"] == AUTO
+        presets = None if told_by_scene else list(chosen.presets)
     elif masks is not None:
         raise InvalidInputError("masks must be left out where the picture is in layers. Got: masks")
     loop, own_rate = said["loop"] or None, "frame_rate" in (document or {})
