@@ -214,3 +214,24 @@ def test_a_stroke_on_a_fresh_body_leaves_it_where_it_is_attached(page: Any, canv
     editor.wait("!editor.notes.shown.has('unheld')")
     assert editor.value()["rig_points"]
     assert page.problems == []
+
+
+def test_a_picture_that_nodes_make_can_be_clicked_on_once_a_preview_shows_it(page: Any, canvas: str) -> None:
+    page.problems.clear()
+    EditorPage.choose_canvas(page, canvas)
+    page.run("() => { app.graph.clear(); app.nodeOutputs = {}; }")
+    made = page.run(_ADD, ["EmptyImage", -1300, 0])
+    seen = page.run(_ADD, ["PreviewImage", -900, 400])
+    editor = EditorPage(page, page.run(_ADD, ["PhysAnimator_SegmentByPoints", 0, 0]))
+    page.run(
+        "(ids) => { const [made, ...others] = ids.map((id) => app.graph.getNodeById(id));"
+        " for (const one of others) made.connect(0, one, one.inputs.findIndex((slot) => slot.type === 'IMAGE')); }",
+        [made, seen, editor.node],
+    )
+    editor.look(scale=1.0)
+    assert editor.ask("editor.backdrop.picture") is None
+    page.run("(id) => app.queuePrompt(0, 1, [String(id)])", seen)
+    editor.wait("editor.backdrop.picture?.naturalWidth === 512")
+    editor.click(200, 200)
+    editor.wait("editor.picking.cuts !== null || editor.notes.shown.has('pick')")
+    assert page.problems == []

@@ -4,7 +4,7 @@ import { app } from "../../../scripts/app.js";
 import { api } from "../../../scripts/api.js";
 import { showAdvice } from "./host/advice.js";
 import { attachEditor } from "./host/attach.js";
-import { animatedPicture, picksOfAnimation, picksOfSegmentation } from "./host/attach_picks.js";
+import { animatedPicture, picksOfAnimation, picksOfSegmentation, segmentedPicture } from "./host/attach_picks.js";
 import { attachLayers } from "./host/attach_layers.js";
 import { POINTS, SCENE } from "./host/formats.js";
 import { attachUpload } from "./host/upload.js";
@@ -13,7 +13,7 @@ import { PICK_GROUPS, POINT_GROUPS, SCENE_GROUPS } from "./panels/toolbar.js";
 /** @type {Record<string, import("./host/attach.js").Kind>} */
 const KINDS = {
   PhysAnimator_SceneEditor: { input: "scene", format: SCENE, groups: SCENE_GROUPS, moves: true, size: [810, 580] },
-  PhysAnimator_SegmentByPoints: { input: "points", format: POINTS, groups: POINT_GROUPS, moves: false, size: [400, 440], picks: picksOfSegmentation },
+  PhysAnimator_SegmentByPoints: { input: "points", format: POINTS, groups: POINT_GROUPS, moves: false, size: [400, 440], picks: picksOfSegmentation, picture: segmentedPicture },
   PhysAnimator_AnimateIllustration: { input: "points", format: POINTS, groups: PICK_GROUPS, moves: true, size: [640, 800], picks: picksOfAnimation, picture: animatedPicture, result: true },
 };
 

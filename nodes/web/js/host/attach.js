@@ -8,7 +8,7 @@
  * @property {boolean} moves
  * @property {[number, number]} size  of a new node, at least
  * @property {(app: any, api: any, node: any) => import("../editor/picking.js").PickOptions} [picks]  where parts are picked
- * @property {(node: any, rootGraph: any) => string | null} [picture]  path of the picture, where it is not that upstream
+ * @property {(node: any, rootGraph: any, outputs?: any) => string | null} [picture]  path of the picture, where it is not that upstream
  * @property {boolean} [result]  whether what the node shows of a run is shown here
  */
 
@@ -96,7 +96,7 @@ function follow(app, api, node, value, editor, kind) {
     if (!node.graph) return;
     takePlace(node, editor.root);
     editor.load(String(value.value ?? ""));
-    const found = (kind.picture ?? upstreamPicture)(node, app.rootGraph ?? app.graph);
+    const found = (kind.picture ?? upstreamPicture)(node, app.rootGraph ?? app.graph, app.nodeOutputs);
     editor.picking?.changed();
     if (found === picture) return;
     const first = picture === undefined;

@@ -5,6 +5,7 @@
  * @typedef {import("../editor/picking.js").PickOptions} PickOptions
  */
 
+import { shownPicture } from "./shown_picture.js";
 import { choose, upload, uploadOf, warn } from "./upload.js";
 import { EXAMPLE, pathOfFile, upstreamPicture } from "./upstream.js";
 import { say, words } from "./words.js";
@@ -53,15 +54,28 @@ function isLinked(node, name) {
  *
  * @param {GraphNode} node
  * @param {any} rootGraph
+ * @param {Record<string, any>} [outputs]  what nodes have shown, by their ids
  * @returns {string | null} its path on the server
  */
-export function animatedPicture(node, rootGraph) {
+export function animatedPicture(node, rootGraph, outputs) {
   if (isLinked(node, "layers")) return null;
   // A picture that is made by other nodes is known once the node has run.
-  if (isLinked(node, "image")) return upstreamPicture(node, rootGraph) ?? node.physanimatorSeen ?? null;
+  if (isLinked(node, "image")) return upstreamPicture(node, rootGraph) ?? node.physanimatorSeen ?? shownPicture(node, outputs);
   const file = String(valueOf(node, "picture") ?? "");
   if (file === EXAMPLE_FILE) return EXAMPLE;
   return PICTURE.test(file.replace(/ \[\w+\]$/, "")) ? pathOfFile(file) : null;
+}
+
+/**
+ * The picture of Segment by Points: that of a file upstream, or what a preview beside it shows.
+ *
+ * @param {GraphNode} node
+ * @param {any} rootGraph
+ * @param {Record<string, any>} [outputs]
+ * @returns {string | null} its path on the server
+ */
+export function segmentedPicture(node, rootGraph, outputs) {
+  return upstreamPicture(node, rootGraph) ?? shownPicture(node, outputs);
 }
 
 /**
@@ -106,7 +120,7 @@ export function picksOfAnimation(app, api, node) {
     source: () => {
       // Where a scene is connected, or layers are, nothing is cut.
       if (isLinked(node, "scene") || isLinked(node, "layers") || isLinked(node, "points")) return null;
-      return sourceOf(animatedPicture(node, root()), !isLinked(node, "image") || isLinked(node, "image_alpha"));
+      return sourceOf(animatedPicture(node, root(), app.nodeOutputs), !isLinked(node, "image") || isLinked(node, "image_alpha"));
     },
     cleaning: () => ({}),
     move: () => Object.fromEntries(MOVE.map((name) => [name, valueOf(node, name)])),
@@ -166,7 +180,7 @@ async function takeFiles(app, api, node, files) {
  */
 export function picksOfSegmentation(app, api, node) {
   return {
-    source: () => (isLinked(node, "points") ? null : sourceOf(upstreamPicture(node, app.rootGraph ?? app.graph), false)),
+    source: () => (isLinked(node, "points") ? null : sourceOf(segmentedPicture(node, app.rootGraph ?? app.graph, app.nodeOutputs), false)),
     cleaning: () => {
       const other = (valueOf(node, "backend") ?? GRABCUT) !== GRABCUT;
       return other ? null : Object.fromEntries(CLEANING.map((name) => [name, valueOf(node, name) ?? (name === "box" ? "" : 0)]));
