@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from comfy_api.latest import ComfyExtension, io
 
+from .animate_nodes import AnimateIllustration
 from .artwork_nodes import ArtworkToBodies, FrameAsLayers
 from .body_nodes import Body, Material
 from .contact_nodes import Contact
@@ -32,6 +33,7 @@ from .wind_nodes import Wind
 __all__ = ["NODES", "PhysAnimatorExtension"]
 
 NODES: list[type[io.ComfyNode]] = [
+    AnimateIllustration,
     ExampleIllustration,
     SegmentByPoints,
     MaskToMesh,

@@ -34,6 +34,7 @@ from .models.sam_backend import missing_sam_files, sam_inputs, sam_network
 
 if TYPE_CHECKING:
     import torch
+    from numpy.typing import NDArray
 
     from ..physics.scene import QueryPoint
 
@@ -49,6 +50,9 @@ _NO_POINTS = (
     " [[x, y, 1], ...], or a box."
 )
 
+_TINT, _TINT_SHARE = (0.25, 0.84, 0.48), 0.45
+"""How a mask is shown over its picture: RGB, and how much of it."""
+
 _GRABCUT, _SAM = "grabcut", "segment anything"
 
 
@@ -61,6 +65,7 @@ class SegmentByPoints(io.ComfyNode):
             category="PhysAnimator/mesh",
             description="Cuts out the part of the picture on which the points lie, or several parts, each into a mask"
             " of its own. Works without any model file.",
+            is_output_node=True,
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 io.String.Input(
@@ -177,6 +182,7 @@ class MaskToMesh(io.ComfyNode):
             display_name="Mask to Mesh (PhysAnimator)",
             category="PhysAnimator/mesh",
             description="Fills a mask with triangles: the shape that the physics bends.",
+            is_output_node=True,
             inputs=[
                 io.Mask.Input("mask", tooltip="White where the part is. A soft edge is kept for rendering."),
                 *mesh_inputs("the mask"),
@@ -249,4 +255,11 @@ class MaskToMesh(io.ComfyNode):
         meshed = partial(part_mesh, picture) if given and not pixel_art else mesh_from_mask
         mesh = meshed(coverage, spacing=spacing_of(spacing), elements_across=elements_across, uniform=uniform)
         preview = batch_of_pictures([draw_wireframe(over(picture), mesh)], 1)
-        return io.NodeOutput(MaskedMesh(mesh, coverage, front), preview, ui=shown_with(ui.PreviewImage(preview), told))
+        seen = preview if not given else batch_of_pictures([draw_wireframe(_tinted(over(picture), coverage), mesh)], 1)
+        return io.NodeOutput(MaskedMesh(mesh, coverage, front), preview, ui=shown_with(ui.PreviewImage(seen), told))
+
+
+def _tinted(picture: NDArray[np.float32], mask: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The picture with the mask laid over it in colour, shape [h, w, 3]."""
+    share = _TINT_SHARE * mask[..., None]
+    return (picture * (1 - share) + np.float32(_TINT) * share).astype(np.float32)

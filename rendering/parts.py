@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ..physics.beside import side_by_side
 from ..physics.document import LayerMasks, order_of_layers
 from ..physics.errors import InvalidInputError
+from ..physics.interruption import checkpoint
 from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
@@ -322,6 +323,7 @@ def coverage(name: str, mask: Mask, image: Image) -> Mask:
 def _meshed(
     part: Mask, spacing: float | None, name: str, image: Image | None, across: int | None = None
 ) -> TriangleMesh:
+    checkpoint()
     with about(name):
         if image is None:
             fineness: dict[str, Any] = {} if across is None else {"elements_across": across}

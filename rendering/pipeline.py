@@ -21,7 +21,7 @@ from ..physics.document import LayerMasks, check_document
 from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
 from ..physics.process_end import working
-from ..physics.scene import Attachment, Collider, Contact, Scene, held_where_said
+from ..physics.scene import Attachment, Collider, Contact, Scene
 from ..physics.simulation import begin_aside, simulate, simulated_beside
 from .animation import Animation, timed
 from .drawing_checks import check_drawing
@@ -157,10 +157,7 @@ def animate(
             watch.on_note(note)
     with timed(seconds, "scene"):
         how = Movement(preset, sway, attach, wind, timing, strands, pixel_art)
-        parts, whole = how.automatic(parts) if scene is None else how.given(parts, scene)
-        whole = replace(whole, still=parts.still) if parts.still else whole
-        whole = physics.applied(whole, sway=sway)
-        whole = held_where_said(parts.covered(whole if timing.loop is None else replace(whole, loop=timing.loop)))
+        parts, whole = how.staged(parts, scene, physics)
         timing = timing.settled(whole)
         _check_length(timing, whole, networks)
         whole = _touching(whole, touching.contact, _colliders(touching.colliders, parts.image, parts.layer_mask))

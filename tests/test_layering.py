@@ -98,8 +98,9 @@ MAY_IMPORT = {
         "rendering/pictures"
     ),
     "nodes/preview": (
-        "physics physics/assembly physics/document physics/forces physics/motion physics/rig physics/runtime "
-        "physics/scene physics/simulation rendering rendering/composite rendering/pictures rendering/plate"
+        "nodes/host physics physics/assembly physics/document physics/forces physics/mesh physics/motion physics/rig "
+        "physics/runtime physics/scene physics/simulation rendering rendering/composite rendering/pictures "
+        "rendering/plate rendering/segmentation"
     ),
     "nodes/models": (
         "nodes/host physics rendering/composite rendering/inbetweens rendering/inpainting rendering/networks "

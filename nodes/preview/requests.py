@@ -35,7 +35,7 @@ from .limits import (
     MAX_VALUES,
 )
 
-__all__ = ["PreviewRequest", "document_points", "is_key", "preview_scene", "read_request"]
+__all__ = ["PreviewRequest", "document_points", "is_key", "preview_scene", "read_bounded", "read_request"]
 
 _COARSER = "paint on a coarser mask"
 _FIELDS = {"editor", "key", "scene", "frames"}
@@ -71,12 +71,7 @@ def read_request(body: bytes) -> PreviewRequest:
     Raises:
         InvalidInputError: it is no such request, or larger than the limits.
     """
-    require(
-        "the request", counted(len(body), "byte"), len(body) <= MAX_REQUEST_BYTES, f"at most {MAX_REQUEST_BYTES} bytes"
-    )
-    _require_few_signs(body)
-    data = read_json(body)
-    _require_small(data)
+    data = read_bounded(body)
     named = isinstance(data, dict) and set(data) == _FIELDS
     require("the request", _shown(data), named, f"an object with {', '.join(sorted(_FIELDS))}")
     editor, key, document, frames = (data[name] for name in ("editor", "key", "scene", "frames"))
@@ -92,6 +87,21 @@ def read_request(body: bytes) -> PreviewRequest:
     _require_preview("points", points, MAX_PREVIEW_POINTS, "draw with fewer of them")
     _require_preview("pixels of painted masks", pixels, MAX_PREVIEW_MASK_PIXELS, _COARSER)
     return PreviewRequest(editor, key, document, frames)
+
+
+def read_bounded(body: bytes) -> Any:
+    """The JSON in the body of a POST.
+
+    Raises:
+        InvalidInputError: it is none, or larger, deeper or of more parts than the limits.
+    """
+    require(
+        "the request", counted(len(body), "byte"), len(body) <= MAX_REQUEST_BYTES, f"at most {MAX_REQUEST_BYTES} bytes"
+    )
+    _require_few_signs(body)
+    data = read_json(body)
+    _require_small(data)
+    return data
 
 
 def preview_scene(

@@ -188,6 +188,11 @@ class LayeredRenderer:
         """Indices of the layers that move in what :meth:`artwork` gives."""
         return sorted({source for source in self._sources if source is not None})
 
+    @property
+    def source(self) -> Artwork | None:
+        """The layered artwork that is drawn, at rest; None where the illustration is flat."""
+        return self._artwork
+
     def artwork(self, t: int, *, only: int | None = None) -> Artwork:
         """Frame ``t`` as layers: those that move bent, the others as they are.
 

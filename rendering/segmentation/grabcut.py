@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...physics.errors import InvalidInputError
+from ...physics.interruption import checkpoint
 from ..pictures import as_picture, as_uint8
 from ..sketch import extract_sketch
 from .line_clicks import off_lines
@@ -96,6 +97,7 @@ def segment(
     trimap = trimap_from_points(lab, at, on_object, small_limit, tolerance, has_box=box is not None)
     # Noise stays: the colour models and the smoothness of the cut bear it better than the loss of thin strands.
     found = cut_by_majority(lab, trimap, iterations, at[on_object])
+    checkpoint()
     mask = cv2.resize(found.astype(np.float32), (width, height), interpolation=cv2.INTER_LINEAR) > 0.5
     mask = _sharpened(picture, mask, reach=max(2, round(2 / scale)))
     mask = _with_outline(picture, mask) & limit

@@ -81,10 +81,16 @@ export class Backdrop {
     this.offerRun();
   }
 
+  /** There is no picture any more. */
+  forgetPicture() {
+    this.picture = this.wanted = null;
+    this.editor.show();
+  }
+
   /** @param {string} reason why nothing moves */
   offerRun(reason = say("Nothing moves yet: the bodies are known once this node has run.")) {
     const { notes, options } = this.editor;
-    if (options.moves && !this.waiting) notes.show("run", reason, { button: [say("Run this node"), options.onRun] });
+    if (options.moves && !options.picks && !this.waiting) notes.show("run", reason, { button: [say("Run this node"), options.onRun] });
   }
 
   /** @param {Error | null} error of the preview */
@@ -92,7 +98,8 @@ export class Backdrop {
     const gone = /** @type {any} */ (error)?.status === 404;
     this.editor.notes.show("motion", error && !gone ? error.message : "", { kind: "error" });
     if (error && !gone) this.editor.notes.show("run", "");
-    if (!gone) return;
+    if (gone) this.editor.picking?.renew();
+    if (!gone || this.editor.picking) return;
     this.editor.live.setRun(null, null);
     this.offerRun(/** @type {Error} */ (error).message);
   }

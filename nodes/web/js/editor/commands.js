@@ -188,6 +188,7 @@ export class Commands {
   /** @param {number} frames of the preview */
   setLength(frames) {
     const { editor } = this;
+    editor.options.picks?.setLength(frames);
     editor.frames = frames;
     editor.show();
     editor.simulate();

@@ -15,6 +15,7 @@
  * @property {(text: string) => void} onChange  a new value
  * @property {() => void} onKept  the same, a moment later where something is about to move
  * @property {() => void} onRun  the user wants this node to run
+ * @property {import("./picking.js").PickOptions | null} [picks]  where parts are picked
  */
 
 import { say } from "../host/words.js";
@@ -33,8 +34,10 @@ import { listenTo } from "./input.js";
 import { layout } from "./layout.js";
 import { Live } from "./live.js";
 import { Notes } from "./notes.js";
+import { Picking } from "./picking.js";
 import { Store } from "./store.js";
 import { BRUSHES, toolsOf } from "./toolbox.js";
+import { Unheld } from "./unheld.js";
 
 /** Length of a preview [s], where the scene is no loop. */
 const PREVIEW = 3;
@@ -61,13 +64,17 @@ export class Editor {
     this.pointer = null;
     /** Name of the layer that is selected in the list, empty for none. */
     this.chosen = "";
-    this.shown = { mesh: false, items: true, panel: options.moves };
+    this.shown = { mesh: false, items: true, panel: options.moves && !options.picks };
+    /** @type {(() => void) | null} looks at the graph at once; from the host */
+    this.look = null;
+    this.picking = options.picks ? new Picking(this, options.picks) : null;
     this.store = new Store(emptyDocument(1280, 720), {
       show: () => this.show(),
       showSoon: () => this.showSoon(),
       keep: () => this.#keep(),
     });
     this.notes = new Notes();
+    this.unheld = new Unheld(this);
     this.scheduler = new Scheduler((now, asked) => this.#draw(now, asked));
     this.backdrop = new Backdrop(this);
     this.commands = new Commands(this);
@@ -83,10 +90,12 @@ export class Editor {
     this.layerList = parts.layerList;
     this.timeline = parts.timeline;
     this.status = parts.status;
+    this.picking?.mount();
     this.layers = new Layers(this.stage);
     this.live = new Live(this.stage.film, options.fetch, {
       redraw: () => this.redraw(),
       trouble: (error) => this.backdrop.trouble(error),
+      unheld: (bodies) => this.unheld.show(bodies),
       started: () => this.notes.show("run", ""),
       moved: () => setTimeout(() => this.tell()),
       ended: (end) => (this.inspector.material.moduli = end.stiffness ?? []),
@@ -103,6 +112,15 @@ export class Editor {
 
   get selection() {
     return this.store.selection;
+  }
+
+  /** Part to which points are added. */
+  get part() {
+    return this.picking?.part ?? 0;
+  }
+
+  newPart() {
+    this.picking?.more();
   }
 
   get pixel() {
@@ -244,6 +262,7 @@ export class Editor {
   }
 
   simulate() {
+    if (this.picking) return this.picking.changed();
     if (!this.options.moves) return;
     if (this.live.run && !isAsRun(this.document, this.layerList.layers)) {
       this.live.hold();
@@ -261,6 +280,7 @@ export class Editor {
 
   release() {
     clearTimeout(this.untold);
+    this.picking?.release();
     this.root.dataset.released = "true";
     this.scheduler.stop();
     this.stage.release();
@@ -323,10 +343,11 @@ export class Editor {
     this.stale = false;
     const { history, selection, document } = this.store;
     const { empty = "" } = this.options;
-    if (empty) this.notes.keep("empty", document.query_points?.length ? "" : empty);
+    if (empty && !this.picking) this.notes.keep("empty", document.query_points?.length ? "" : empty);
     const pressed = { ...this.shown, expand: this.dialog.open };
     for (const id of this.tools.keys()) Object.assign(pressed, { [id]: id === this.tool.id });
     const [past, future] = [history.past.length > 0, history.future.length > 0];
+    this.picking?.show();
     this.toolbar.show(pressed, { undo: !past, redo: !future, duplicate: !selection, delete: !selection });
     this.frame.dataset.panel = String(this.shown.panel);
     const paints = BRUSHES.includes(this.tool.id) && this.tool.id !== "erase";
@@ -399,8 +420,10 @@ export class Editor {
       frame: live.playback.shown,
       unit: live.unit,
       draft: this.tool.draft,
+      cuts: this.shown.items ? (this.picking?.cuts ?? null) : null,
       brush: brushing ? { at: brushing, radius: this.brushRadius } : null,
       itemsShown: this.shown.items,
+      particlesShown: !this.picking,
       outline: this.chosenLayer ? live.outlineOf(this.chosenLayer.index) : live.outlineOfBody(this.#chosenBody),
     });
     live.draw(stage.view, stage.across, stage.down, this.shown.mesh);

@@ -121,6 +121,7 @@ function onPaste(editor, event) {
 function usePicture(editor, file, event) {
   if (!file) return;
   take(event);
+  if (editor.options.picks?.takePicture) return editor.options.picks.takePicture(file);
   editor.backdrop.forgetRun();
   editor.backdrop.setPicture(URL.createObjectURL(file));
   editor.say(say("This picture is only drawn on. Connect a Load Image node to animate it."));

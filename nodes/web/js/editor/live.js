@@ -22,6 +22,7 @@
  * @typedef {object} LiveListener
  * @property {() => void} redraw
  * @property {(error: Error | null) => void} trouble
+ * @property {(bodies: number[]) => void} unheld  numbers of the bodies that nothing holds
  * @property {() => void} started  the first frame has come
  * @property {(end: any) => void} ended  the last one has come, with what is known of the whole
  * @property {() => void} moved  the first frame in which something moves is on the screen
@@ -77,6 +78,7 @@ export class Live {
     this.player.unload();
     this.mesh = null;
     this.run = run;
+    if (!run) this.listener.unheld([]);
     if (!run) return;
     try {
       const mesh = await this.client.mesh(run.key);
@@ -188,6 +190,7 @@ export class Live {
     if (record.type === "header") {
       const fits = record.header.vertices * 2 === this.mesh?.positions.length;
       if (fits) this.playback.begin(record.header, performance.now());
+      this.listener.unheld(record.header.unheld ?? []);
       this.listener.trouble(fits ? null : new Error(say("The bodies have changed: run the node again.")));
     } else if (record.type === "frame" && this.playback.header) {
       this.playback.add(record.frame);

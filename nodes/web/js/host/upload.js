@@ -78,7 +78,7 @@ function reasonOf(error) {
  * @param {string} subfolder
  * @returns {Promise<string>} its path in the input folder
  */
-async function upload(api, file, subfolder) {
+export async function upload(api, file, subfolder) {
   const body = new FormData();
   body.append("image", file);
   if (subfolder) body.append("subfolder", subfolder);
@@ -95,7 +95,7 @@ async function upload(api, file, subfolder) {
  * @param {string} name
  * @param {string} value
  */
-function choose(app, node, name, value) {
+export function choose(app, node, name, value) {
   const widget = node.widgets.find((/** @type {any} */ one) => one.name === name);
   const values = widget.options?.values;
   if (Array.isArray(values) && !values.includes(value)) values.push(value);
@@ -107,7 +107,8 @@ function choose(app, node, name, value) {
 /**
  * @param {any} app
  * @param {string} sentence
+ * @param {string} [title]
  */
-function warn(app, sentence) {
-  app.extensionManager?.toast?.add({ severity: "warn", summary: say("Load Layers"), detail: sentence, life: 10_000 });
+export function warn(app, sentence, title = say("Load Layers")) {
+  app.extensionManager?.toast?.add({ severity: "warn", summary: title, detail: sentence, life: 10_000 });
 }

@@ -12,7 +12,7 @@ const FARTHEST = 200;
 const BYPASSED = 4;
 
 /** Where the server has the illustration that comes with the pack. */
-const EXAMPLE = "/physanimator/example";
+export const EXAMPLE = "/physanimator/example";
 
 /**
  * The picture of the node nearest upstream that has one before it has run.
@@ -46,7 +46,7 @@ function pictureOf(node) {
   if (type === "PhysAnimator_ExampleIllustration") return EXAMPLE;
   if (!/LoadImage/.test(type)) return null;
   const value = node.widgets?.find((/** @type {any} */ widget) => widget.name === "image")?.value;
-  return typeof value === "string" && value ? `/view?${viewQuery(value)}` : null;
+  return typeof value === "string" && value ? pathOfFile(value) : null;
 }
 
 /**
@@ -91,6 +91,14 @@ export function holderOf(subgraph, rootGraph) {
     if (holder) return holder;
   }
   return null;
+}
+
+/**
+ * @param {string} file  as a Load Image widget has it
+ * @returns {string} its path on the server
+ */
+export function pathOfFile(file) {
+  return `/view?${viewQuery(file)}`;
 }
 
 /**

@@ -63,6 +63,14 @@ export const POINT_GROUPS = [
   ["expand"],
 ];
 
+export const PICK_GROUPS = [
+  ["query-positive", "query-negative"],
+  ["select", "erase"],
+  ["undo", "redo", "delete"],
+  ["zoom-out", "fit", "zoom-in"],
+  ["mesh", "items", "expand"],
+];
+
 export class Toolbar {
   /**
    * @param {string[][]} groups
