@@ -15,7 +15,8 @@ export function translateWidgets(nodeType) {
   const before = nodeType.prototype.addWidget;
   nodeType.prototype.addWidget = function (/** @type {any[]} */ ...args) {
     const widget = before.apply(this, args);
-    // The host gives it its options and its tooltip a moment later.
+    translateWidget(widget);
+    // Where another widget brings it, the host gives it its tooltip a moment later.
     queueMicrotask(() => translateWidget(widget));
     return widget;
   };

@@ -80,7 +80,14 @@ export function offered(found, types) {
  * @param {Template[]} templates
  */
 function groupOf(folder, templates) {
-  const described = templates.map(({ needs: _, tags, ...rest }) => ({ ...rest, tags: [PACK, ...tags], mediaType: "image", mediaSubtype: "webp" }));
+  const described = templates.map(({ needs: _, tags, ...rest }, place) => ({
+    ...rest,
+    tags: [PACK, ...tags],
+    mediaType: "image",
+    mediaSubtype: "webp",
+    // A search sorts by use: among themselves they keep their order.
+    usage: templates.length - place,
+  }));
   return { moduleName: folder, title: PACK, type: "image", templates: described };
 }
 
