@@ -37,6 +37,11 @@ const STYLE = `
 .physanimator-result { position: absolute; inset: 0; display: flex; align-items: center; justify-content: center; background: var(--physanimator-field); }
 .physanimator-result[hidden] { display: none; }
 .physanimator-result > * { width: 100%; height: 100%; object-fit: contain; }
+.physanimator-editor[data-picks] .physanimator-dialog .physanimator-frame {
+  grid-template: "toolbar toolbar toolbar" auto "tools parts parts" auto "tools stage stage" minmax(0, 1fr) "tools status status" auto "timeline timeline timeline" auto / auto minmax(0, 1fr) 0;
+}
+.physanimator-dialog .physanimator-parts { grid-area: parts; padding: 6px 8px; }
+.physanimator-dialog .physanimator-parts-corner { grid-area: parts; justify-self: end; align-self: center; }
 .physanimator-editor[data-picks="true"] .physanimator-lanes { display: none; }
 .physanimator-editor[data-picks="true"] { min-height: max(330px, var(--node-height, 0px) - 420px); }
 `;

@@ -14,6 +14,7 @@ const SHOWING = ["PreviewImage", "SaveImage"];
  */
 export function shownPicture(node, outputs) {
   const { graph } = node;
+  if (!graph) return null;
   const slot = (node.inputs ?? []).findIndex((/** @type {any} */ input) => input.type === "IMAGE");
   const source = slot < 0 ? null : node.getInputNode?.(slot);
   const link = source && node.getInputLink?.(slot);
