@@ -115,7 +115,13 @@ def motion_of_parts(
     loop, own_rate = said["loop"] or None, "frame_rate" in (document or {})
     loops = loop is not None or "loop" in (document or {})
     timing = Timing(None if loops else said["frames"], loop=loop, frame_rate=None if own_rate else said["fps"])
-    watch = Watch(lambda stage, done, total: _half(report)(done, total), on_note=notes.append)
+    simulated = _half(report)
+
+    def of_stage(stage: str, done: int, total: int) -> None:
+        if stage == "simulate":  # the others would put the bar back
+            simulated(done, total)
+
+    watch = Watch(of_stage, on_note=notes.append)
     with _aside(contact="contact" in (document or {})):
         made = animate(
             given.subject,
