@@ -80,6 +80,8 @@ def train(
         return run.saved(step)
     batches = run.batches(step)
     try:
+        if settings.sample_every and step == 0:
+            run.measure(step, say)  # what the training will be compared with
         while step < settings.steps:
             loss, norm = run.one_step(step, batches)
             with uninterrupted():
