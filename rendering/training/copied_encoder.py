@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TypeVar
 
 import torch
@@ -17,20 +18,23 @@ _OWN = ("input_hint_block.", "zero_convs.", "middle_block_out.")
 
 
 @torch.no_grad()
-def copied_encoder(control: Network, source: nn.Module | dict[str, torch.Tensor], *, file: str = "") -> Network:
-    """Give a ControlNet the weights of an encoder; its layers for the sketch stay as they were made.
+def copied_encoder(
+    build: Callable[[], Network], source: nn.Module | dict[str, torch.Tensor], *, file: str = "", seed: int = 0
+) -> Network:
+    """A ControlNet with the weights of an encoder; its layers for the sketch are drawn at random and end in zeros.
 
     Args:
-        control: with its own storage.
+        build: makes the ControlNet.
         source: the network that it copies, or its tensors by name.
         file: where they come from, for messages.
-
-    Returns:
-        ``control``.
+        seed: of the layers for the sketch.
 
     Raises:
         CheckpointError: the encoder has another shape.
     """
+    with torch.random.fork_rng(devices=()):
+        torch.manual_seed(seed)
+        control = build()
     given = source.state_dict() if isinstance(source, nn.Module) else source
     own = control.state_dict()
     copied = {name: own[name] for name in own if not name.startswith(_OWN)}

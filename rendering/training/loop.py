@@ -209,8 +209,9 @@ class _Run:
 
     def _check(self, loss: Tensor, step: int, names: Sequence[str]) -> None:
         if not torch.isfinite(loss):
+            value = float(loss.detach())
             raise TrainingError(
-                f"the loss must stay a number; at step {step} it became {float(loss)} on {', '.join(names)}; a lower"
+                f"the loss must stay a number; at step {step} it became {value} on {', '.join(names)}; a lower"
                 " learning_rate, or bf16 in place of fp16, may help"
             )
 

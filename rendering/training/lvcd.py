@@ -27,7 +27,7 @@ def task_of(settings: TrainingSettings) -> Task:
     data = Path(settings.data)
     trained_on, out = split(kept_clips(data), settings.held_out)
     start = Path(settings.start) if settings.start else None
-    networks = lvcd_networks(Path(settings.svd), start, frozen=frozen_precision(settings))
+    networks = lvcd_networks(Path(settings.svd), start, frozen=frozen_precision(settings), seed=settings.seed)
     held_out = LVCDSamples(data, out, settings) if out else None
     return Task(
         "lvcd", networks, LVCDSamples(data, trained_on, settings), held_out, draw_lvcd(settings, out or trained_on)

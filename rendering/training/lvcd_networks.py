@@ -94,7 +94,9 @@ class LVCDNetworks(nn.Module):
         return self.unet(both, *told, self.control_model(both, lines, *told))
 
 
-def lvcd_networks(svd: Path, start: Path | None = None, *, frozen: torch.dtype = torch.float32) -> LVCDNetworks:
+def lvcd_networks(
+    svd: Path, start: Path | None = None, *, frozen: torch.dtype = torch.float32, seed: int = 0
+) -> LVCDNetworks:
     """The networks at the start of a training.
 
     Args:
@@ -102,6 +104,7 @@ def lvcd_networks(svd: Path, start: Path | None = None, *, frozen: torch.dtype =
         start: LVCD's file, or one that a training exported; without it the ControlNet begins as a copy of the UNet's
             encoder that adds nothing yet (Zhang et al. 2023, "zero convolution").
         frozen: precision of what is not trained; what is trained is float32.
+        seed: of the layers that read the sketch, without ``start``.
 
     Raises:
         CheckpointError: a file is missing, damaged or another one.
@@ -110,7 +113,7 @@ def lvcd_networks(svd: Path, start: Path | None = None, *, frozen: torch.dtype =
     network = weights.sizes.network
     if start is None:
         unet = _unet(weights, {})
-        control = copied_encoder(SketchControlNet(network), unet, file=str(svd))
+        control = copied_encoder(lambda: SketchControlNet(network), unet, file=str(svd), seed=seed)
     else:
         given = read_checkpoint(start, wanted=WANTED_LVCD)
         unet = _unet(weights, below(given, SpatioTemporalUNet.prefix))

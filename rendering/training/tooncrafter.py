@@ -28,7 +28,7 @@ def task_of(settings: TrainingSettings) -> Task:
     trained_on, out = split(kept_clips(data), settings.held_out)
     start, encoder = (Path(each) if each else None for each in (settings.start, settings.encoder))
     networks = tooncrafter_networks(
-        Path(settings.tooncrafter), start, encoder=encoder, frozen=frozen_precision(settings)
+        Path(settings.tooncrafter), start, encoder=encoder, frozen=frozen_precision(settings), seed=settings.seed
     )
     held_out = ToonCrafterSamples(data, out, settings) if out else None
     draw = draw_tooncrafter(settings, out or trained_on)

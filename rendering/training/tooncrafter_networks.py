@@ -85,6 +85,7 @@ def tooncrafter_networks(
     *,
     encoder: Path | None = None,
     frozen: torch.dtype = torch.float32,
+    seed: int = 0,
 ) -> ToonCrafterNetworks:
     """The networks at the start of a training.
 
@@ -93,6 +94,7 @@ def tooncrafter_networks(
         start: the public sketch encoder's file, or one that a training exported.
         encoder: without ``start``: Stable Diffusion 2.1's file, whose encoder is copied; it adds nothing yet.
         frozen: precision of what is not trained; what is trained is float32.
+        seed: of the layers that read the sketch, without ``start``.
 
     Raises:
         CheckpointError: a file is missing, damaged or another one.
@@ -127,5 +129,5 @@ def tooncrafter_networks(
     else:
         source = encoder or Path("the file of Stable Diffusion 2.1")
         copied = below(read_checkpoint(source, wanted=WANTED_ENCODER), "model.diffusion_model.")
-        sketch = copied_encoder(SketchEncoder(sizes.sketch), copied, file=str(source))
+        sketch = copied_encoder(lambda: SketchEncoder(sizes.sketch), copied, file=str(source), seed=seed)
     return ToonCrafterNetworks(sketch, unet, resampler)
