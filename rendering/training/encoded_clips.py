@@ -14,8 +14,7 @@ from safetensors import SafetensorError, safe_open
 from torch import Tensor
 
 from ...physics.errors import InvalidInputError
-from ..pictures import as_grey
-from ..pictures.clip_reading import read_clip
+from ..pictures import as_grey, read_clip
 from .data_folder import clip_file, encoded_file, hash_of, sketch_file
 
 __all__ = ["check_encoded", "frames_of", "in_order", "line_frames", "read_tensors"]

@@ -15,7 +15,7 @@ from torch import Tensor
 from ...physics.progress import Progress
 from ..files import replacing
 from ..networks.image_encoder import ImageEncoder, encoder_picture
-from ..pictures.clip_reading import read_clip
+from ..pictures import read_clip
 from .data_folder import clip_file, encoded_file, hash_of, kept_clips
 
 __all__ = ["encode_for_svd", "encode_for_tooncrafter", "shared_file"]

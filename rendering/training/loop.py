@@ -260,7 +260,7 @@ class _Run:
         return _Averaged(self.average, list(self.trained.values()))
 
     def _show(self, file: Path, step: int) -> None:
-        from ..pictures.clip_reading import read_clip
+        from ..pictures import read_clip
 
         for tracker in self.accelerator.trackers:
             if tracker.name == "tensorboard":

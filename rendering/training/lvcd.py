@@ -5,15 +5,14 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .data_folder import kept_clips
-from .entry import frozen_precision, run
 from .held_out import split
-from .loop import Task
-from .lvcd_networks import lvcd_networks
-from .lvcd_samples import LVCDSamples
-from .sample_clips import draw_lvcd
 from .settings import TrainingSettings
+
+if TYPE_CHECKING:
+    from .loop import Task
 
 __all__ = ["main", "task_of"]
 
@@ -24,6 +23,12 @@ def task_of(settings: TrainingSettings) -> Task:
     Raises:
         InvalidInputError: the data or a file is unusable.
     """
+    from .entry import frozen_precision
+    from .loop import Task
+    from .lvcd_networks import lvcd_networks
+    from .lvcd_samples import LVCDSamples
+    from .sample_clips import draw_lvcd
+
     data = Path(settings.data)
     trained_on, out = split(kept_clips(data), settings.held_out)
     start = Path(settings.start) if settings.start else None
@@ -36,6 +41,8 @@ def task_of(settings: TrainingSettings) -> Task:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run; see :func:`~physanimator.rendering.training.entry.run`."""
+    from .entry import run
+
     return run("lvcd", task_of, arguments)
 
 

@@ -8,11 +8,10 @@ import torch
 from torch import Tensor, nn
 
 from ..networks.checkpoints import below, network_of, read_checkpoint
+from ..svd import FrameLayout, SVDOptions
 from ..svd.controlnet import SketchControlNet
-from ..svd.frame_layout import FrameLayout
 from ..svd.models import WANTED_LVCD
 from ..svd.noise_schedule import Preconditioning
-from ..svd.options import SVDOptions
 from ..svd.sampler import LATENT_SCALE
 from ..svd.svd_weights import WANTED_SVD, SVDWeights, read_svd
 from ..svd.unet import SpatioTemporalUNet

@@ -10,7 +10,7 @@ import torch
 from torch import Tensor
 from torch.utils.data import Dataset
 
-from ..svd.frame_layout import CLIP_FRAMES
+from ..svd import CLIP_FRAMES
 from .data_folder import ClipRecord
 from .drawing_lots import chance_of
 from .edm_loss import drawn_sigma

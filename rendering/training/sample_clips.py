@@ -13,20 +13,21 @@ from torch import Tensor, nn
 
 from ..networks.checkpoints import below, network_of, read_checkpoint
 from ..pictures import write_animation
+from ..svd import CLIP_FRAMES, FrameLayout
 from ..svd.autoencoder import build_autoencoder
 from ..svd.decoding import decode
-from ..svd.frame_layout import CLIP_FRAMES, OVERLAP, FrameLayout
+from ..svd.frame_layout import OVERLAP
 from ..svd.noise_schedule import noise_levels
 from ..svd.options import DECODED_TOGETHER
 from ..svd.sampler import LATENT_SCALE, sample_clip
 from ..svd.svd_weights import WANTED_SVD, read_svd
+from ..tooncrafter import ToonCrafterOptions
 from ..tooncrafter.autoencoder import DualReferenceAutoencoder
 from ..tooncrafter.clip import guided_velocity, sample_clips
 from ..tooncrafter.conditioning import Tokens, contexts, encode_pair
 from ..tooncrafter.decoding import decode_clip
 from ..tooncrafter.model_sizes import sizes_beside
 from ..tooncrafter.models import WANTED_MODEL, ToonCrafterModels
-from ..tooncrafter.options import ToonCrafterOptions
 from .data_folder import ClipRecord, clip_file
 from .encoded_clips import frames_of, line_frames, read_tensors
 from .hints import blurred

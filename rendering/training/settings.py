@@ -11,11 +11,6 @@ from typing import Any
 from ...physics.checks import check_number, check_whole
 from ...physics.errors import InvalidInputError, require
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
 __all__ = ["KINDS", "PRESETS", "TrainingSettings", "as_toml", "read_settings"]
 
 KINDS = ("lvcd", "tooncrafter")
@@ -145,6 +140,10 @@ def read_settings(path: Path, kind: str, preset: str = "paper") -> TrainingSetti
     with path.open("rb") as opened:
         content = opened.read(_LARGEST_FILE + 1)
     require("config", f"{path}, a larger file", len(content) <= _LARGEST_FILE, f"at most {_LARGEST_FILE >> 20} MiB")
+    if sys.version_info >= (3, 11):
+        import tomllib
+    else:
+        import tomli as tomllib
     try:
         told = tomllib.loads(content.decode("utf-8"))
     except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:

@@ -5,15 +5,14 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .data_folder import kept_clips
-from .entry import frozen_precision, run
 from .held_out import split
-from .loop import Task
-from .sample_clips import draw_tooncrafter
 from .settings import TrainingSettings
-from .tooncrafter_networks import tooncrafter_networks
-from .tooncrafter_samples import ToonCrafterSamples
+
+if TYPE_CHECKING:
+    from .loop import Task
 
 __all__ = ["main", "task_of"]
 
@@ -24,6 +23,12 @@ def task_of(settings: TrainingSettings) -> Task:
     Raises:
         InvalidInputError: the data or a file is unusable.
     """
+    from .entry import frozen_precision
+    from .loop import Task
+    from .sample_clips import draw_tooncrafter
+    from .tooncrafter_networks import tooncrafter_networks
+    from .tooncrafter_samples import ToonCrafterSamples
+
     data = Path(settings.data)
     trained_on, out = split(kept_clips(data), settings.held_out)
     start, encoder = (Path(each) if each else None for each in (settings.start, settings.encoder))
@@ -37,6 +42,8 @@ def task_of(settings: TrainingSettings) -> Task:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run; see :func:`~physanimator.rendering.training.entry.run`."""
+    from .entry import run
+
     return run("tooncrafter", task_of, arguments)
 
 

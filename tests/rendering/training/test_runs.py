@@ -202,7 +202,7 @@ def test_the_interpolations_controlnet_is_trained_sampled_and_exported(
 
 
 def test_sample_clips_show_truth_and_drawing_side_by_side(settings: TrainingSettings, tmp_path: Path) -> None:
-    from physanimator.rendering.pictures.clip_reading import read_clip
+    from physanimator.rendering.pictures import read_clip
 
     assert run(replace(settings, steps=1, sample_every=1, sample_steps=2, samples=1), tmp_path) == 0
     frames = list(read_clip(tmp_path / "run" / "samples" / "step_00000001.mp4"))
