@@ -55,9 +55,21 @@ def encode_for_svd(
 
     weights = read_svd(svd)
     where = device or torch.device("cpu")
-    common = {"dtype": torch.float32, "file": str(svd), "wanted": WANTED_SVD}
-    autoencoder = network_of(lambda: build_autoencoder(weights.sizes.autoencoder), weights.autoencoder, **common)
-    encoder = network_of(lambda: ImageEncoder(weights.sizes.image_encoder), weights.image_encoder, **common)
+    full, file = torch.float32, str(svd)
+    autoencoder = network_of(
+        lambda: build_autoencoder(weights.sizes.autoencoder),
+        weights.autoencoder,
+        dtype=full,
+        file=file,
+        wanted=WANTED_SVD,
+    )
+    encoder = network_of(
+        lambda: ImageEncoder(weights.sizes.image_encoder),
+        weights.image_encoder,
+        dtype=full,
+        file=file,
+        wanted=WANTED_SVD,
+    )
     autoencoder, encoder = autoencoder.to(where), encoder.to(where)
 
     def encoded(pictures: Tensor, _: Sequence[int]) -> dict[str, Tensor]:

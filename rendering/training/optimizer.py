@@ -21,9 +21,9 @@ def made_optimizer(
     Raises:
         InvalidInputError: moments of 8 bits are asked for, and cannot be had here.
     """
-    options = {"lr": settings.learning_rate, "weight_decay": settings.weight_decay}
+    rate, decay = settings.learning_rate, settings.weight_decay
     if not settings.eight_bit:
-        return torch.optim.AdamW(parameters, **options)
+        return torch.optim.AdamW(parameters, lr=rate, weight_decay=decay)
     if device.type != "cuda":
         raise InvalidInputError(f"eight_bit must be false where there is no CUDA device. Got: true, on {device.type}")
     try:
@@ -32,7 +32,7 @@ def made_optimizer(
         raise InvalidInputError(
             "eight_bit must be false without bitsandbytes (pip install bitsandbytes). Got: true"
         ) from None
-    return AdamW8bit(parameters, **options)  # type: ignore[no-any-return]
+    return AdamW8bit(parameters, lr=rate, weight_decay=decay)  # type: ignore[no-any-return]
 
 
 def learning_rate(step: int, settings: TrainingSettings) -> float:

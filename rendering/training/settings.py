@@ -159,7 +159,7 @@ def read_settings(path: Path, kind: str, preset: str = "paper") -> TrainingSetti
         raise InvalidInputError(f"config {path}: {error}") from None
     _check_given(settings, kind, path)
     folder = path.absolute().parent
-    placed = {name: str(folder / getattr(settings, name)) for name in _PATHS if getattr(settings, name)}
+    placed: dict[str, Any] = {name: str(folder / getattr(settings, name)) for name in _PATHS if getattr(settings, name)}
     return replace(settings, **placed)
 
 
