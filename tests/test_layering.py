@@ -84,13 +84,16 @@ MAY_IMPORT = {
         "rendering/inbetweens rendering/matting rendering/neural rendering/overlays rendering/pictures "
         "rendering/segmentation rendering/sketch"
     ),
+    "rendering/training": (
+        "__init__ physics rendering/files rendering/networks rendering/pictures rendering/svd rendering/tooncrafter"
+    ),
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
         "physics/scene physics/simulation rendering rendering/artwork rendering/composite rendering/export "
         "rendering/figures "
         "rendering/files "
         "rendering/inbetweens rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "
-        "rendering/segmentation"
+        "rendering/segmentation rendering/training"
     ),
     # nodes: the host
     "nodes/host": (

@@ -15,6 +15,7 @@ def command_parser() -> argparse.ArgumentParser:
     """What reads the command line; ``run`` of what it gives does the work."""
     from .options import add_animate, add_demo, add_figure, add_layers, add_measure
     from .parsing import CommandParser, PictureParser
+    from .training import add_training
 
     parser = CommandParser(
         prog="physanimator", description="Set parts of a still illustration in motion.", allow_abbrev=False
@@ -28,6 +29,7 @@ def command_parser() -> argparse.ArgumentParser:
         ("layers", _layers, add_layers, "list the layers of a PSD or OpenRaster file, and what would move"),
         ("measure", _measure, add_measure, "measure a clip against the motion that it should show"),
         ("schema", _schema, None, "print the JSON Schema of scene files"),
+        ("training", None, add_training, "export what was trained"),
     ):
         command = commands.add_parser(name, help=summary, allow_abbrev=False)
         command.set_defaults(run=run, command=name)

@@ -22,7 +22,15 @@ from .sketch_encoder import SketchEncoder
 from .text_encoder import TextEncoder, TextEncoderConfiguration, empty_prompt, text_weights
 from .unet import InterpolationUNet
 
-__all__ = ["WANTED_IMAGE_ENCODER", "WANTED_TEXT_ENCODER", "ModelSizes", "ToonCrafterModels", "load_models"]
+__all__ = [
+    "WANTED_IMAGE_ENCODER",
+    "WANTED_MODEL",
+    "WANTED_SKETCH",
+    "WANTED_TEXT_ENCODER",
+    "ModelSizes",
+    "ToonCrafterModels",
+    "load_models",
+]
 
 WANTED_MODEL = (
     "ToonCrafter's model.ckpt from https://huggingface.co/Doubiiu/ToonCrafter, or its pruned fp16 safetensors from"
