@@ -18,7 +18,8 @@ ROOMS = {
         "rendering.pipeline rendering.options rendering.physics_options rendering.animation "
         "rendering.pictures rendering.artwork rendering.matting rendering.plate rendering.composite "
         "rendering.overlays rendering.sketch rendering.control rendering.inbetweens rendering.metrics "
-        "rendering.segmentation rendering.svd rendering.neural"
+        "rendering.segmentation rendering.svd rendering.neural "
+        "rendering.training"
     ),
 }
 """Rooms by their house, from the ground up."""
