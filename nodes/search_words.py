@@ -20,6 +20,21 @@ _LINES = ("line art", "lineart", "sketch", "線画", "线稿", "線稿", "선화
 _WAN = ("wan", "video model", "image to video", "control video")
 
 SEARCH_WORDS: Mapping[str, tuple[str, ...]] = {
+    "PhysAnimator_SaveSpineOrGltf": (
+        *_PUPPET,
+        "save spine",
+        "gltf",
+        "glb",
+        "export",
+        "blender",
+        "unity",
+        "game engine",
+        "skeleton",
+        "morph targets",
+        "骨骼",
+        "スケルトン",
+    ),
+    "PhysAnimator_AnimateIllustration": (*_PHYSICS, *_ANIMATE, *_MATERIALS, *_SWAY, *_WIND, *_PUPPET, *_CUT, *_LAYERS),
     "PhysAnimator_ArtworkToBodies": (*_LAYERS, *_PHYSICS, *_MATERIALS, *_PUPPET, "wiggle", "sway"),
     "PhysAnimator_AutomaticScene": (*_PHYSICS, *_SWAY, *_WIND, *_ANIMATE, "auto", "hair", "cloth"),
     "PhysAnimator_Body": (*_PHYSICS, *_MATERIALS, *_PUPPET, "wiggle", "sway", "rigid body"),

@@ -317,8 +317,22 @@ def _sheets(artwork: Artwork) -> Picture:
     return sheet
 
 
+def _picked() -> Clip:
+    """What is clicked on, in colours; and how it moves."""
+    still = _illustration().astype(np.float32)
+    for part, colour in zip(PARTS, ((235, 64, 52), (66, 135, 245), (250, 190, 40), (60, 200, 110)), strict=True):
+        mask = _mask(part).astype(np.float32)[..., None]
+        still += (np.float32(colour) - still) * 0.55 * mask / max(1.0, float(mask.max()))
+    picture = _sized(still.astype(np.uint8))
+    for at in ((390, 130), (330, 230), (300, 55), (545, 125)):
+        cv2.circle(picture, at, 11, _LIGHT, -1, cv2.LINE_AA)
+        cv2.circle(picture, at, 7, _INK, -1, cv2.LINE_AA)
+    return _beside([picture] * COUNT, _frames(), same=True)
+
+
 THUMBNAILS: dict[str, Callable[[], Clip]] = {
     "quickstart": _frames,
+    "animate_illustration": _picked,
     "scene_editor": lambda: _over(rig=True, strokes=True),
     "wind_and_pins": lambda: _cut(_over(rig=True, wireframe=True), 0.28, 0.0, 0.5),
     "seamless_loop": _loop,

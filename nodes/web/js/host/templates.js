@@ -17,6 +17,7 @@ const PACK = "PhysAnimator";
 /** @type {Template[]} the easiest first */
 export const TEMPLATES = [
   { name: "quickstart", title: say("Quickstart: hair, cape and ribbon in the wind"), description: say("The shortest way from a still picture to a video: masks of the parts, a gentle wind, frames. Start here."), tags: ["physics", "hair", "cloth", "wind"] },
+  { name: "animate_illustration", title: say("Animate Illustration: one node"), description: say("Choose a picture, click on what shall move, and run: the parts are cut out, held and blown by the wind."), tags: ["physics", "hair", "cut out", "puppet"] },
   { name: "scene_editor", title: say("Scene Editor: draw wind and pins"), description: say("Draw wind, pins and paths on the picture and see it move at once."), tags: ["physics", "puppet", "pin", "wind"] },
   { name: "layers", title: say("A PSD in layers"), description: say("Hair, ribbon and skirt of a layered file move by the names of their layers, with what is drawn behind them. No masks."), tags: ["psd", "live2d", "layers"] },
   { name: "wind_and_pins", title: say("Wind and pins"), description: say("Rig points hold the hair while wind blows everywhere and one stroke runs along it, each a node."), tags: ["rig", "pin", "wind", "hair"] },
