@@ -21,7 +21,8 @@ export function listenTo(editor) {
   for (const name of POINTER_EVENTS) root.addEventListener(name, (/** @type {Event} */ event) => event.stopPropagation());
   // Over an editor that nobody works with the wheel belongs to the graph; older Vue canvases go by this mark alone.
   const marked = () => (root.dataset.captureWheel = String(isUsed(root)));
-  root.addEventListener("wheel", marked, { capture: true });
+  // They ask before the wheel comes here.
+  for (const name of ["focusin", "focusout", "pointerenter"]) root.addEventListener(name, marked);
   root.addEventListener("wheel", (/** @type {WheelEvent} */ event) => isUsed(root) && event.stopPropagation());
   root.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => onKeyDown(editor, event));
   root.addEventListener("keyup", (/** @type {KeyboardEvent} */ event) => onKeyUp(editor, event));
