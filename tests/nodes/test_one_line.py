@@ -51,7 +51,8 @@ NUMBERS = [
 
 @pytest.mark.parametrize(("node", "name", "wrong"), NUMBERS)
 def test_a_wrong_number_is_said_once(standin: Any, node: str, name: str, wrong: float) -> None:
-    needed = {"SegmentByPoints": {"points": "[[10, 10, 1]]"}}.get(node, {})
+    clicked = {"points": "[[10, 10, 1]]"}
+    needed = {"SegmentByPoints": clicked, "AnimateIllustration": clicked}.get(node, {})
     said = refused(standin, node, usual(SCHEMAS[f"PhysAnimator_{node}"]["input"]) | needed | {name: wrong})
     assert len(said) <= 1  # none where the host itself refuses it
     assert all(f"{name} must be" in line for line in said)

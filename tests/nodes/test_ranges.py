@@ -92,6 +92,7 @@ BESIDES: dict[str, Given] = {
     "Simulate": {"frames": 4},
     "SaveAnimation": {"filename_prefix": "film", "file_type": "gif"},
     "SegmentByPoints": {"points": "[[70, 40, 1]]"},
+    "AnimateIllustration": {"points": "[[70, 40, 1]]", "frames": 4, "image": ["picture", 0]},
     "PaintMaterial": {"stiffness": ["mask", 0]},
 }
 """What each node needs besides what it must be connected to."""
