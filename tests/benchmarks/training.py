@@ -1,8 +1,8 @@
 """Memory and time of a training step at full size, with random weights: ``python training.py --json``.
 
 Without a GPU the memory is counted on the meta device, where tensors have shapes and no storage: weights, gradients and
-moments exactly; intermediate results as far as autograd keeps them when every stage is computed twice and attention keeps
-no matrix of weights, as its fused kernels on a GPU do. With a GPU, seconds a step and peak memory are measured as well.
+moments exactly; intermediate results as far as autograd keeps them when every stage is computed twice, and attention
+keeps no matrix of weights, as its fused kernels on a GPU do. With a GPU, seconds a step and peak memory are measured.
 """
 
 from __future__ import annotations
