@@ -16,9 +16,23 @@ from ...physics.errors import InvalidInputError
 from ...physics.limits import MAX_PICTURE_PIXELS
 from ..files import check_regular
 
-__all__ = ["VIDEO_SUFFIXES", "TimedFrame", "VideoFacts", "decoded", "facts_of", "identity_of", "videos_in"]
+__all__ = ["VIDEO_SUFFIXES", "TimedFrame", "VideoFacts", "decoded", "facts_of", "frame_at", "identity_of", "videos_in"]
 
-VIDEO_SUFFIXES = (".mp4", ".mkv", ".webm", ".mov", ".avi", ".m4v", ".mpg", ".mpeg", ".ts", ".wmv", ".flv", ".ogv", ".gif")
+VIDEO_SUFFIXES = (
+    ".mp4",
+    ".mkv",
+    ".webm",
+    ".mov",
+    ".avi",
+    ".m4v",
+    ".mpg",
+    ".mpeg",
+    ".ts",
+    ".wmv",
+    ".flv",
+    ".ogv",
+    ".gif",
+)
 """Endings by which videos are found in folders."""
 
 _MOST_VIDEOS = 5_000_000
@@ -143,6 +157,29 @@ def decoded(path: Path, size: tuple[int, int] | None = None) -> Iterator[TimedFr
             time = float(frame.time) if frame.time is not None else number / rate
             first_time = time if first_time is None else first_time
             yield TimedFrame(number, time - first_time, _rgb(frame, size))
+
+
+def frame_at(path: Path, time: float) -> NDArray[np.uint8]:
+    """The frame that is shown at a time, found without decoding all before it.
+
+    Args:
+        path: the video.
+        time: since the first frame [s].
+
+    Raises:
+        InvalidInputError: it cannot be read, or has no frame from then on.
+    """
+    with _opened(path) as container:
+        stream = _stream(container, path)
+        begin = (container.start_time or 0) / 1e6
+        try:
+            container.seek(int((begin + time) * 1e6))
+        except Exception:  # what cannot be searched is decoded from its start
+            pass
+        for frame in _frames(container, stream, path):
+            if frame.time is None or frame.time >= begin + time - 1e-3:
+                return _rgb(frame, None)
+    raise InvalidInputError(f"video {path} must have a frame at {time:g} s. Got: none")
 
 
 def _rgb(frame: Any, size: tuple[int, int] | None) -> NDArray[np.uint8]:
