@@ -91,8 +91,8 @@ def _add_show(parser: argparse.ArgumentParser) -> None:
 
 def _add_encode(parser: argparse.ArgumentParser) -> None:
     parser.description = (
-        "Compute latents and embeddings of all clips with the frozen networks, once. They are kept as safetensors beside"
-        " the clips, with hashes of clip and model; clips that are encoded already are left out."
+        "Compute latents and embeddings of all clips with the frozen networks, once. They are kept as safetensors"
+        " beside the clips, with hashes of clip and model; clips that are encoded already are left out."
     )
     parser.add_argument("data", metavar="DATA", help="the data folder")
     which = parser.add_mutually_exclusive_group(required=True)

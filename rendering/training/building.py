@@ -97,7 +97,15 @@ def clips_of(
     size = size_of(options.size)
 
     def record(number: int, **told: Any) -> ClipRecord:
-        usual = {"start": 0.0, "end": 0.0, "frames": 0, "fps": 0.0, "score": 0.0, "kept": False, "licence": licence}
+        usual: dict[str, Any] = {
+            "start": 0.0,
+            "end": 0.0,
+            "frames": 0,
+            "fps": 0.0,
+            "score": 0.0,
+            "kept": False,
+            "licence": licence,
+        }
         wide, high = size
         return ClipRecord(f"{names}_{number:04d}", str(source), width=wide, height=high, **(usual | told))
 
@@ -108,7 +116,11 @@ def clips_of(
             score = shot.score if scores is None else score_between(scores, shot.start, shot.end)
             why = options.bounds.why_not(len(shot.frames), score or 0.0)
             why = "no score in the index" if score is None else "smaller than half the size" if not window else why
-            told = {"start": round(shot.start, 4), "end": round(shot.end, 4), "frames": len(shot.frames)}
+            told: dict[str, Any] = {
+                "start": round(shot.start, 4),
+                "end": round(shot.end, 4),
+                "frames": len(shot.frames),
+            }
             told |= {"fps": round(shot.fps, 3), "score": round(score or 0.0, 6), "kept": not why, "why": why}
             found.append((record(number, sketches="" if why else sketcher[0], **told), shot, window))
     except InvalidInputError as error:

@@ -47,7 +47,8 @@ def contact_sheet(
     kept = [each for each in records if each.kept]
     dropped = [each for each in records if not each.kept]
     shown, others = _spread(kept, most), _spread(dropped, max(1, most // 2))
-    tiles, other_tiles = [], []
+    tiles: list[Picture] = []
+    other_tiles: list[Picture] = []
     for number, record in enumerate([*shown, *others], start=1):
         (tiles if record.kept else other_tiles).append(_kept_tile(data, record) if record.kept else _tile(record))
         if progress is not None:
@@ -129,7 +130,8 @@ def _grid(tiles: Sequence[Picture], wide: int) -> Picture:
     rows = [np.full((_GAP, wide, 3), WHITE, np.uint8)]
     left: list[Picture] = list(tiles)
     while left:
-        row, x = [], 0
+        row: list[tuple[int, Picture]] = []
+        x = 0
         while left and (not row or x + left[0].shape[1] + 2 * _GAP <= wide):
             tile = left.pop(0)
             row.append((x + _GAP, tile))

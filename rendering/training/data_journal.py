@@ -27,12 +27,12 @@ def check_data_folder(data: Path) -> None:
         InvalidInputError: it cannot be written to, or holds files that are not ours.
     """
     check_folder_place(data)
-    if data.is_dir() and not _options_file(data).is_file():
-        if others := sorted(each.name for each in data.iterdir() if not each.name.startswith(".")):
-            raise InvalidInputError(
-                f"output must be a new folder, or one that physanimator dataset made. Got: {data}, which holds"
-                f" {others[0]}"
-            )
+    ours = not data.is_dir() or _options_file(data).is_file()
+    others = [] if ours else sorted(each.name for each in data.iterdir() if not each.name.startswith("."))
+    if others:
+        raise InvalidInputError(
+            f"output must be a new folder, or one that physanimator dataset made. Got: {data}, which holds {others[0]}"
+        )
 
 
 class DataJournal:

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 __all__ = ["are_same_drawing", "exposed_frames", "thinned"]
 
 _BLOCK = 4  # pixels on a side: noise averages out within, a mouth that opens does not
-_ANYWHERE = 3.0  # levels by which a block's mean may differ
-_HERE_AND_THERE = 12.0  # levels, where hardly anything else differs: what H.264 makes anew in B-frames
-_HARDLY = 0.25  # levels of the mean over the whole picture
+_NEARLY_ALL = 99  # percent of the blocks,
+_MOSTLY = 3.0  # which differ by fewer levels where the drawing is the same;
+_ANYWHERE = 12.0  # no block does by as many: what H.264 makes anew in B-frames differs by up to 9 here and there
 _LONGEST_EXPOSURE = 3  # frames; what stands longer is held on purpose
 
 
@@ -27,8 +27,8 @@ def are_same_drawing(first: NDArray[np.uint8], second: NDArray[np.uint8]) -> boo
     difference = cv2.subtract(first.astype(np.float32), second.astype(np.float32))
     height, width = (max(1, side // _BLOCK) for side in first.shape[:2])
     blocks = cv2.resize(difference, (width, height), interpolation=cv2.INTER_AREA)
-    most = float(np.abs(blocks).max(initial=0))
-    return most < _ANYWHERE or (most < _HERE_AND_THERE and float(np.abs(difference).mean()) < _HARDLY)
+    blocks = np.abs(blocks).max(axis=2)
+    return float(blocks.max()) < _ANYWHERE and float(np.percentile(blocks, _NEARLY_ALL)) < _MOSTLY
 
 
 def exposed_frames(frames: Sequence[NDArray[np.uint8]]) -> list[int]:

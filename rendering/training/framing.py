@@ -30,12 +30,12 @@ def size_of(text: str) -> tuple[int, int]:
     Raises:
         InvalidInputError: it is none, or not in multiples of 64 px.
     """
-    found = re.fullmatch(r"(\d{1,5})\s*[xX×]\s*(\d{1,5})", text.strip())
+    found = re.fullmatch(r"(\d{1,5})\s*[xX]\s*(\d{1,5})", text.strip())
     sides = (int(found[1]), int(found[2])) if found else (0, 0)
     fits = all(is_whole(side, MULTIPLE, _LARGEST) and side % MULTIPLE == 0 for side in sides)
     if not fits:
         raise InvalidInputError(
-            f"size must be WIDTHxHEIGHT in multiples of {MULTIPLE} px up to {_LARGEST}, such as 512x320. Got: {text:.60}"
+            f"size must be WIDTHxHEIGHT in multiples of {MULTIPLE} px to {_LARGEST}, such as 512x320. Got: {text:.60}"
         )
     return sides
 

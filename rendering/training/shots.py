@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ...physics.errors import InvalidInputError
 from .black_bars import Box, picture_box
 from .dynamics import SCORED_WIDTH, dynamics_score
@@ -60,12 +62,11 @@ def shots_of(
         InvalidInputError: the video cannot be read; on the way, where it is damaged there.
     """
     waiting: list[TimedFrame] = []
-    is_cut = _cut_detector()
     try:
         for frame in decoded(path, _small_size(facts)):
             if tick is not None:
                 tick()
-            if is_cut(frame) and waiting:
+            if waiting and _is_cut(waiting[-1], frame):
                 yield from _parts(waiting, frame.time, longest, fps)
                 waiting = []
             if len(waiting) >= 2 * longest:
@@ -80,16 +81,23 @@ def shots_of(
         yield from _parts(waiting, _end_of(waiting, facts.fps), longest, fps)
 
 
-def _cut_detector() -> Callable[[TimedFrame], bool]:
+def _is_cut(first: TimedFrame, second: TimedFrame) -> bool:
+    """Whether PySceneDetect sees a cut between two frames, looked at within their bars, which would weaken it."""
     from scenedetect import ContentDetector, FrameTimecode
 
+    rows, columns = _inside(picture_box([first.pixels, second.pixels]), first.pixels.shape)
     detector: Any = ContentDetector(threshold=_CUT, min_scene_len=0)
+    found: Any = []
+    for number, frame in enumerate((first, second)):
+        blue_first = np.ascontiguousarray(frame.pixels[rows, columns, ::-1])
+        found = detector.process_frame(FrameTimecode(number, 24.0), blue_first)
+    return bool(found)
 
-    def is_cut(frame: TimedFrame) -> bool:
-        blue_first = frame.pixels[..., ::-1].copy()
-        return bool(detector.process_frame(FrameTimecode(frame.number, 24.0), blue_first))
 
-    return is_cut
+def _inside(box: Box, shape: Sequence[int]) -> tuple[slice, slice]:
+    height, width = shape[:2]
+    rows = slice(math.ceil(box[1] * height - 1e-6), math.floor(box[3] * height + 1e-6))
+    return rows, slice(math.ceil(box[0] * width - 1e-6), math.floor(box[2] * width + 1e-6))
 
 
 def _small_size(facts: VideoFacts) -> tuple[int, int]:
@@ -112,9 +120,7 @@ def _parts(frames: list[TimedFrame], end: float, longest: int, fps: float) -> It
 
 def _shot(frames: Sequence[TimedFrame], end: float, fps: float) -> Shot:
     box = picture_box([frame.pixels for frame in frames])
-    height, width = frames[0].pixels.shape[:2]
-    rows = slice(math.ceil(box[1] * height), math.floor(box[3] * height))
-    columns = slice(math.ceil(box[0] * width), math.floor(box[2] * width))
+    rows, columns = _inside(box, frames[0].pixels.shape)
     pictures = [frame.pixels[rows, columns] for frame in frames]
     lasts = max(end - frames[0].time, 1e-3)
     distinct = exposed_frames(pictures)

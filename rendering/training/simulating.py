@@ -176,7 +176,7 @@ def _animation(
     rate = work.options.fps or DEFAULT_FRAME_RATE
     how: dict[str, Any] = {"masks": parts} if parts else {}
     timing = Timing(frames=work.frames, frame_rate=rate)
-    first = {"preset": list(motion.presets)} if parts else {}
+    first: dict[str, Any] = {"preset": list(motion.presets)} if parts else {}
     calm = animate(picture, wind=motion.wind, timing=Timing(frames=1, frame_rate=rate), **how, **first)
     scene = with_strokes(calm.scene, chance, motion.strokes, (wide, high))
     return animate(picture, scene=scene, timing=timing, watch=Watch(progress=progress), **how), window, size
@@ -186,7 +186,7 @@ def _flows(animation: Animation, window: Window, size: tuple[int, int]) -> Itera
     from ...physics.motion import FlowSequence
 
     left, top, right, bottom = window
-    scale = np.float32([size[0] / (right - left), size[1] / (bottom - top)])
+    scale = np.array([size[0] / (right - left), size[1] / (bottom - top)], dtype=np.float32)
     fields = FlowSequence(animation.motion)
     for frame in animation.shown:
         part = fields.flow(frame).displacement[top:bottom, left:right]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -172,10 +173,8 @@ def frame_at(path: Path, time: float) -> NDArray[np.uint8]:
     with _opened(path) as container:
         stream = _stream(container, path)
         begin = (container.start_time or 0) / 1e6
-        try:
+        with suppress(Exception):  # what cannot be searched is decoded from its start
             container.seek(int((begin + time) * 1e6))
-        except Exception:  # what cannot be searched is decoded from its start
-            pass
         for frame in _frames(container, stream, path):
             if frame.time is None or frame.time >= begin + time - 1e-3:
                 return _rgb(frame, None)
