@@ -37,7 +37,7 @@ def _add_build(parser: argparse.ArgumentParser) -> None:
     parser.description = (
         "Cut videos at their cuts, take out repeated drawings and black bars, keep clips that are long enough and"
         " neither still nor torn, and draw their sketches. A stopped build goes on where it was: videos that are done"
-        " are left out. Clips are H.264 at CRF 17, 4:2:0."
+        " are left out. Clips are H.264 at CRF 12 and 4:4:4, about 41 dB."
     )
     parser.add_argument("video", metavar="VIDEO_OR_FOLDER", nargs="+", help="videos, and folders of videos")
     parser.add_argument("--output", "-o", metavar="DATA", help="the data folder; not needed with --dry-run")

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from ...physics.checks import check_number, check_whole
 from ...physics.errors import InvalidInputError
-from ..pictures import read_clip, write_animation
+from ..pictures import read_clip
+from .clip_writing import write_clip
 from .data_folder import ClipRecord, clip_file, sketch_file
 from .framing import Window, framed, size_of, window_of
 from .score_column import ScoredSpan, score_between
@@ -142,7 +143,7 @@ def _write(
     frames = decoded(source) if kept else iter(())
     for record, shot, window in kept:
         pictures = (framed(each.pixels, window, size) for each in _numbered(frames, shot.frames, tick))
-        write_animation(pictures, clip_file(data, record.name), record.fps)
+        write_clip(pictures, clip_file(data, record.name), record.fps)
         write_sketches(data, record, sketch, tick)
 
 
@@ -155,7 +156,7 @@ def write_sketches(data: Path, record: ClipRecord, sketch: Sketcher, tick: Tick 
                 tick()
             yield sketch(frame)
 
-    write_animation(drawn(), sketch_file(data, record.name), record.fps)
+    write_clip(drawn(), sketch_file(data, record.name), record.fps)
 
 
 def _numbered(frames: Iterator[TimedFrame], numbers: Sequence[int], tick: Tick | None) -> Iterator[TimedFrame]:
@@ -163,7 +164,9 @@ def _numbered(frames: Iterator[TimedFrame], numbers: Sequence[int], tick: Tick |
     wanted = iter(numbers)
     number = next(wanted, None)
     while number is not None:
-        frame = next(frames)
+        frame = next(frames, None)
+        if frame is None:
+            raise InvalidInputError(f"VIDEO must stay as it is while it is read. Got: frame {number} is gone")
         if tick is not None:
             tick()
         if frame.number == number:

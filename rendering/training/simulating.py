@@ -20,9 +20,10 @@ from ..animation import Animation
 from ..artwork import Artwork, is_artwork_file, load_artwork
 from ..files import replacing
 from ..options import DEFAULT_FRAME_RATE, Timing, Watch
-from ..pictures import load_image, load_mask, over, write_animation
+from ..pictures import load_image, load_mask, over
 from ..pipeline import animate
 from .building import BuildOptions, file_names, write_sketches
+from .clip_writing import write_clip
 from .data_folder import ClipRecord, clip_file, index_file
 from .data_journal import DataJournal
 from .data_summary import newest_records
@@ -144,7 +145,7 @@ def _made(
     score = dynamics_score(pictures)
     why = work.options.bounds.why_not(len(pictures), score)
     if not why:
-        write_animation(pictures, clip_file(work.data, name), fps)
+        write_clip(pictures, clip_file(work.data, name), fps)
         _write_flow(flow_file(work.data, name), _flows(animation, box, size))
     return ClipRecord(
         name,

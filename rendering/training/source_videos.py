@@ -39,6 +39,7 @@ VIDEO_SUFFIXES = (
 _MOST_VIDEOS = 5_000_000
 _MOST_FRAMES = 10_000_000  # four days at 24 a second: a damaged file may never end
 _READ = 1 << 20
+_OURS = {"dataset.json", "physanimator_export.json"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +76,7 @@ class VideoFacts:
 
 
 def videos_in(paths: Sequence[Path]) -> list[Path]:
-    """The videos that are named, and those in folders and their folders, by name.
+    """The videos that are named, and those in folders and their folders, by name; data folders and exports are not.
 
     Raises:
         InvalidInputError: a path leads to nothing, to no file, or to a folder without videos.
@@ -99,6 +100,9 @@ def videos_in(paths: Sequence[Path]) -> list[Path]:
 
 def _inside(folder: Path) -> Iterator[Path]:
     for place, folders, names in os.walk(folder):
+        if _OURS & set(names):  # what was made of videos is not cut once more
+            folders.clear()
+            continue
         folders[:] = sorted(each for each in folders if not each.startswith("."))
         for name in names:
             if name.lower().endswith(VIDEO_SUFFIXES) and not name.startswith("."):

@@ -12,10 +12,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import random_networks
 from command_status import status
-from physanimator.rendering.pictures import load_image, read_clip
+from physanimator.rendering.pictures import load_image, read_clip, write_animation
 from physanimator.rendering.training import building, kept_clips, read_index
+from physanimator.rendering.training.clip_writing import write_clip
 from physanimator.rendering.training.data_folder import clip_file, index_file, sketch_file
+from physanimator.rendering.training.encoded_clips import check_encoded, read_tensors
 from small_videos import panned, write_video
 
 pytest.importorskip("scenedetect", reason="cuts are found by PySceneDetect")
@@ -79,7 +82,7 @@ def test_a_second_build_leaves_out_what_is_done_and_adds_what_is_new(
 ) -> None:
     before = contents(data)
     (tmp_path / "renamed.mp4").write_bytes((videos / "one.mp4").read_bytes())
-    monkeypatch.setattr(building, "write_animation", None)  # would fail if anything were built
+    monkeypatch.setattr(building, "write_clip", None)  # would fail if anything were built
     assert status("dataset", "build", str(videos), str(tmp_path), "--output", str(data), *SMALL) == 0
     assert contents(data) == before
 
@@ -110,7 +113,7 @@ def test_a_dry_run_counts_and_writes_nothing(videos: Path, tmp_path: Path, capsy
     assert os.listdir(tmp_path) == []
 
 
-def test_a_damaged_video_stops_nothing_and_is_recorded(videos: Path, tmp_path: Path) -> None:
+def test_a_damaged_video_stops_nothing_and_data_among_the_videos_is_none(videos: Path, tmp_path: Path) -> None:
     whole = (videos / "one.mp4").read_bytes()
     (tmp_path / "noise.mp4").write_bytes(np.random.default_rng(0).bytes(4000))
     (tmp_path / "whole.mp4").write_bytes(whole)
@@ -118,6 +121,9 @@ def test_a_damaged_video_stops_nothing_and_is_recorded(videos: Path, tmp_path: P
     records = list(read_index(tmp_path / "data"))
     assert next(each.why for each in records if each.source.endswith("noise.mp4")).startswith("cannot be read")
     assert sum(each.kept for each in records) == 2
+    before = contents(tmp_path)
+    assert status("dataset", "build", str(tmp_path), "--output", str(tmp_path / "data"), *SMALL) == 0
+    assert contents(tmp_path) == before
 
 
 def test_scores_of_an_index_stand_instead_of_ours(videos: Path, tmp_path: Path) -> None:
@@ -251,3 +257,44 @@ def test_an_export_replaces_its_own_files_alone(data: Path, tmp_path: Path, caps
     (out / "physanimator_export.json").unlink()
     assert status(*arguments, "ltx") == 2
     assert "new folder" in capsys.readouterr().err
+
+
+def test_colours_of_thin_lines_are_kept(tmp_path: Path) -> None:
+    """4:2:0, which most videos are, gives 21 dB here."""
+    frame = np.full((64, 128, 3), (230, 220, 210), np.uint8)
+    frame[:, ::6] = (200, 20, 40)
+    frame[::8] = (20, 40, 190)
+    write_clip([frame] * 3, tmp_path / "lines.mp4", 12)
+    (back, *_) = read_clip(tmp_path / "lines.mp4")
+    assert 10 * np.log10(255**2 / float(np.mean((back.astype(float) - frame) ** 2))) > 33
+    write_animation([frame] * 3, tmp_path / "usual.mp4", 12)
+    (usual, *_) = read_clip(tmp_path / "usual.mp4")
+    assert 10 * np.log10(255**2 / float(np.mean((usual.astype(float) - frame) ** 2))) < 25
+
+
+def test_the_network_draws_where_its_weights_are_given(videos: Path, tmp_path: Path, capsys: Output) -> None:
+    lines = random_networks.write(tmp_path, "folder")["lines"]
+    arguments = ["dataset", "build", str(videos / "two.mp4"), "--output", str(tmp_path / "data"), *SMALL]
+    assert status(*arguments, "--lines", str(tmp_path / "none.pth")) == 2
+    assert not (tmp_path / "data").exists()
+    assert status(*arguments, "--lines", str(lines), "--device", "cpu") == 0
+    (clip,) = kept_clips(tmp_path / "data")
+    assert clip.sketches == f"network {lines.name}"
+    assert status(*arguments) == 2
+    assert "sketches must stay" in capsys.readouterr().err
+
+
+def test_encoding_by_the_command_is_done_once(videos: Path, tmp_path: Path, capsys: Output) -> None:
+    svd = random_networks.write(tmp_path, "folder")["svd"]
+    arguments = ["dataset", "build", str(videos / "two.mp4"), "--output", str(tmp_path / "data"), *SMALL]
+    assert status(*arguments) == 0
+    encode = ["dataset", "encode", str(tmp_path / "data"), "--svd", str(svd), "--device", "cpu"]
+    assert status(*encode) == 0
+    assert "1 clips encoded now" in capsys.readouterr().out
+    (clip,) = kept_clips(tmp_path / "data")
+    tensors = read_tensors(tmp_path / "data", "svd", clip.name, ("latents", "embeddings"))
+    assert len(tensors["latents"]) == clip.frames
+    check_encoded(tmp_path / "data", "svd", clip.name)
+    assert status(*encode) == 0
+    assert "0 clips encoded now" in capsys.readouterr().out
+    assert status(*encode, "--tooncrafter", str(svd)) == 2
