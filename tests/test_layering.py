@@ -85,7 +85,9 @@ MAY_IMPORT = {
         "rendering/segmentation rendering/sketch"
     ),
     "rendering/training": (
-        "__init__ physics rendering/files rendering/networks rendering/pictures rendering/svd rendering/tooncrafter"
+        "__init__ physics physics/forces physics/material physics/motion physics/scene rendering "
+        "rendering/artwork rendering/files rendering/networks rendering/neural rendering/pictures "
+        "rendering/sketch rendering/sketch/drawings rendering/svd rendering/tooncrafter"
     ),
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
