@@ -20,6 +20,8 @@ export class Backdrop {
     this.wanted = null;
     /** Whether a run has been asked for here that has not come. */
     this.waiting = false;
+    /** How many runs are being taken up: their bodies come last. */
+    this.arriving = 0;
   }
 
   /** @param {string} url of a picture to draw on */
@@ -37,7 +39,23 @@ export class Backdrop {
   async setRun(run) {
     const { editor } = this;
     this.waiting = false;
+    this.arriving += 1;
     if (!editor.live.playback.moving) this.prepare();
+    try {
+      await this.#takeRun(run);
+    } finally {
+      this.arriving -= 1;
+    }
+    editor.simulate();
+    if (run.layers) return;
+    // Made when first asked for, which takes a moment; until then the picture itself is behind the bodies.
+    const plate = await loaded(run.plate).catch(() => null);
+    if (plate) editor.live.setPlate(run, plate);
+  }
+
+  /** @param {Run} run whose picture, layers and holds the editor takes before its bodies */
+  async #takeRun(run) {
+    const { editor } = this;
     if (run.layers && !run.image) this.picture = null;
     const picture = run.image ? await loaded(run.image) : this.picture;
     if (run.image) this.wanted = null;
@@ -47,11 +65,6 @@ export class Backdrop {
     else this.fitTo(run.width, run.height);
     editor.takeHolds(run.holds);
     await editor.live.setRun(run, picture);
-    editor.simulate();
-    if (run.layers) return;
-    // Made when first asked for, which takes a moment; until then the picture itself is behind the bodies.
-    const plate = await loaded(run.plate).catch(() => null);
-    if (plate) editor.live.setPlate(run, plate);
   }
 
   /** Nothing is known of the bodies any more, such as when another picture is chosen. */

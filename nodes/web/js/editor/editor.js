@@ -270,7 +270,7 @@ export class Editor {
     } else if (this.live.run) {
       this.live.request(this.document, this.frameCount);
       if (!this.live.playback.moving && this.live.asked) this.backdrop.prepare();
-    } else this.backdrop.offerRun();
+    } else if (!this.backdrop.arriving) this.backdrop.offerRun();
   }
 
   get frameCount() {
