@@ -8,7 +8,23 @@ from __future__ import annotations
 
 from typing import Any
 
-__version__ = "0.1.0"
+
+def _version() -> str:
+    """What pyproject.toml says, where it lies beside this file; else what pip has written from it."""
+    import re
+    from pathlib import Path
+
+    try:
+        project = Path(__file__).with_name("pyproject.toml").read_text(encoding="utf-8")
+    except OSError:
+        from importlib.metadata import version
+
+        return version("physanimator")
+    found = re.search(r'^version = "([^"]+)"', project, re.MULTILINE)
+    return found[1] if found else "unknown"
+
+
+__version__ = _version()
 
 WEB_DIRECTORY = "./nodes/web"
 

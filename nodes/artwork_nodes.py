@@ -14,7 +14,7 @@ from .host import all_told, batch_of_pictures, checked_document, refusal, tell_u
 from .host.wires import BodiesWire, LayersWire, MaskedBody, MaskedMotion, MaterialWire, MotionWire
 from .layer_lists import listed_layers, masked_bodies, tell_layers, told_list
 from .layer_nodes import artwork_of
-from .mesh_inputs import mesh_inputs
+from .mesh_inputs import mesh_inputs, spacing_advice, spacing_of
 
 if TYPE_CHECKING:
     from ..rendering.artwork import Artwork, LayerPlan
@@ -121,7 +121,7 @@ class ArtworkToBodies(io.ComfyNode):
             artwork,
             **chosen,
             material=one,
-            spacing=spacing or None,
+            spacing=spacing_of(spacing),
             elements_across=elements_across,
             strands=strands,
             before=before,
@@ -130,7 +130,7 @@ class ArtworkToBodies(io.ComfyNode):
         chain = masked_bodies(made)
         report = told_layers(made.plans)
         left_out = [f"{plan.name}: {plan.why}." for plan in made.plans if plan.why.startswith("left out")]
-        told = all_told(told, tell_user(cls, [*left_out, *made.parts.notes]))
+        told = all_told(told, tell_user(cls, [*left_out, *made.parts.notes, *spacing_advice(spacing)]))
         listed = told_list(artwork, listed_layers(made.plans, usual, held, [item.source.index for item in chain]))
         shown = {"text": [report], "physanimator_layers": [listed], **told}
         return io.NodeOutput(chain, batch_of_pictures([made.parts.image], 1), report, ui=shown)

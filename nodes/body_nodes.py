@@ -33,7 +33,7 @@ class Material(io.ComfyNode):
         options.append(io.DynamicCombo.Option(_LAME, _inputs(_AS_IN_THE_PAPER, "mu", "lambda_", "density")))
         return io.Schema(
             node_id="PhysAnimator_Material",
-            display_name="Material",
+            display_name="Material (PhysAnimator)",
             category="PhysAnimator/scene",
             description="What a body is made of. Presets look alike at any size of picture.",
             inputs=[
@@ -54,7 +54,8 @@ class Material(io.ComfyNode):
         if "lambda" in values:
             values["lambda_"] = values.pop("lambda")  # no name that Python lets a field have
         if "stretch_limit" in values:
-            values["stretch_limit"] = values["stretch_limit"] or None
+            # A widget has no gap between 0, which is no limit, and the least.
+            values["stretch_limit"] = max(values["stretch_limit"], 1.0) if values["stretch_limit"] else None
         return io.NodeOutput(preset_material(name, **values) if name in PRESETS else PhysicalMaterial(**values))
 
 
@@ -63,9 +64,10 @@ class Body(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_Body",
-            display_name="Body",
+            display_name="Body (PhysAnimator)",
             category="PhysAnimator/scene",
-            description="Makes a mesh a body that moves. Chain several Body nodes for several parts.",
+            description="Makes a mesh a soft body that moves, such as hair, cloth or a leaf. Chain several Body nodes"
+            " for several parts.",
             inputs=[
                 MeshWire.Input("mesh", tooltip="Its shape, from Mask to Mesh."),
                 io.Combo.Input(

@@ -23,7 +23,7 @@ class Contact(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_Contact",
-            display_name="Contact",
+            display_name="Contact (PhysAnimator)",
             category="PhysAnimator/scene",
             description="Lets bodies touch instead of passing through each other, and slide over still shapes.",
             inputs=[

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from comfy_api.latest import ComfyExtension, io
 
+from .animate_nodes import AnimateIllustration
 from .artwork_nodes import ArtworkToBodies, FrameAsLayers
 from .body_nodes import Body, Material
 from .contact_nodes import Contact
+from .editable_nodes import SaveSpineOrGltf
 from .example_nodes import ExampleIllustration
 from .flow_nodes import OpticalFlow, PreviewFlow
 from .host import checked, watch_prompts
@@ -21,6 +23,7 @@ from .rig_nodes import RigPoint
 from .save_nodes import SaveAnimation
 from .scene_editor_nodes import SceneEditor
 from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
+from .search_words import findable
 from .sketch_nodes import ExtractSketch, WarpSketch
 from .stroke_nodes import EnergyStroke
 from .track_nodes import Tracks
@@ -30,6 +33,7 @@ from .wind_nodes import Wind
 __all__ = ["NODES", "PhysAnimatorExtension"]
 
 NODES: list[type[io.ComfyNode]] = [
+    AnimateIllustration,
     ExampleIllustration,
     SegmentByPoints,
     MaskToMesh,
@@ -53,6 +57,7 @@ NODES: list[type[io.ComfyNode]] = [
     WarpSketch,
     Render,
     SaveAnimation,
+    SaveSpineOrGltf,
     Interpolate,
     Metrics,
     WarpedVideo,
@@ -71,4 +76,4 @@ class PhysAnimatorExtension(ComfyExtension):
     async def get_node_list(self) -> list[type[io.ComfyNode]]:
         register_routes()  # here, because host 0.8.0 does not call on_load
         watch_prompts()
-        return [checked(node) for node in NODES]
+        return [checked(findable(node)) for node in NODES]

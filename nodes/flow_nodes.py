@@ -22,7 +22,7 @@ class OpticalFlow(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_OpticalFlow",
-            display_name="Optical Flow",
+            display_name="Optical Flow (PhysAnimator)",
             category="PhysAnimator/motion",
             description="How far each pixel of the drawing has moved, frame by frame; computed when needed.",
             inputs=[MotionWire.Input("motion", tooltip="From Simulate.")],
@@ -39,7 +39,7 @@ class PreviewFlow(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_PreviewFlow",
-            display_name="Preview Flow",
+            display_name="Preview Flow (PhysAnimator)",
             category="PhysAnimator/motion",
             description="Shows optical flow as colours: the hue is the direction, the strength how far a pixel moved.",
             is_output_node=True,

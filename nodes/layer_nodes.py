@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from comfy_api.latest import io, ui
 
-from ..physics.errors import InvalidInputError, require
+from ..physics.errors import InvalidInputError, counted, require
 from .example_nodes import FOLDER
 from .host import (
     batch_of_masks,
@@ -46,7 +46,7 @@ class LoadLayers(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_LoadLayers",
-            display_name="Load Layers",
+            display_name="Load Layers (PhysAnimator)",
             category="PhysAnimator/layers",
             description="Reads an illustration in layers: PSD, PSB, OpenRaster (Krita), or a folder of PNG files.",
             inputs=[
@@ -123,7 +123,7 @@ class LayersFromImageBatch(io.ComfyNode):
         pictures = pictures_of(images, name="images", alpha=True)
         titles = [line.strip() for line in names.rstrip().splitlines()] if names.strip() else []
         most = len(pictures)
-        require("names", f"{len(titles)} lines", len(titles) <= most, f"at most {most}, one for each picture")
+        require("names", counted(len(titles), "line"), len(titles) <= most, f"at most {most}, one for each picture")
         titles += [""] * (len(pictures) - len(titles))
         items: list[dict[str, Any]] = [
             {"image": picture[None], "name": title or f"layer {number}"}
@@ -165,7 +165,7 @@ class SaveLayers(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_SaveLayers",
-            display_name="Save Layers",
+            display_name="Save Layers (PhysAnimator)",
             category="PhysAnimator/layers",
             description="Writes layers as a PSD file for painting programs.",
             is_output_node=True,

@@ -28,12 +28,13 @@ from .host import (
 )
 from .host.field_inputs import ADVANCED
 from .host.wires import MaskedMesh, MeshWire
-from .mesh_inputs import mesh_inputs
+from .mesh_inputs import mesh_inputs, spacing_advice, spacing_of
 from .models import segmenter_advice
 from .models.sam_backend import missing_sam_files, sam_inputs, sam_network
 
 if TYPE_CHECKING:
     import torch
+    from numpy.typing import NDArray
 
     from ..physics.scene import QueryPoint
 
@@ -49,6 +50,9 @@ _NO_POINTS = (
     " [[x, y, 1], ...], or a box."
 )
 
+_TINT, _TINT_SHARE = (0.25, 0.84, 0.48), 0.45
+"""How a mask is shown over its picture: RGB, and how much of it."""
+
 _GRABCUT, _SAM = "grabcut", "segment anything"
 
 
@@ -61,6 +65,7 @@ class SegmentByPoints(io.ComfyNode):
             category="PhysAnimator/mesh",
             description="Cuts out the part of the picture on which the points lie, or several parts, each into a mask"
             " of its own. Works without any model file.",
+            is_output_node=True,
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 io.String.Input(
@@ -69,7 +74,7 @@ class SegmentByPoints(io.ComfyNode):
                     multiline=True,
                     tooltip="Click on the picture, or give points in pixels as JSON: [[x, y, 1], ...] with 1 on the"
                     " part, 0 beside it; and for several parts [[x, y, 1, part], ...] with the part's number, from 0;"
-                    ' also [{"x": .., "y": ..}] and {"positive": [...], "negative": [...]} from point editors,'
+                    " also objects with x and y, and lists named positive and negative, from point editors,"
                     " and a scene document with query_points.",
                 ),
                 io.DynamicCombo.Input(
@@ -162,6 +167,10 @@ def _points_of(text: str, width: int, height: int, *, needed: bool) -> list[Quer
     found = parse_points(text, width=width, height=height) if text.strip() else []
     if needed and not found:
         raise InvalidInputError(_NO_POINTS)
+    if needed:
+        from ..rendering.segmentation import require_object
+
+        require_object(np.array([point.positive for point in found]), None)
     return found
 
 
@@ -170,9 +179,10 @@ class MaskToMesh(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_MaskToMesh",
-            display_name="Mask to Mesh",
+            display_name="Mask to Mesh (PhysAnimator)",
             category="PhysAnimator/mesh",
             description="Fills a mask with triangles: the shape that the physics bends.",
+            is_output_node=True,
             inputs=[
                 io.Mask.Input("mask", tooltip="White where the part is. A soft edge is kept for rendering."),
                 *mesh_inputs("the mask"),
@@ -238,11 +248,18 @@ class MaskToMesh(io.ComfyNode):
         if not (coverage > 0.5).any():
             raise MeshingError(_EMPTY)
         coverage = fitted(coverage, picture.shape[1], picture.shape[0])
-        told = tell_user(cls, mask_advice(coverage))
+        told = tell_user(cls, [*mask_advice(coverage), *spacing_advice(spacing)])
         front = in_front_of(in_front, picture.shape[1], picture.shape[0])
         if front is not None:
             coverage = behind_still(coverage, front > 0.5)
         meshed = partial(part_mesh, picture) if given and not pixel_art else mesh_from_mask
-        mesh = meshed(coverage, spacing=spacing or None, elements_across=elements_across, uniform=uniform)
+        mesh = meshed(coverage, spacing=spacing_of(spacing), elements_across=elements_across, uniform=uniform)
         preview = batch_of_pictures([draw_wireframe(over(picture), mesh)], 1)
-        return io.NodeOutput(MaskedMesh(mesh, coverage, front), preview, ui=shown_with(ui.PreviewImage(preview), told))
+        seen = preview if not given else batch_of_pictures([draw_wireframe(_tinted(over(picture), coverage), mesh)], 1)
+        return io.NodeOutput(MaskedMesh(mesh, coverage, front), preview, ui=shown_with(ui.PreviewImage(seen), told))
+
+
+def _tinted(picture: NDArray[np.float32], mask: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The picture with the mask laid over it in colour, shape [h, w, 3]."""
+    share = _TINT_SHARE * mask[..., None]
+    return (picture * (1 - share) + np.float32(_TINT) * share).astype(np.float32)

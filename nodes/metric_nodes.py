@@ -31,7 +31,7 @@ class Metrics(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_Metrics",
-            display_name="Metrics",
+            display_name="Metrics (PhysAnimator)",
             category="PhysAnimator/render",
             description="Measures frames against the motion that they should show. Works without any model file.",
             is_output_node=True,

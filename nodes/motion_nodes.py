@@ -41,9 +41,10 @@ class Simulate(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_Simulate",
-            display_name="Simulate",
+            display_name="Simulate (PhysAnimator)",
             category="PhysAnimator/motion",
-            description="Computes how the bodies of a scene move.",
+            description="Computes by physics how the bodies of a scene move: hair sways, cloth flutters, jelly"
+            " wobbles.",
             inputs=[
                 SceneWire.Input("scene", tooltip="What moves, and what acts on it."),
                 io.Int.Input(
@@ -62,7 +63,8 @@ class Simulate(io.ComfyNode):
                     step=0.5,
                     optional=True,
                     tooltip="Length of a seamless loop [s]: the last frame leads back to the first, which is not the"
-                    " drawing then. All that acts is fitted to it. 0 is off, unless the scene has a loop.",
+                    " drawing then. All that acts is fitted to it. 0 is off, unless the scene has a loop;"
+                    " the shortest has 2 frames.",
                 ),
                 io.Float.Input(
                     "max_minutes",
@@ -129,6 +131,7 @@ class Simulate(io.ComfyNode):
         from ..physics.scene import advice
         from ..physics.simulation import compile_aside, simulate, simulated_aside
 
+        loop = max(loop, 2 / scene.scene.frame_rate) if loop else 0.0  # a widget has no gap between 0 and the least
         said: dict[str, Any] = {"loop": loop, "time_step": time_step, "sag": sag}
         said["strokes_as"] = "" if strokes_as == _AS_THE_SCENE else strokes_as
         acting = replace(scene.scene, **{name: value for name, value in said.items() if value})
@@ -149,7 +152,7 @@ class PreviewMotion(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_PreviewMotion",
-            display_name="Preview Motion",
+            display_name="Preview Motion (PhysAnimator)",
             category="PhysAnimator/motion",
             description="Shows the moving meshes on the picture, with strokes and rig points.",
             is_output_node=True,

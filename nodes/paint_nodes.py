@@ -26,7 +26,7 @@ class PaintMaterial(io.ComfyNode):
 
         return io.Schema(
             node_id="PhysAnimator_PaintMaterial",
-            display_name="Paint Material",
+            display_name="Paint Material (PhysAnimator)",
             category="PhysAnimator/scene",
             description="Makes parts of a body stiffer, heavier or more damped, as masks say.",
             inputs=[

@@ -58,7 +58,7 @@ class Render(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_Render",
-            display_name="Render",
+            display_name="Render (PhysAnimator)",
             category="PhysAnimator/render",
             description="Paints the frames: each body stretched along with its mesh, over the picture without it; or by"
             " a video model that follows sketches; or with holes painted by an image model.",
@@ -234,7 +234,7 @@ class Interpolate(io.ComfyNode):
         described = "; ".join(f"{name}: {backend.description}" for name, backend in BACKENDS.items())
         return io.Schema(
             node_id="PhysAnimator_Interpolate",
-            display_name="Interpolate",
+            display_name="Interpolate (PhysAnimator)",
             category="PhysAnimator/render",
             description="Fills in the frames between keyframes.",
             inputs=[

@@ -9,6 +9,7 @@ from typing import Any
 from comfy_api.latest import io
 
 from ..physics.document import parse_polyline
+from ..physics.limits import MAX_BODIES
 from ..physics.rig import Combined, Pinned, RigMotion
 from ..physics.rig import RigPoint as PhysicalRigPoint
 from .host import PATH_FORMS, refusal
@@ -41,7 +42,7 @@ class RigPoint(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_RigPoint",
-            display_name="Rig Point",
+            display_name="Rig Point (PhysAnimator)",
             category="PhysAnimator/scene",
             description="Holds a region of a body still, swings it, leads it along a path, turns it or squashes it.",
             inputs=[
@@ -64,7 +65,7 @@ class RigPoint(io.ComfyNode):
                     "body",
                     default=-1,
                     min=-1,
-                    max=4095,
+                    max=MAX_BODIES - 1,
                     tooltip="Number of the body it acts on, counted from 0 along the chain; -1 is every body.",
                 ),
                 io.DynamicCombo.Input(

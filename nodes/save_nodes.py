@@ -44,7 +44,7 @@ class SaveAnimation(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_SaveAnimation",
-            display_name="Save Animation",
+            display_name="Save Animation (PhysAnimator)",
             category="PhysAnimator/render",
             description="Paints the frames as Render does and writes each to disk at once: long clips of large pictures"
             " need no memory for a batch.",
@@ -55,8 +55,9 @@ class SaveAnimation(io.ComfyNode):
                 *place_inputs(
                     "animation/PhysAnimator",
                     FILE_TYPES,
-                    f"mp4: H.264, plays everywhere. webm: VP9. gif, webp, apng: animated pictures. {FRAMES}: a folder"
-                    " of numbered pictures. All but mp4 can be transparent.",
+                    f"mp4: H.264, plays everywhere. webm: VP9. gif, webp, apng: animated pictures. mov: ProRes 4444 for"
+                    f" editing and compositing programs. {FRAMES}: a folder of numbered pictures. All but mp4 can be"
+                    " transparent.",
                 ),
                 io.Int.Input(
                     "width",

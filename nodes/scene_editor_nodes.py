@@ -5,16 +5,17 @@ Its value is a scene document, so the node runs from that alone; what it returns
 
 from __future__ import annotations
 
-import secrets
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from comfy_api.latest import io, ui
+from comfy_api.latest import io
 
 from ..physics.errors import InvalidInputError, require
 from .background_inputs import image_alpha_input
 from .edited_layers import EditedLayers, edited_layers
-from .host import all_told, batch_of_pictures, checked_document, picture_with_alpha, refusal, tell_user
+from .host import all_told, checked_document, picture_with_alpha, refusal, tell_user
+from .host.previews import saved_picture
 from .host.wires import BodiesWire, LayersWire, MaskedBody
 from .layer_nodes import artwork_of
 from .preview import STORE, PreviewBodies, holds_of_bodies
@@ -35,7 +36,7 @@ class SceneEditor(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_SceneEditor",
-            display_name="Scene Editor",
+            display_name="Scene Editor (PhysAnimator)",
             category="PhysAnimator/scene",
             description="Draw wind, pushes, pins and paths on the picture and see it move.",
             is_output_node=True,
@@ -91,7 +92,8 @@ class SceneEditor(io.ComfyNode):
         artwork, told = (None, {}) if layers is None else artwork_of(cls, layers)
         found = edited_layers(document, bodies, artwork)
         bodies = bodies if found is None else found.bodies
-        acting = [item.body for item in (bodies if found is None else found.held_unless_said(document))]
+        held = held_unless_said(bodies, document) if found is None else found.held_unless_said(document)
+        acting = [item.body for item in held]
         unheld = checked_scene_over(document, acting, layers=found and found.masks)
         drawn = held_where_said(unheld)
         told = all_told(told, tell_user(cls, absent_bodies(drawn)))
@@ -101,8 +103,8 @@ class SceneEditor(io.ComfyNode):
             "key": STORE.put(_kept(bodies, shown, found)),
             "width": drawn.width,
             "height": drawn.height,
-            "image": _saved(shown),
-            "plate": _saved(behind),
+            "image": shown if shown is None else saved_picture(shown),
+            "plate": behind if behind is None else saved_picture(behind),
             "layers": None if found is None else found.told(),
             "materials": told_materials([item.body for item in bodies]),
             "holds": holds_of_bodies(drawn, len(drawn.rig_points) - len(unheld.rig_points)),
@@ -110,6 +112,24 @@ class SceneEditor(io.ComfyNode):
         # Where several bodies are drawn on, contact may be switched on at any moment.
         start_warm_up(contact=len(bodies) > 1 or drawn.contact is not None)
         return scene_output(drawn, bodies, ui={"physanimator_editor": [info], **told})
+
+
+def held_unless_said(bodies: tuple[MaskedBody, ...], document: dict[str, Any]) -> list[MaskedBody]:
+    """Bodies that masks cut out, held where they are attached as long as the document has no word on that.
+
+    Args:
+        bodies: from other nodes.
+        document: a checked scene document. Its rig points, even none, are its word; so is where it holds a body.
+    """
+    if "rig_points" in document:
+        return list(bodies)
+    entries = document.get("bodies", [])
+
+    def held(number: int, item: MaskedBody) -> MaskedBody:
+        said = number < len(entries) and "attach" in entries[number]
+        return item if said else replace(item, body=replace(item.body, attach=item.attach))
+
+    return [held(number, item) for number, item in enumerate(bodies)]
 
 
 def _shown(image: torch.Tensor, width: int, height: int, name: str, alpha: torch.Tensor | None = None) -> np.ndarray:
@@ -134,17 +154,3 @@ def _kept(bodies: tuple[MaskedBody, ...], picture: np.ndarray | None, found: Edi
 
     hole = np.max([item.mask for item in bodies], axis=0)
     return PreviewBodies(physical, picture, as_uint8(hole), **held)
-
-
-def _saved(picture: np.ndarray | None) -> dict[str, Any] | None:
-    """Where the host keeps a picture for its page to fetch."""
-    if picture is None:
-        return None
-    saved = ui.ImageSaveHelper.save_images(
-        batch_of_pictures([picture], 1),
-        filename_prefix=f"physanimator_{secrets.token_hex(4)}",
-        folder_type=io.FolderType.temp,
-        cls=None,
-        compress_level=1,
-    )
-    return dict(saved[0])

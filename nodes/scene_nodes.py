@@ -48,9 +48,9 @@ class Scene(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_Scene",
-            display_name="Scene",
+            display_name="Scene (PhysAnimator)",
             category="PhysAnimator/scene",
-            description="Gathers the bodies and all that acts on them.",
+            description="Gathers the bodies and all that acts on them: wind, gravity, strokes, pins and contact.",
             inputs=[
                 BodiesWire.Input("bodies", tooltip="What moves."),
                 io.Float.Input(
@@ -94,9 +94,10 @@ class AutomaticScene(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_AutomaticScene",
-            display_name="Automatic Scene",
+            display_name="Automatic Scene (PhysAnimator)",
             category="PhysAnimator/scene",
-            description="Holds each body where it is attached and lets gentle gusts of wind pass.",
+            description="Holds each body where it is attached and lets gentle gusts of wind pass, so that hair and"
+            " cloth sway.",
             inputs=[
                 BodiesWire.Input("bodies", tooltip="What moves."),
                 io.Float.Input(
@@ -161,7 +162,7 @@ class SceneFromJSON(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_SceneFromJSON",
-            display_name="Scene from JSON",
+            display_name="Scene from JSON (PhysAnimator)",
             category="PhysAnimator/scene",
             description="Takes strokes, wind, rig points, materials, gravity and frame rate from a scene document.",
             inputs=[

@@ -18,7 +18,7 @@ class Wind(io.ComfyNode):
     def define_schema(cls) -> io.Schema:
         return io.Schema(
             node_id="PhysAnimator_Wind",
-            display_name="Wind",
+            display_name="Wind (PhysAnimator)",
             category="PhysAnimator/scene",
             description="Wind that blows over the whole picture, in gusts and with eddies.",
             inputs=[

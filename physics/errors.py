@@ -11,6 +11,7 @@ __all__ = [
     "PhysAnimatorError",
     "SceneError",
     "SimulationError",
+    "counted",
     "printable",
     "require",
     "shown",
@@ -59,6 +60,18 @@ class SimulationError(InvalidInputError):
 
 class Cancelled(PhysAnimatorError):
     """The caller asked to stop; nothing went wrong."""
+
+
+def counted(number: int, thing: str) -> str:
+    """How many there are, such as "1 point" or "2 points".
+
+    Args:
+        number: how many.
+        thing: one of them; its plural ends in s, or in ies where it ends in y.
+    """
+    if number == 1:
+        return f"1 {thing}"
+    return f"{number} {thing[:-1]}ies" if thing.endswith("y") else f"{number} {thing}s"
 
 
 def require(name: str, got: object, holds: bool, expected: str) -> None:

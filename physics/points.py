@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from functools import partial
 
 from .checks import numbers_of
-from .errors import InvalidInputError, require
+from .errors import InvalidInputError, counted, require
 from .fields import Field
 from .limits import LARGEST, MAX_POINTS
 
@@ -64,7 +64,7 @@ def checked_pair(name: str, pair: object) -> Point:
         InvalidInputError: they are no two numbers.
     """
     found = numbers_of(name, pair, "two numbers, x and y")
-    require(name, f"{len(found)} numbers", len(found) == 2, "two numbers, x and y")
+    require(name, counted(len(found), "number"), len(found) == 2, "two numbers, x and y")
     return found[0], found[1]
 
 

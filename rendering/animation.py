@@ -20,9 +20,10 @@ from .drawing_checks import check_drawing, height_at
 from .files import check_text_output, write_text
 from .frame_drawing import FrameDrawing
 from .inbetweens import keyframe_indices
+from .moving_pieces import DEFAULT_TOLERANCE
 from .neural import NetworkOptions
 from .pictures import check_output, holds_alpha, is_transparent, over, resized, write_animation
-from .stages import StageProgress
+from .stages import StageProgress, stage_of
 
 if TYPE_CHECKING:
     from .artwork import Artwork
@@ -134,25 +135,26 @@ class Animation:
         return self._measured("render", pictures, progress)
 
     def layers(self, t: int) -> Artwork:
-        """Frame ``t`` of layered artwork as layers again, for painting programs.
+        """Frame ``t`` as layers, for painting programs; see :meth:`LayeredRenderer.artwork`.
 
         Args:
             t: number of the frame that is shown, from 0.
 
         Raises:
-            InvalidInputError: there is no such frame, or the illustration is no layered artwork.
+            InvalidInputError: there is no such frame, or it is pixel art.
         """
         from .composite import PixelArtRenderer
 
         require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
         if isinstance(self.renderer, PixelArtRenderer):
-            raise InvalidInputError("frames in layers need layered artwork. Got: pixel art")
+            raise InvalidInputError("frames in layers must be without pixel_art. Got: pixel art")
         return self.renderer.artwork(self.first + t)
 
     def save_layers(self, folder: StrPath, *, width: int | None = None, progress: StageProgress | None = None) -> None:
-        """Write each layer of layered artwork as a sequence of its own, for painters: ``OUT/01 hair/frame_0000.png``.
+        """Write each layer as a sequence of its own, for painters: ``OUT/01 hair/frame_0000.png``.
 
-        Layers that stand still have one frame. All frames are RGBA as large as the canvas.
+        A flat picture has its background, its parts, and what stands in front of them as layers. Those that stand still
+        have one frame. All frames are RGBA as large as the canvas.
 
         Args:
             folder: where to; it is made where it is missing.
@@ -160,8 +162,8 @@ class Animation:
             progress: called after each frame with the stage "render".
 
         Raises:
-            InvalidInputError: the illustration is no layered artwork, or one of the folders holds frames that
-                PhysAnimator did not write.
+            InvalidInputError: the illustration is pixel art, or one of the folders holds frames that PhysAnimator did
+                not write.
         """
         from .artwork import layer_on_canvas
         from .layer_sequences import check_layer_sequences, layer_folders
@@ -223,7 +225,7 @@ class Animation:
         """Write the animation to a video, an animated picture or a folder of pictures.
 
         Args:
-            path: a name in .mp4, .webm, .gif, .webp or .apng, or a folder ending in ``/``.
+            path: a name in .mp4, .webm, .mov, .gif, .webp or .apng, or a folder ending in ``/``.
             transparent: see :meth:`frames`.
             every: see :meth:`frames`.
             width: width of the written frames [px]; that of the illustration when None.
@@ -296,6 +298,52 @@ class Animation:
 
         check_text_output(path, ".json")
         write_text(path, dumps(self.scene, meshes=False))
+
+    def save_spine(
+        self, folder: StrPath, *, tolerance: float = DEFAULT_TOLERANCE, progress: StageProgress | None = None
+    ) -> list[str]:
+        """Write a skeleton for Spine 4.2 and its runtimes: ``NAME.json``, ``NAME.atlas``, its pages, and ``images/``.
+
+        Each layer, or of a flat picture each part, is a slot; moving ones are meshes with deform keys.
+
+        Args:
+            folder: where to; it is made where it is missing, and its name is the skeleton's.
+            tolerance: how far a vertex may ever be from where the motion has it [px].
+            progress: called after each layer with the stage "spine".
+
+        Returns:
+            Sentences that say what was written, and what is otherwise than in the frames.
+
+        Raises:
+            InvalidInputError: the folder holds a skeleton that PhysAnimator did not write, nothing can be written
+                there, the tolerance is out of its range, or the illustration is pixel art.
+        """
+        from .editable import save_renderer_as_spine
+
+        hears = stage_of("spine", progress)
+        return save_renderer_as_spine(self.renderer, folder, first=self.first, tolerance=tolerance, progress=hears)
+
+    def save_gltf(
+        self, path: StrPath, *, tolerance: float = DEFAULT_TOLERANCE, progress: StageProgress | None = None
+    ) -> list[str]:
+        """Write a glTF scene for 3D programs and engines: each layer or part a textured mesh with morph targets.
+
+        Args:
+            path: a name in .glb.
+            tolerance: how far a vertex may ever be from where the motion has it [px].
+            progress: called after each layer with the stage "gltf".
+
+        Returns:
+            Sentences that say what was written, and what is otherwise than in the frames.
+
+        Raises:
+            InvalidInputError: nothing can be written there, the tolerance is out of its range, or the illustration is
+                pixel art.
+        """
+        from .editable import save_renderer_as_gltf
+
+        hears = stage_of("gltf", progress)
+        return save_renderer_as_gltf(self.renderer, path, first=self.first, tolerance=tolerance, progress=hears)
 
     def save_svg(self, path: StrPath) -> None:
         """Write the moving meshes over the faded illustration as an SVG that plays in a browser.

@@ -9,6 +9,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from ..physics.errors import InvalidInputError
+from ..physics.progress import Progress
 from .neural import NetworkOptions
 from .neural.checking import naming_files
 from .options import Watch
@@ -67,17 +68,27 @@ class FlatPicture:
             watch.on_cut(cut)
         return (*self.masks, *cut)
 
-    def parts(self, cut: Sequence[Mask], *, spacing: float | None, pixel_art: bool) -> Parts:
+    def parts(
+        self, cut: Sequence[Mask], *, spacing: float | None, pixel_art: bool, progress: Progress | None = None
+    ) -> Parts:
         """The moving parts.
 
         Args:
             cut: the masks of all of them.
             spacing: distance of the meshes' vertices [px]; None chooses it.
             pixel_art: move whole pixels.
+            progress: called before the first part and after each with (parts done, parts); may raise to stop.
         """
         names = _part_names(len(self.masks), len(cut))
         return parts_of_picture(
-            self.image, cut, names, spacing=spacing, plate=self.plate, in_front=self.front, pixel_art=pixel_art
+            self.image,
+            cut,
+            names,
+            spacing=spacing,
+            plate=self.plate,
+            in_front=self.front,
+            pixel_art=pixel_art,
+            progress=progress,
         )
 
 

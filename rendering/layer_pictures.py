@@ -14,13 +14,17 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from .artwork import ArtLayer, Artwork, Blend
 
-__all__ = ["MAX_SHOWN_PIXELS", "LayerPicture", "layer_pictures"]
+__all__ = ["MARGIN", "MAX_SHOWN_PIXELS", "SHOWN_BLENDS", "LayerPicture", "layer_pictures"]
 
 MAX_SHOWN_PIXELS = 2**24
 """Pixels of all pictures together; more are scaled down."""
 
 _LONGEST = 4096  # px on a side, as every graphics card takes
-_MARGIN = 2  # px of transparency around what is drawn, so that what bends beyond it shows nothing
+MARGIN = 2
+"""Transparency around what is drawn [px], so that what bends beyond it shows nothing."""
+
+SHOWN_BLENDS: tuple[Blend, ...] = ("normal", "multiply", "screen", "add")
+"""Modes that graphics cards know."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -41,16 +45,24 @@ class LayerPicture:
 
 
 def layer_pictures(
-    artwork: Artwork, moving: Sequence[int], *, most_pixels: int = MAX_SHOWN_PIXELS
+    artwork: Artwork,
+    moving: Sequence[int],
+    *,
+    most_pixels: int = MAX_SHOWN_PIXELS,
+    longest: int = _LONGEST,
+    blends: Sequence[Blend] = SHOWN_BLENDS,
 ) -> tuple[LayerPicture, ...]:
     """The visible layers of an artwork as pictures, from back to front.
 
-    Laid over one another they give the artwork. An overlay becomes a normal layer of the colours that it gives at rest.
+    Laid over one another they give the artwork. A layer of another mode than ``blends`` becomes a normal one of the
+    colours that it gives at rest.
 
     Args:
         artwork: the layers.
         moving: indices of the layers that move, which are blended normally.
         most_pixels: of all pictures together.
+        longest: side of a picture at most [px].
+        blends: modes that whoever shows the pictures knows, normal among them.
     """
     shown = [(index, _box(artwork, layer)) for index, layer in enumerate(artwork.layers) if layer.visible]
     boxes = {index: box for index, box in shown if box is not None}
@@ -58,9 +70,17 @@ def layer_pictures(
     scale = min(1.0, math.sqrt(most_pixels / max(total, 1)))
     step = int(0.7 / scale)
     if step > 1:  # much smaller: some pixels of each place are enough, and large canvases take no memory
-        coarse = layer_pictures(_thinned(artwork, step), moving, most_pixels=most_pixels)
+        coarse = layer_pictures(
+            _thinned(artwork, step), moving, most_pixels=most_pixels, longest=longest, blends=blends
+        )
         return tuple(replace(each, box=_times(each.box, step)) for each in coarse)
-    return tuple(_picture(artwork, index, box, scale, moves=index in moving) for index, box in boxes.items())
+
+    def drawn(index: int, box: tuple[int, int, int, int]) -> LayerPicture:
+        blend: Blend = "normal" if index in moving else artwork.layers[index].blend
+        known = blend if blend in blends else None
+        return _picture(artwork, index, box, min(scale, longest / max(box[2:])), blend=known)
+
+    return tuple(drawn(index, box) for index, box in boxes.items())
 
 
 def _thinned(artwork: Artwork, step: int) -> Artwork:
@@ -89,20 +109,18 @@ def _box(artwork: Artwork, layer: ArtLayer) -> tuple[int, int, int, int] | None:
     x, y, across, down = cv2.boundingRect((alpha > 0).astype(np.uint8))
     if not across:
         return None
-    return x0 + x - _MARGIN, y0 + y - _MARGIN, across + 2 * _MARGIN, down + 2 * _MARGIN
+    return x0 + x - MARGIN, y0 + y - MARGIN, across + 2 * MARGIN, down + 2 * MARGIN
 
 
 def _picture(
-    artwork: Artwork, index: int, box: tuple[int, int, int, int], scale: float, *, moves: bool
+    artwork: Artwork, index: int, box: tuple[int, int, int, int], scale: float, *, blend: Blend | None
 ) -> LayerPicture:
     layer = artwork.layers[index]
-    blend = "normal" if moves else layer.blend
     pixels = _cut(layer, box)
-    if blend == "overlay":
-        inside = slice(_MARGIN, -_MARGIN)
+    if blend is None:
+        inside = slice(MARGIN, -MARGIN)
         pixels[inside, inside, :3], blend = _laid_over(artwork, index, box), "normal"
     pixels[..., 3] = np.rint(pixels[..., 3] * np.float32(layer.opacity)).astype(np.uint8)
-    scale = min(scale, _LONGEST / max(box[2:]))
     if scale < 1:
         pixels = _scaled(pixels, max(1, round(box[2] * scale)), max(1, round(box[3] * scale)))
     return LayerPicture(index, pixels, box, blend)
@@ -112,8 +130,8 @@ def _cut(layer: ArtLayer, box: tuple[int, int, int, int]) -> NDArray[np.uint8]:
     """The pixels of a layer in a box, transparent outside of the layer and around the margin, uint8."""
     left, top, width, height = box
     cut = np.zeros((height, width, 4), dtype=np.uint8)
-    x0, y0 = max(left + _MARGIN, layer.left), max(top + _MARGIN, layer.top)
-    x1, y1 = left + width - _MARGIN, top + height - _MARGIN
+    x0, y0 = max(left + MARGIN, layer.left), max(top + MARGIN, layer.top)
+    x1, y1 = left + width - MARGIN, top + height - MARGIN
     pixels = layer.pixels[y0 - layer.top : y1 - layer.top, x0 - layer.left : x1 - layer.left]
     if pixels.dtype != np.uint8:
         pixels = np.rint(pixels / np.float32(257)).astype(np.uint8)
@@ -125,7 +143,7 @@ def _laid_over(artwork: Artwork, index: int, box: tuple[int, int, int, int]) -> 
     """The colours that a layer gives at full opacity over what is below it, uint8, shape [h, w, 3] without margin."""
     from .artwork import flattened
 
-    left, top, width, height = box[0] + _MARGIN, box[1] + _MARGIN, box[2] - 2 * _MARGIN, box[3] - 2 * _MARGIN
+    left, top, width, height = box[0] + MARGIN, box[1] + MARGIN, box[2] - 2 * MARGIN, box[3] - 2 * MARGIN
     below = tuple(
         replace(layer, left=layer.left - left, top=layer.top - top) for layer in artwork.layers[:index] if layer.visible
     )

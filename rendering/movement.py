@@ -8,11 +8,14 @@ from typing import Any
 
 from ..physics.document import arranged_for, given_scene, materials_of
 from ..physics.errors import InvalidInputError
-from ..physics.scene import Attachment, Scene, automatic_scene
+from ..physics.scene import Attachment, Scene, automatic_scene, held_where_said
 from .options import DEFAULT_FRAME_RATE, AutomaticWind, Timing
 from .parts import OF_STRANDS, Parts
+from .physics_options import PhysicsOptions
 
 __all__ = ["Movement"]
+
+_USUAL_WIND, _USUAL_TIMING, _USUAL_PHYSICS = AutomaticWind(), Timing(), PhysicsOptions()
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,13 +32,29 @@ class Movement:
         pixel_art: whole pixels move, through whose blocks no slit goes.
     """
 
-    preset: str | Sequence[str] | None
-    sway: float | None
-    attach: Attachment
-    wind: AutomaticWind
-    timing: Timing
-    strands: bool | None
-    pixel_art: bool
+    preset: str | Sequence[str] | None = None
+    sway: float | None = None
+    attach: Attachment = "auto"
+    wind: AutomaticWind = _USUAL_WIND
+    timing: Timing = _USUAL_TIMING
+    strands: bool | None = None
+    pixel_art: bool = False
+
+    def staged(
+        self, parts: Parts, scene: Scene | Mapping[str, Any] | None = None, physics: PhysicsOptions = _USUAL_PHYSICS
+    ) -> tuple[Parts, Scene]:
+        """The parts, slit where that suits them, and all that acts on them, held where that is said.
+
+        Args:
+            parts: of the illustration.
+            scene: with a body for each part, or a checked document; None for one that is made for them.
+            physics: what is otherwise than materials and the scene say.
+        """
+        parts, whole = self.automatic(parts) if scene is None else self.given(parts, scene)
+        whole = replace(whole, still=parts.still) if parts.still else whole
+        whole = physics.applied(whole, sway=self.sway)
+        loop = self.timing.loop
+        return parts, held_where_said(parts.covered(whole if loop is None else replace(whole, loop=loop)))
 
     def automatic(self, parts: Parts) -> tuple[Parts, Scene]:
         """The parts, slit where that suits them, and the scene where none is given."""

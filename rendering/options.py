@@ -108,7 +108,8 @@ class Watch:
     """Who hears of the work while it is done.
 
     Attributes:
-        progress: called as the stages "simulate" and those of the frames advance.
+        progress: called as the stages "mesh", "simulate" and those of the frames advance, and with "prepare" while the
+            illustration is still being taken apart after the simulation.
         on_cut: called with the masks that were cut from points, before anything is made of them.
         on_scene: called with the scene before it is simulated.
         on_note: called with a sentence about what is not as somebody may expect it, such as a layer that cannot move.

@@ -11,11 +11,14 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from ..physics.beside import side_by_side
 from ..physics.document import LayerMasks, order_of_layers
 from ..physics.errors import InvalidInputError
+from ..physics.interruption import checkpoint
 from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
+from ..physics.progress import Progress
 from ..physics.scene import Body, Held, Scene
 from .composite import (
     LayeredRenderer,
@@ -72,6 +75,7 @@ class Parts:
         layer_mask: gives the mask of the still layer of a name, or refuses it; None where there are no layers.
         notes: a sentence for each layer that stands still against its name.
         order: names of layers that somebody put in another order than the file's, from back to front.
+        needs_motion: whether the renderer must know the motion when it is made.
     """
 
     image: Image
@@ -88,6 +92,12 @@ class Parts:
     layer_mask: LayerMasks | None = None
     notes: tuple[str, ...] = ()
     order: tuple[str, ...] = ()
+    needs_motion: bool = True
+
+    def drawn_at_rest(self, scene: Scene) -> LayeredRenderer | PixelArtRenderer:
+        """What draws the bodies of a scene as they are in the drawing; made without their motion."""
+        rest = np.concatenate([body.mesh.vertices for body in scene.bodies]).astype(np.float32)
+        return self.renderer(Motion(scene.bodies, rest[None], scene.frame_rate))
 
     def covered(self, scene: Scene) -> Scene:
         """The scene with what is in front of its bodies and behind them, in the order of the parts."""
@@ -137,6 +147,7 @@ def parts_of_picture(
     plate: Image | None,
     in_front: Mask | None,
     pixel_art: bool,
+    progress: Progress | None = None,
 ) -> Parts:
     """Parts that masks show in a flat picture.
 
@@ -149,6 +160,7 @@ def parts_of_picture(
         in_front: mask of what stands still in front of all parts, 0 to 1, shape [h, w]; None for nothing. Parts go on
             behind it.
         pixel_art: see :class:`PixelArtRenderer`.
+        progress: called before the first part and after each with (parts done, parts); may raise to stop.
 
     Raises:
         InvalidInputError: a mask gives no mesh.
@@ -161,10 +173,17 @@ def parts_of_picture(
         return renderer_of(image, masks, motion, plate=plate, pixel_art=pixel_art, in_front=in_front)
 
     seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
-    meshes = tuple(_meshed(mask, spacing, name, seen) for mask, name in zip(masks, names, strict=True))
-    count = len(masks)
+    count, meshes = len(masks), list[TriangleMesh]()
+    report = progress or (lambda _done, _total: None)
+    report(0, count)
+    for mesh in side_by_side(lambda mask, name: _meshed(mask, spacing, name, seen), masks, names):
+        meshes.append(mesh)
+        report(len(meshes), count)
     nothing, guessed = (None,) * count, tuple[Held, ...](["auto"] * count)
-    return Parts(image, tuple(masks), meshes, ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer)
+    found = Parts(
+        image, tuple(masks), tuple(meshes), ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer
+    )
+    return replace(found, needs_motion=pixel_art)
 
 
 def parts_of_artwork(
@@ -304,6 +323,7 @@ def coverage(name: str, mask: Mask, image: Image) -> Mask:
 def _meshed(
     part: Mask, spacing: float | None, name: str, image: Image | None, across: int | None = None
 ) -> TriangleMesh:
+    checkpoint()
     with about(name):
         if image is None:
             fineness: dict[str, Any] = {} if across is None else {"elements_across": across}

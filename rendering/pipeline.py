@@ -1,8 +1,10 @@
 """The whole way from an illustration to its animation, without a host.
 
-picture = load_image("girl.png")
-mask = load_mask("hair.png", width=picture.shape[1], height=picture.shape[0])
-animate(picture, [mask], preset="hair").save("girl.mp4")
+In short::
+
+    picture = load_image("girl.png")
+    mask = load_mask("hair.png", width=picture.shape[1], height=picture.shape[0])
+    animate(picture, [mask], preset="hair").save("girl.mp4")
 """
 
 from __future__ import annotations
@@ -14,12 +16,13 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import NDArray
 
 from ..physics.assembly import work_of_minutes
+from ..physics.beside import Beside
 from ..physics.document import LayerMasks, check_document
 from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
 from ..physics.process_end import working
-from ..physics.scene import Attachment, Collider, Contact, Scene, held_where_said
-from ..physics.simulation import simulate
+from ..physics.scene import Attachment, Collider, Contact, Scene
+from ..physics.simulation import begin_aside, simulate, simulated_beside
 from .animation import Animation, timed
 from .drawing_checks import check_drawing
 from .flat_pictures import FlatPicture
@@ -27,12 +30,14 @@ from .movement import Movement
 from .neural import NetworkOptions
 from .neural.checking import check_networks
 from .options import AutomaticWind, LayerChoice, Timing, Touching, Watch
-from .parts import coverage, parts_of_artwork
+from .parts import Parts, coverage, parts_of_artwork
 from .physics_options import PhysicsOptions
 from .stages import stage_of
 
 if TYPE_CHECKING:
+    from ..physics.motion import Motion
     from .artwork import Artwork
+    from .composite import LayeredRenderer, PixelArtRenderer
 
 __all__ = ["animate"]
 
@@ -131,36 +136,67 @@ def animate(
             check_networks(networks)
     if isinstance(image, Artwork):
         _check_layers_alone(masks=masks, points=points, plate=plate, in_front=in_front, pixel_art=pixel_art or None)
+        if watch.progress is not None:
+            watch.progress("mesh", 0, 1)
         with timed(seconds, "mesh"):
             said = None if isinstance(scene, Scene) else scene
             parts = parts_of_artwork(image, move=layers.move, still=layers.still, spacing=spacing, document=said)
+            if watch.progress is not None:
+                watch.progress("mesh", 1, 1)
     else:
         flat = FlatPicture.of(image, masks, points, plate, in_front)
         _colliders(touching.colliders, flat.image)
+        if not pixel_art:
+            begin_aside()
         with timed(seconds, "segment"):
             cut = flat.cut(networks, watch)
         with timed(seconds, "mesh"):
-            parts = flat.parts(cut, spacing=spacing, pixel_art=pixel_art)
+            parts = flat.parts(cut, spacing=spacing, pixel_art=pixel_art, progress=stage_of("mesh", watch.progress))
     if watch.on_note is not None:
         for note in parts.notes:
             watch.on_note(note)
     with timed(seconds, "scene"):
         how = Movement(preset, sway, attach, wind, timing, strands, pixel_art)
-        parts, whole = how.automatic(parts) if scene is None else how.given(parts, scene)
-        whole = replace(whole, still=parts.still) if parts.still else whole
-        whole = physics.applied(whole, sway=sway)
-        whole = held_where_said(parts.covered(whole if timing.loop is None else replace(whole, loop=timing.loop)))
+        parts, whole = how.staged(parts, scene, physics)
         timing = timing.settled(whole)
         _check_length(timing, whole, networks)
         whole = _touching(whole, touching.contact, _colliders(touching.colliders, parts.image, parts.layer_mask))
     if watch.on_scene is not None:
         watch.on_scene(whole)
-    with timed(seconds, "simulate"):
-        hears = stage_of("simulate", watch.progress)
-        motion = simulate(whole, frames=timing.frames, progress=hears, max_minutes=max_minutes)
-    with timed(seconds, "prepare"):
-        renderer = parts.renderer(motion)
+    motion, renderer = _simulated(parts, whole, timing, max_minutes, watch, seconds)
     return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds, parts.own, networks)
+
+
+def _simulated(
+    parts: Parts, scene: Scene, timing: Timing, max_minutes: float, watch: Watch, seconds: dict[str, float]
+) -> tuple[Motion, LayeredRenderer | PixelArtRenderer]:
+    """The motion, and what draws it; the illustration is taken apart meanwhile where that can be done without it."""
+    hears = stage_of("simulate", watch.progress)
+    if parts.needs_motion:
+        with timed(seconds, "simulate"):
+            motion = simulate(scene, frames=timing.frames, progress=hears, max_minutes=max_minutes)
+        with timed(seconds, "prepare"):
+            return motion, parts.renderer(motion)
+
+    def advance(done: int, total: int) -> None:
+        drawing.check()
+        if hears is not None:
+            hears(done, total)
+
+    drawing = Beside(lambda: parts.drawn_at_rest(scene))
+
+    def wait() -> None:
+        if watch.progress is not None:
+            watch.progress("prepare", 0, 1)
+
+    with simulated_beside(), drawing:
+        with timed(seconds, "simulate"):
+            motion = simulate(scene, frames=timing.frames, progress=advance, max_minutes=max_minutes)
+        with timed(seconds, "prepare"):
+            waited, renderer = not drawing.ended, drawing.result(meanwhile=wait)
+            if waited and watch.progress is not None:
+                watch.progress("prepare", 1, 1)
+            return motion, renderer.showing(motion)  # type: ignore[union-attr]
 
 
 def _check_length(timing: Timing, scene: Scene, networks: NetworkOptions) -> None:

@@ -52,6 +52,7 @@ MAY_IMPORT = {
     "rendering/composite": (
         "physics physics/mesh physics/motion rendering/artwork rendering/matting rendering/pictures rendering/plate"
     ),
+    "rendering/export": "physics physics/mesh rendering/artwork rendering/files rendering/pictures",
     "rendering/overlays": (
         "physics physics/forces physics/mesh physics/motion physics/rig physics/scene rendering/pictures"
     ),
@@ -79,9 +80,9 @@ MAY_IMPORT = {
     ),
     "rendering": (
         "physics physics/assembly physics/document physics/material physics/mesh physics/motion physics/rig "
-        "physics/scene physics/simulation rendering/artwork rendering/composite rendering/files rendering/inbetweens "
-        "rendering/matting rendering/neural rendering/overlays rendering/pictures rendering/segmentation "
-        "rendering/sketch"
+        "physics/scene physics/simulation rendering/artwork rendering/composite rendering/export rendering/files "
+        "rendering/inbetweens rendering/matting rendering/neural rendering/overlays rendering/pictures "
+        "rendering/segmentation rendering/sketch"
     ),
     "rendering/training": (
         "__init__ physics physics/forces physics/material physics/motion physics/scene rendering "
@@ -90,7 +91,9 @@ MAY_IMPORT = {
     ),
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
-        "physics/scene rendering rendering/artwork rendering/composite rendering/figures rendering/files "
+        "physics/scene physics/simulation rendering rendering/artwork rendering/composite rendering/export "
+        "rendering/figures "
+        "rendering/files "
         "rendering/inbetweens rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "
         "rendering/segmentation rendering/training"
     ),
@@ -100,8 +103,9 @@ MAY_IMPORT = {
         "rendering/pictures"
     ),
     "nodes/preview": (
-        "physics physics/assembly physics/document physics/forces physics/motion physics/rig physics/runtime "
-        "physics/scene physics/simulation rendering rendering/composite rendering/pictures rendering/plate"
+        "nodes/host physics physics/assembly physics/document physics/forces physics/mesh physics/motion physics/rig "
+        "physics/runtime physics/scene physics/simulation rendering rendering/composite rendering/pictures "
+        "rendering/plate rendering/segmentation"
     ),
     "nodes/models": (
         "nodes/host physics rendering/composite rendering/inbetweens rendering/inpainting rendering/networks "
@@ -159,8 +163,9 @@ def room_of(module: str) -> str:
 
 
 def sources() -> list[Path]:
+    """All but those that draw and build the documentation, which is no part of the package."""
     inside = [path for house in HOUSES for path in (ROOT / house).rglob("*.py")]
-    return sorted([*ROOT.glob("*.py"), *inside])
+    return sorted([*ROOT.glob("*.py"), *(path for path in inside if not path.is_relative_to(ROOT / "nodes" / "docs"))])
 
 
 @lru_cache

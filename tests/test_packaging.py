@@ -74,7 +74,7 @@ def metadata(wheel: Path) -> Message:
 
 def _packages() -> list[Path]:
     inner = [path.parent for room in ("nodes", "physics", "rendering") for path in (ROOT / room).rglob("__init__.py")]
-    return [ROOT, ROOT / "workflows", *inner]
+    return [ROOT, ROOT / "workflows", *(each for each in inner if "docs" not in each.relative_to(ROOT).parts)]
 
 
 def test_wheel_holds_every_module(names: set[str]) -> None:
@@ -85,7 +85,7 @@ def test_wheel_holds_every_module(names: set[str]) -> None:
 def test_wheel_holds_all_data(names: set[str]) -> None:
     files = [path for pattern in DATA for path in ROOT.glob(pattern) if path.suffix in DATA_SUFFIXES]
     expected = {f"physanimator/{path.relative_to(ROOT).as_posix()}" for path in files}
-    expected.discard("physanimator/workflows/example/README.md")
+    expected -= {f"physanimator/workflows/example/{name}" for name in ("README.md", "demo.webp", "illustration.svg")}
     assert {name for name in names if not name.endswith(".py")} == expected
     assert "physanimator/physics/document/scene.schema.json" in names
     assert {name for name in names if name.startswith("physanimator/nodes/web/")}
@@ -93,9 +93,32 @@ def test_wheel_holds_all_data(names: set[str]) -> None:
 
 
 def test_wheel_holds_nothing_stray(names: set[str]) -> None:
-    stray = re.compile(r"physanimator/(tests|frames)/|__pycache__|\.pyc$|/\.|notes\.txt|pyproject|\.ci")
+    stray = re.compile(r"physanimator/(tests|frames|nodes/docs)/|__pycache__|\.pyc$|/\.|notes\.txt|pyproject|\.ci")
     assert [name for name in names if stray.search(name)] == []
     assert all(name.startswith("physanimator/") for name in names)
+
+
+def test_the_installed_wheel_animates_the_example(wheel: Path, tmp_path: Path) -> None:
+    """By pip's own script, in an environment that lends all but this package from the one that tests."""
+    environment = tmp_path / "environment"
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", environment], check=True)
+    scripts = environment / ("Scripts" if os.name == "nt" else "bin")
+    site = _asked(scripts / "python", "import sysconfig; print(sysconfig.get_path('purelib'))")
+    lent = "\n".join(path for path in sys.path if Path(path).name in {"site-packages", "dist-packages"})
+    Path(site, "lent.pth").write_text(lent, encoding="utf-8")
+    pip = [sys.executable, "-m", "pip", "--python", scripts / "python", "install", "--no-deps", "--no-index"]
+    subprocess.run([*pip, "--quiet", "--disable-pip-version-check", "--ignore-installed", wheel], check=True)
+    assert Path(_asked(scripts / "python", "import physanimator; print(physanimator.__file__)")).is_relative_to(site)
+    command = [scripts / "physanimator", "demo", "--frames", "3", "--width", "160", "--output", "demo.mp4", "--quiet"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "demo.mp4").stat().st_size > 1000
+
+
+def _asked(python: Path, code: str) -> str:
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    done = subprocess.run([python, "-c", code], capture_output=True, text=True, check=True, env=environment)
+    return done.stdout.strip()
 
 
 def test_wheel_runs_where_it_lies(wheel: Path, tmp_path: Path) -> None:

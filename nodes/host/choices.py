@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from ...physics.errors import InvalidInputError
 from .literals import refusal
+from .one_line import Check, OneLine
 from .running import sent_inputs
 
 __all__ = ["OPEN", "check_choices", "check_values", "checked"]
@@ -60,7 +61,9 @@ def checked(node: Any) -> Any:
     node.execute = classmethod(_checking_execution(vars(node)["execute"].__func__))
     own = vars(node).get("validate_inputs")
     if own is not None or any(kind == _DYNAMIC for kind, _ in _described(node.INPUT_TYPES())):
-        node.validate_inputs = classmethod(_checking_validation(own.__func__ if own is not None else None))
+        function = own.__func__ if own is not None else None
+        subjects = () if function is None else tuple(signature(function).parameters)[1:]
+        node.validate_inputs = OneLine(node.define_schema().node_id, _validation(function), subjects)
     return node
 
 
@@ -127,20 +130,21 @@ def _checking_execution(inner: Callable[..., Any]) -> Callable[..., Any]:
     return execute
 
 
-def _checking_validation(inner: Callable[..., Any] | None) -> Callable[..., Any]:
-    def validate_inputs(cls: Any, **values: Any) -> bool | str:
-        described, sent = cls.INPUT_TYPES(), sent_inputs()
-        unknown = refusal(lambda: check_choices(described, values, sent), lambda: check_values(described, values, sent))
-        # The node's own sentences know better than the bounds of a widget.
-        own = True if inner is None or unknown is not True else inner(cls, **_taken(inner, values))
-        said = next((each for each in (unknown, own) if each is not True), True)
-        said = refusal(lambda: check_values(described, values, sent, bounded=True)) if said is True else said
-        if said is not True and not values:
-            # The host names an answer after the inputs that it handed over, and drops it where there were none.
-            raise InvalidInputError(str(said))
-        return said
+def _validation(inner: Callable[..., Any] | None) -> Check:
+    """All that is asked of a node's typed values before it runs: True, or the first sentence of refusal."""
 
-    return validate_inputs
+    def said(node: Any, values: Mapping[str, Any], sent: Mapping[str, Any] | None) -> bool | str:
+        described = node.INPUT_TYPES()
+        unknown = refusal(lambda: check_choices(described, values, sent), lambda: check_values(described, values, sent))
+        if unknown is not True:
+            return unknown
+        # The node's own sentences know better than the bounds of a widget.
+        own = True if inner is None else inner(node, **_taken(inner, values))
+        if own is not True:
+            return own
+        return refusal(lambda: check_values(described, values, sent, bounded=True))
+
+    return said
 
 
 def _taken(function: Callable[..., Any], values: Mapping[str, Any]) -> dict[str, Any]:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from collections import deque
 from typing import Any
 
-__all__ = ["checked_document"]
+__all__ = ["canonical_text", "checked_document"]
 
 _passed: deque[bytes] = deque(maxlen=256)
 """Digests of texts that hold a right document."""
@@ -28,3 +29,28 @@ def checked_document(text: str) -> dict[str, Any]:
         check_document(document)
         _passed.append(digest)
     return document
+
+
+def canonical_text(text: str) -> str:
+    """A scene document in one spelling: without spaces, keys in order, 1.0 as 1; as it is where it cannot be read.
+
+    The host knows by a node's text whether it has to run again.
+    """
+    from ...physics.document import read_json
+    from ...physics.errors import PhysAnimatorError
+
+    try:
+        document: Any = read_json(text)
+        return json.dumps(_plain(document), sort_keys=True, separators=(",", ":"))
+    except (PhysAnimatorError, RecursionError):
+        return text
+
+
+def _plain(value: Any) -> Any:
+    """Whole numbers as such, which JSON may write in several ways."""
+    if isinstance(value, dict):
+        return {key: _plain(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [_plain(each) for each in value]
+    whole = isinstance(value, float) and value.is_integer() and abs(value) < 2**53
+    return int(value) if whole else value

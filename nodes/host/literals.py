@@ -10,7 +10,7 @@ from ...physics.errors import InvalidInputError, PhysAnimatorError, require
 
 __all__ = ["PATH_FORMS", "boxes_of", "chosen", "keys_of", "numbers_of", "refusal", "times_of", "whole_numbers_of"]
 
-PATH_FORMS = 'as JSON: [[x, y], ...] or [{"x": .., "y": ..}, ...], as spline editors write it.'
+PATH_FORMS = "as JSON: [[x, y], ...], or objects with x and y, as spline editors write it."
 """How a tooltip says what may be typed for a path."""
 
 

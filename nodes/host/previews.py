@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import secrets
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io, ui
 
+from .tensors import batch_of_pictures
+
 if TYPE_CHECKING:
     import torch
+    from numpy.typing import NDArray
 
-__all__ = ["animated"]
+__all__ = ["animated", "saved_picture"]
 
 
 def animated(frames: torch.Tensor, frame_rate: float) -> ui.SavedImages:
@@ -31,3 +34,15 @@ def animated(frames: torch.Tensor, frame_rate: float) -> ui.SavedImages:
         method=0,
     )
     return ui.SavedImages([saved], is_animated=len(frames) > 1)
+
+
+def saved_picture(picture: NDArray[Any]) -> dict[str, Any]:
+    """Where the host keeps a picture for its page to fetch: RGB or straight RGBA, shape [h, w, 3] or [h, w, 4]."""
+    saved = ui.ImageSaveHelper.save_images(
+        batch_of_pictures([picture], 1),
+        filename_prefix=f"physanimator_{secrets.token_hex(4)}",
+        folder_type=io.FolderType.temp,
+        cls=None,
+        compress_level=1,
+    )
+    return dict(saved[0])

@@ -12,10 +12,12 @@ from collections.abc import Mapping
 from contextvars import ContextVar
 from typing import Any
 
-__all__ = ["context", "is_linked", "is_wanted", "not_made", "sent_inputs", "server", "watch_prompts"]
+__all__ = ["context", "is_linked", "is_wanted", "not_made", "posted_nodes", "sent_inputs", "server", "watch_prompts"]
 
 _posted: ContextVar[Mapping[str, Any] | None] = ContextVar("physanimator_posted", default=None)
 _watched: list[Any] = []
+_OURS, _SCENE = "PhysAnimator_", "scene"
+"""How the names of our nodes begin, and what those call their input that take a scene document."""
 
 
 def server() -> Any:
@@ -45,6 +47,17 @@ def sent_inputs() -> Mapping[str, Any] | None:
     prompt, node = _prompt(), context()
     found = None if prompt is None or node is None else prompt.get(str(node.node_id))
     return found.get("inputs") if isinstance(found, Mapping) else None
+
+
+def posted_nodes(node_id: str) -> list[Mapping[str, Any]]:
+    """The inputs of each node of a kind in the prompt that is being checked, as it gives them; none elsewhere.
+
+    Args:
+        node_id: of the kind.
+    """
+    nodes = (each for each in (_posted.get() or {}).values() if isinstance(each, Mapping))
+    inputs = (each.get("inputs") for each in nodes if each.get("class_type") == node_id)
+    return [each for each in inputs if isinstance(each, Mapping)]
 
 
 def is_wanted(output: int) -> bool:
@@ -87,7 +100,19 @@ def not_made(output: str) -> Any:
 def _remember(posted: Any) -> Any:
     prompt = posted.get("prompt") if isinstance(posted, Mapping) else None
     _posted.set(prompt if isinstance(prompt, Mapping) else None)
+    for node in (_posted.get() or {}).values():
+        _spell_alike(node)
     return posted
+
+
+def _spell_alike(node: Any) -> None:
+    """Give a scene document that is sent its one spelling: the host then knows a scene again that it has had."""
+    from .documents import canonical_text
+
+    kind, inputs = (node.get("class_type"), node.get("inputs")) if isinstance(node, Mapping) else ("", None)
+    text = inputs.get(_SCENE) if isinstance(inputs, dict) else None
+    if isinstance(text, str) and text.strip() and str(kind).startswith(_OURS):
+        inputs[_SCENE] = canonical_text(text)
 
 
 def _prompt() -> Mapping[str, Any] | None:

@@ -34,6 +34,7 @@ __all__ = [
     "MeshWire",
     "MotionWire",
     "RigWire",
+    "SceneOrTextWire",
     "SceneWire",
     "SeeThroughWire",
     "StrokesWire",
@@ -59,6 +60,8 @@ ContactWire = io.Custom("PHYSANIMATOR_CONTACT")
 """Carries a Touch."""
 SceneWire = io.Custom("PHYSANIMATOR_SCENE")
 """Carries a MaskedScene."""
+SceneOrTextWire = io.Custom("PHYSANIMATOR_SCENE,STRING")
+"""Takes a MaskedScene, or the text of a scene document."""
 MotionWire = io.Custom("PHYSANIMATOR_MOTION")
 """Carries a MaskedMotion."""
 FlowWire = io.Custom("PHYSANIMATOR_FLOW")

@@ -40,7 +40,7 @@ def drawing_network_inputs() -> list[Any]:
             min=0,
             max=16384,
             tooltip="Longer side of the picture that the network looks at [px]; smaller gives fewer and bolder lines."
-            " 0: as the picture is.",
+            " 0: as the picture is; below 16 it is 16.",
         ),
         precision_input(),
     ]
@@ -69,7 +69,7 @@ def network_sketch(picture: NDArray[Any], choice: dict[str, Any], **kept: Any) -
     from comfy import model_management
 
     from ...physics.errors import InvalidInputError
-    from ...rendering.sketch.drawings.extractor import STRIP_PIXELS, draw_sketch
+    from ...rendering.sketch.drawings.extractor import LEAST_SIDE, STRIP_PIXELS, draw_sketch
     from ...rendering.sketch.drawings.models import load_drawer
 
     path = _file(choice["model"])
@@ -77,10 +77,12 @@ def network_sketch(picture: NDArray[Any], choice: dict[str, Any], **kept: Any) -
         raise InvalidInputError(missing_drawing_file(choice))
     device = model_management.get_torch_device()
     dtype = dtype_of(choice["precision"], device)
+    # A widget has no gap between 0, which takes the picture as it is, and the least.
+    side = max(choice["working_size"], LEAST_SIDE) if choice["working_size"] else 0
     key = path, path.stat().st_mtime, dtype
     networks = kept_networks("line drawings", key, lambda: load_drawer(path, dtype=dtype))
     with networks.at_work(device, [networks.held], working_bytes=STRIP_PIXELS * _BYTES_A_PIXEL):
-        return draw_sketch(picture, networks.held, working_size=choice["working_size"], **kept)
+        return draw_sketch(picture, networks.held, working_size=side, **kept)
 
 
 def _choices() -> list[str]:

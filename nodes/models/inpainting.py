@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics.errors import InvalidInputError, require
+from ...physics.errors import InvalidInputError, counted, require
 from ...rendering.composite import Background
 from ...rendering.inpainting import InpaintingOptions
 from ...rendering.neural.soft_inpainting import Change, changes_of_holes, painted_frames
@@ -92,7 +92,7 @@ def _change(layers: LayeredRenderer, choice: dict[str, Any]) -> Change:
             )
         return changes_of_holes(layers, grow=choice["grow"], soft_edge=choice["soft_edge"])
     count, frames = given.shape[0] if given.ndim == 3 else 1, len(layers)
-    require("change", f"{count} masks", count in (1, frames), f"one mask, or one for each of {frames} frames")
+    require("change", counted(count, "mask"), count in (1, frames), f"one mask, or one for each of {frames} frames")
     got, size = mask_of(given, name="change").shape, layers.plate.shape[:2]
     expected = f"of the illustration's size, {size[1]} x {size[0]} px"
     require("change", f"{got[1]} x {got[0]} px", got == size, expected)

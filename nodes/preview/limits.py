@@ -11,6 +11,9 @@ __all__ = [
     "MAX_LISTS",
     "MAX_NESTING",
     "MAX_OBJECTS",
+    "MAX_PICKED_PIXELS",
+    "MAX_PICKED_POINTS",
+    "MAX_PICKED_SIZE",
     "MAX_PREVIEW_CROSSINGS",
     "MAX_PREVIEW_CROWDING",
     "MAX_PREVIEW_MASK_PIXELS",
@@ -89,3 +92,12 @@ MAX_SHOWN_PARTICLES = 2_048
 
 MAX_STORED_BYTES = 512 * 2**20
 """Memory for the bodies that previews can be made of; beyond, those that were not used for longest are forgotten."""
+
+MAX_PICKED_PIXELS = 2**24
+"""Pixels of a picture that is cut while somebody clicks."""
+
+MAX_PICKED_POINTS = 400
+"""Points of all parts of such a picture together."""
+
+MAX_PICKED_SIZE = 2**27
+"""Pixels of the masks of all parts of such a picture together."""

@@ -9,7 +9,7 @@ from typing import Any
 
 from ...physics.checks import is_whole
 from ...physics.document import LayerMasks, read_json
-from ...physics.errors import InvalidInputError, require
+from ...physics.errors import InvalidInputError, counted, require
 from ...physics.limits import MAX_SIDE
 from ...physics.scene import Body, Scene
 from ...physics.simulation import loop_frames
@@ -35,7 +35,7 @@ from .limits import (
     MAX_VALUES,
 )
 
-__all__ = ["PreviewRequest", "document_points", "is_key", "preview_scene", "read_request"]
+__all__ = ["PreviewRequest", "document_points", "is_key", "preview_scene", "read_bounded", "read_request"]
 
 _COARSER = "paint on a coarser mask"
 _FIELDS = {"editor", "key", "scene", "frames"}
@@ -71,10 +71,7 @@ def read_request(body: bytes) -> PreviewRequest:
     Raises:
         InvalidInputError: it is no such request, or larger than the limits.
     """
-    require("the request", f"{len(body)} bytes", len(body) <= MAX_REQUEST_BYTES, f"at most {MAX_REQUEST_BYTES} bytes")
-    _require_few_signs(body)
-    data = read_json(body)
-    _require_small(data)
+    data = read_bounded(body)
     named = isinstance(data, dict) and set(data) == _FIELDS
     require("the request", _shown(data), named, f"an object with {', '.join(sorted(_FIELDS))}")
     editor, key, document, frames = (data[name] for name in ("editor", "key", "scene", "frames"))
@@ -82,14 +79,29 @@ def read_request(body: bytes) -> PreviewRequest:
     require("editor", _shown(editor), is_name, f"a text of 1 to {MAX_EDITOR_NAME} characters")
     require("key", _shown(key), is_key(key), "64 hexadecimal digits")
     require("scene", _shown(document), isinstance(document, dict), "a scene document, an object in braces")
-    counted = type(frames) is int and 1 <= frames <= MAX_FRAMES
-    require("frames", _shown(frames), counted, f"a whole number from 1 to {MAX_FRAMES}")
+    whole = type(frames) is int and 1 <= frames <= MAX_FRAMES
+    require("frames", _shown(frames), whole, f"a whole number from 1 to {MAX_FRAMES}")
     _require_few(document, "strokes", MAX_PREVIEW_STROKES)
     _require_few(document, "rig_points", MAX_PREVIEW_RIG_POINTS)
     points, pixels = _count_points(document)
     _require_preview("points", points, MAX_PREVIEW_POINTS, "draw with fewer of them")
     _require_preview("pixels of painted masks", pixels, MAX_PREVIEW_MASK_PIXELS, _COARSER)
     return PreviewRequest(editor, key, document, frames)
+
+
+def read_bounded(body: bytes) -> Any:
+    """The JSON in the body of a POST.
+
+    Raises:
+        InvalidInputError: it is none, or larger, deeper or of more parts than the limits.
+    """
+    require(
+        "the request", counted(len(body), "byte"), len(body) <= MAX_REQUEST_BYTES, f"at most {MAX_REQUEST_BYTES} bytes"
+    )
+    _require_few_signs(body)
+    data = read_json(body)
+    _require_small(data)
+    return data
 
 
 def preview_scene(

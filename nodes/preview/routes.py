@@ -1,7 +1,7 @@
 """Routes of the host's server for the scene editor: meshes, and live previews by the real solver.
 
-Requests come from whoever reaches the server: only the host's own pages may use the routes, nothing in a request names
-a file, everything has a limit, and a simulation never runs on the thread that answers.
+Requests come from whoever reaches the server: only the host's own pages may use the routes, no request names a file but
+a picture of the host's own folders, everything has a limit, and nothing is cut or simulated on the thread that answers.
 """
 
 from __future__ import annotations
@@ -24,12 +24,14 @@ from ...physics.interruption import interruptible
 from .guard import BUSY, KEEP_NOTHING, Guard, body_of, hung_up, refused
 from .holds import found_holds
 from .limits import MAX_EDITORS, MAX_REQUEST_BYTES
+from .picking import Picker, read_pick
 from .plates import Plates, png_of
 from .queue import RecordQueue
 from .records import encode_mesh
 from .requests import PreviewRequest, document_points, is_key, preview_scene, read_request
 from .session import PreviewRun, PreviewRuns, stream
 from .store import PreviewBodies, PreviewStore
+from .turns import Turns
 
 __all__ = ["PreviewRoutes"]
 
@@ -62,6 +64,7 @@ class PreviewRoutes:
         self._guard = Guard()
         self._order = itertools.count()
         self._plates = Plates()
+        self._picker, self._turns = Picker(store, _EXAMPLE), Turns()
         # One thread for each editor's simulation and one for the one that it supersedes, and two for checking.
         self.threads = ThreadPoolExecutor(2 * MAX_EDITORS + 2, thread_name_prefix="physanimator-preview")
 
@@ -73,6 +76,7 @@ class PreviewRoutes:
         routes.get("/physanimator/holds/{key}/{attach}")(self._guard(self.holds))
         routes.post("/physanimator/preview")(self._guard(self.preview))
         routes.get("/physanimator/example")(self._guard(self.example))
+        routes.post("/physanimator/pick")(self._guard(self.pick))
         routes.post("/physanimator/warm-up")(self._guard(self.warm_up))
 
     def close(self) -> None:
@@ -151,6 +155,20 @@ class PreviewRoutes:
             run.cancel("The editor is gone.")
             self.runs.leave(run)
 
+    async def pick(self, request: web.Request) -> web.StreamResponse:
+        """The cut under the points of an editor, and what moves the parts; of an editor's requests the latest wins."""
+        order = next(self._order)
+        if request.content_type != "application/json":
+            return refused(415, "The request must have the content type application/json.")
+        body = await body_of(request)
+        if body is None:
+            return await hung_up(request, refused(413, f"At most {MAX_REQUEST_BYTES >> 20} MB can be asked at once."))
+        patience = _Patience(request)
+        wanted = await self._on_a_thread(patience, read_pick, body)
+        async with self._turns.of(wanted.editor, order) as turn:
+            found = await self._on_a_thread(_both(patience, turn.check), self._picker.answer, wanted)
+        return web.json_response(found, headers=KEEP_NOTHING)
+
     def _stored(self, request: web.Request) -> PreviewBodies | None:
         key = request.match_info["key"]
         return self.store.get(key) if is_key(key) else None
@@ -206,6 +224,16 @@ class _Patience:
             raise SimulationError(
                 "This takes too long to prepare for a live preview; draw with fewer points, or queue the graph."
             )
+
+
+def _both(*checks: Callable[[], None]) -> Callable[[], None]:
+    """All checks as one."""
+
+    def check() -> None:
+        for each in checks:
+            each()
+
+    return check
 
 
 async def _ended(simulating: asyncio.Future[None]) -> None:

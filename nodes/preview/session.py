@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...physics.assembly import Preparations, Prepare, Prepared, SwayPart
 from ...physics.errors import Cancelled, PhysAnimatorError
 from ...physics.interruption import interruptible
-from ...physics.scene import Scene
+from ...physics.scene import Holds, Scene
 from ...physics.simulation import compile_aside, first_frame, periodic, simulate_samples, simulated_aside
 from .limits import MAX_EDITORS, MAX_PREVIEW_WORK
 from .queue import RecordQueue
@@ -173,7 +173,9 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue, po
     prepared = run.wants
     acting = scene if scene.loop is None else periodic(scene)
     encoder = FrameEncoder(acting, frames=frames, first_frame=0 if scene.loop is None else first_frame(acting))
-    queue.put(record(HEADER, encoder.header(frames=frames, points=points)), run.check)
+    header = encoder.header(frames=frames, points=points)
+    header["unheld"] = [] if prepared is None or prepared.holds is None else _unheld(prepared.holds)
+    queue.put(record(HEADER, header), run.check)
 
     def send(number: int, positions: NDArray[np.float32]) -> None:
         nonlocal largest
@@ -199,6 +201,12 @@ def _streamed(scene: Scene, frames: int, run: PreviewRun, queue: RecordQueue, po
     stiffness = _stiffness(prepared.system.sway, len(scene.bodies))
     end = {"frames": frames, "seconds": seconds, "largest_displacement": largest, "stiffness": stiffness}
     return record(END, end)
+
+
+def _unheld(holds: Holds) -> list[int]:
+    """Numbers of the bodies that no rig point holds or leads: forces carry them away."""
+    held = zip(holds.leaders, holds.grips, strict=True)
+    return [number for number, (leaders, grips) in enumerate(held) if (leaders < 0).all() and not grips.any()]
 
 
 def _stiffness(sway: Sequence[SwayPart], count: int) -> list[float | None]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InvalidInputError
+from ..errors import InvalidInputError, counted
 from ..material import Material, with_values
 from ..material import preset as preset_of
 from ..mesh import TriangleMesh
@@ -51,8 +51,8 @@ def given_scene(
         scene = replace(_with_names(scene, names), absent=absent)
     if len(scene.bodies) != len(meshes):
         raise InvalidInputError(
-            f"scene must have one body for each of the {len(meshes)} {'moving layers' if any(names) else 'masks'}."
-            f" Got: {len(scene.bodies)} bodies"
+            f"scene must have {counted(len(meshes), 'body')}, one for each {'moving layer' if any(names) else 'mask'}."
+            f" Got: {counted(len(scene.bodies), 'body')}"
         )
     if (scene.width, scene.height) != (meshes[0].width, meshes[0].height):
         scene = scene.rescaled(meshes[0].width, meshes[0].height)

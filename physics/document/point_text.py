@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidInputError, require, shown
+from ..errors import InvalidInputError, counted, require, shown
 from ..limits import MAX_PARTS, MAX_POINTS, MAX_QUERY_POINTS
 from ..scene import QueryPoint
 from .point_syntax import POINT_FORMS, decoded
@@ -66,7 +66,7 @@ def parse_points(points: str | Sequence[Any] | Mapping[str, Any], *, width: int,
     else:
         found = _listed([data] if isinstance(data, Mapping) else data, "points")
         require_pixels("points", [(point.x, point.y) for point in found], instead=_INSTEAD)
-    require("points", f"{len(found)} points", len(found) <= MAX_QUERY_POINTS, f"at most {MAX_QUERY_POINTS}")
+    require("points", counted(len(found), "point"), len(found) <= MAX_QUERY_POINTS, f"at most {MAX_QUERY_POINTS}")
     for index, point in enumerate(found):
         if not (0 <= point.x <= width and 0 <= point.y <= height):
             raise InvalidInputError(
@@ -99,7 +99,7 @@ def parse_polyline(
     """
     items = _one_spline(decoded(path, name), name)
     require(name, "no points", len(items) > 0, "at least one point")
-    require(name, f"{len(items)} points", len(items) <= MAX_POINTS, f"at most {MAX_POINTS} points")
+    require(name, counted(len(items), "point"), len(items) <= MAX_POINTS, f"at most {MAX_POINTS} points")
     found = [_coordinates(item, f"{name}[{index}]") for index, item in enumerate(items)]
     if len(found) > 1 and not offsets:
         require_pixels(name, found, instead=_INSTEAD)
@@ -135,7 +135,7 @@ def _one_spline(items: Any, name: str) -> Sequence[Any]:
         items = [decoded(item, name) if _is_wrapped(item) else item for item in items]
         if not items or not all(_is_spline(item) for item in items):
             return items
-        require(name, f"{len(items)} paths", len(items) == 1, "one path")
+        require(name, counted(len(items), "path"), len(items) == 1, "one path")
         items = items[0]
     raise InvalidInputError(f"{name} must be a list of points such as {POINT_FORMS}. Got: lists within lists")
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..checks import numbers_of
-from ..errors import InvalidInputError, require
+from ..errors import InvalidInputError, counted, require
 from ..limits import LEAST_FACTOR, MOST_FACTOR
 
 __all__ = ["MOST_KEYS", "Key", "Travel", "checked_keys", "factors"]
@@ -39,7 +39,7 @@ def checked_keys(name: str, keys: Sequence[Key], *, positive: bool = False) -> t
     expected = "pairs of a share of the path and a factor"
     if not isinstance(keys, tuple | list | np.ndarray):
         raise InvalidInputError(f"{name} must be {expected}. Got: {keys!r:.60}")
-    require(name, f"{len(keys)} keys", len(keys) <= MOST_KEYS, f"at most {MOST_KEYS} keys")
+    require(name, counted(len(keys), "key"), len(keys) <= MOST_KEYS, f"at most {MOST_KEYS} keys")
     pairs = [numbers_of(name, key, expected) for key in keys]
     if not all(len(pair) == 2 for pair in pairs):
         raise InvalidInputError(f"{name} must be {expected}. Got: {keys!r:.60}")

@@ -149,7 +149,7 @@ class Material:
         ),
         Input(
             "How many times as far as drawn a point gets from where the part is held, at most [1]: 1.06 hardly"
-            " stretches and yet bends; 0 for no limit.",
+            " stretches and yet bends; 0 for no limit, and below 1 it is 1.",
             0.0,
             10.0,
             step=0.01,

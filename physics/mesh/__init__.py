@@ -6,16 +6,18 @@ from .boundary import boundary_edges, half_edges, on_boundary
 from .contours import area_of, contours_at_half, resampled
 from .cutting import cut_along
 from .masks import coverage_of, fitted, may_be_inverted, refuse_noise
-from .meshing import mesh_from_mask
+from .meshing import LEAST_SPACING, mesh_from_mask
 from .outline_distances import signed_distances, within_reach
 from .pixel_box import PixelBox, bounding_box
-from .raster import Fragments, affine_per_triangle, barycentric, interpolate, rasterise, triangle_ids
+from .raster import AffinePerTriangle, Fragments, affine_per_triangle, barycentric, interpolate, rasterise, triangle_ids
 from .run_lengths import mask_of, runs_of
 from .triangle_mesh import UNITS_ACROSS, TriangleMesh
 from .ways import ways_along, ways_from
 
 __all__ = [
+    "LEAST_SPACING",
     "UNITS_ACROSS",
+    "AffinePerTriangle",
     "Fragments",
     "PixelBox",
     "TriangleMesh",

@@ -15,12 +15,15 @@ from .spacing import GAP_FACTOR, SpacingField, spacing_field
 from .triangle_mesh import UNITS_ACROSS, TriangleMesh
 from .triangulation import CrossingEdgesError, interior_seeds, morton_order, triangulate
 
-__all__ = ["MOST_TRIANGLES", "mesh_from_mask"]
+__all__ = ["LEAST_SPACING", "MOST_TRIANGLES", "mesh_from_mask"]
 
 FloatArray = NDArray[np.float64]
 
 MOST_TRIANGLES = 200_000
 """A mesh that would have more is refused."""
+
+LEAST_SPACING = 2.0
+"""The least distance of vertices that can be asked for [px]."""
 
 _WANTED_TRIANGLES = 2000
 _MOST_PIXELS = 2**27  # of a mask that is continued past the border, with room around it
@@ -186,7 +189,7 @@ class _Options:
     def __post_init__(self) -> None:
         for name in ("spacing", "smallest_spacing"):
             value = getattr(self, name)
-            require(name, value, value is None or 2 <= value < np.inf, "at least 2 px")
+            require(name, value, value is None or LEAST_SPACING <= value < np.inf, f"at least {LEAST_SPACING:g} px")
         require("min_angle", self.min_angle, 0 <= self.min_angle <= 30, "0 to 30 degrees")
         require("elements_across", self.elements_across, 1 <= self.elements_across <= 20, "1 to 20")
         for name, unit in (("border_margin", "px"), ("smallest_hole", "px^2"), ("smallest_part", "px^2")):

@@ -43,8 +43,8 @@ class PixelBox:
 
     def clipped(self, width: int, height: int) -> PixelBox:
         """The part within a picture of this size."""
-        left, right = np.clip((self.left, self.right), 0, width).tolist()
-        top, bottom = np.clip((self.top, self.bottom), 0, height).tolist()
+        left, right = (min(max(each, 0), width) for each in (self.left, self.right))
+        top, bottom = (min(max(each, 0), height) for each in (self.top, self.bottom))
         return PixelBox(left, top, right, bottom)
 
 
@@ -55,7 +55,7 @@ def bounding_box(points: ArrayLike, *, margin: int = 0) -> PixelBox:
         points: positions [px], shape [n, 2].
         margin: pixels to add on every side.
     """
-    points = np.asarray(points)
-    left, top = np.floor(points.min(axis=0)).astype(int).tolist()
-    right, bottom = np.ceil(points.max(axis=0)).astype(int).tolist()
+    x, y = np.ascontiguousarray(np.asarray(points).T)
+    left, top = int(np.floor(x.min())), int(np.floor(y.min()))
+    right, bottom = int(np.ceil(x.max())), int(np.ceil(y.max()))
     return PixelBox(left - margin, top - margin, right + margin, bottom + margin)

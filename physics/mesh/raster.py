@@ -9,6 +9,8 @@ overlap; where they overlap, the later one wins.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from .pixel_box import PixelBox
 
 __all__ = [
+    "AffinePerTriangle",
     "Fragments",
     "affine_per_triangle",
     "barycentric",
@@ -26,6 +29,20 @@ __all__ = [
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
+
+
+class AffinePerTriangle(NamedTuple):
+    """An affine function of position in each triangle, real or complex; constant in triangles without an area.
+
+    Attributes:
+        offset: value at the picture's origin, shape [t].
+        slope: change per pixel to the right, shape [t].
+        slope_down: change per pixel downwards, shape [t].
+    """
+
+    offset: NDArray[Any]
+    slope: NDArray[Any]
+    slope_down: NDArray[Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,33 +70,45 @@ class Fragments:
 
     def pixels(self) -> IndexArray:
         """Flat index (row * box width + column) of every pixel, shape [n]."""
-        before = np.cumsum(self.length) - self.length
-        return np.arange(self.count) + np.repeat(self.row * self.box.width + self.column - before, self.length)
+        starts = self.row * self.box.width + self.column - self._before
+        pixels = starts.take(self._run)
+        pixels += np.arange(self.count)
+        return pixels
 
     def triangles(self) -> IndexArray:
         """Triangle of every pixel, shape [n]."""
-        return np.repeat(self.triangle, self.length)
+        return self.triangle.take(self._run)
 
-    def spread(self, offset: FloatArray, gradient: FloatArray) -> NDArray[np.float32]:
-        """Values of affine functions of position, one set a triangle, at every pixel centre.
-
-        Args:
-            offset: value at the picture's origin, shape [t, k].
-            gradient: change per pixel in x and y, shape [t, k, 2].
+    def spread(self, field: AffinePerTriangle) -> NDArray[Any]:
+        """Values of an affine function of position in each triangle, at every pixel centre.
 
         Returns:
-            Values, shape [k, n].
+            Values, float32 or complex64, shape [n].
         """
-        x = self.box.left + self.column + 0.5
-        y = self.box.top + self.row + 0.5
-        slope = gradient[self.triangle, :, 0]
-        start = offset[self.triangle] + slope * x[:, None] + gradient[self.triangle, :, 1] * y[:, None]
-        step = np.arange(self.count, dtype=np.float32)
-        step -= np.repeat((np.cumsum(self.length) - self.length).astype(np.float32), self.length)
-        values = np.repeat(slope.T.astype(np.float32), self.length, axis=1)
-        values *= step
-        values += np.repeat(start.T.astype(np.float32), self.length, axis=1)
+        offset, slope, slope_down = (each.take(self.triangle) for each in field)
+        start = slope * (self.box.left + self.column + 0.5)
+        start += offset
+        slope_down *= self.box.top + self.row + 0.5
+        start += slope_down
+        single = np.complex64 if np.iscomplexobj(start) else np.float32
+        steps = np.arange(self.count)
+        steps -= self._before.take(self._run)
+        values = slope.astype(single).take(self._run)
+        values *= steps.astype(single)
+        values += start.astype(single).take(self._run)
         return values
+
+    @cached_property
+    def _before(self) -> IndexArray:
+        """How many pixels there are before each run, shape [r]."""
+        return np.cumsum(self.length) - self.length
+
+    @cached_property
+    def _run(self) -> IndexArray:
+        """Run of every pixel, shape [n]."""
+        run = np.zeros(self.count, dtype=np.int64)
+        run[self._before[1:]] = 1
+        return np.cumsum(run, out=run)
 
 
 def rasterise(
@@ -95,25 +124,37 @@ def rasterise(
             None for those of the box.
     """
     top, bottom = (box.top, box.bottom) if rows is None else rows
-    corners = _sorted_by_height(np.asarray(points, dtype=np.float64), np.asarray(triangles))
-    (xa, ya), (xb, yb), (xc, yc) = corners
-    first = np.maximum(np.ceil(ya - 0.5), top).astype(np.int64)
-    last = np.minimum(np.ceil(yc - 0.5), bottom).astype(np.int64)
-    count = np.maximum(last - first, 0)
-    triangle = np.repeat(np.arange(len(count)), count)
-    row = np.arange(len(triangle)) + np.repeat(first - (np.cumsum(count) - count), count)
-    y = row + 0.5
+    (xa, ya), (xb, yb), (xc, yc) = _sorted_by_height(np.asarray(points, dtype=np.float64), np.asarray(triangles))
+    first, middle, last = (np.clip(np.ceil(y - 0.5), top, bottom).astype(np.int64) for y in (ya, yb, yc))
     with np.errstate(divide="ignore", invalid="ignore"):
         slope_ab, slope_bc, slope_ac = (xb - xa) / (yb - ya), (xc - xb) / (yc - yb), (xc - xa) / (yc - ya)
-    upper = y < yb[triangle]
-    short_x = np.where(upper, xa[triangle], xb[triangle])
-    short_y = np.where(upper, ya[triangle], yb[triangle])
-    short = short_x + (y - short_y) * np.where(upper, slope_ab[triangle], slope_bc[triangle])
-    long = xa[triangle] + (y - ya[triangle]) * slope_ac[triangle]
+    # Above and below the middle corner: on one side the long edge, on the other a short one.
+    count = _in_turn(middle - first, last - middle)
+    half = np.repeat(np.arange(len(count)), count)
+    row = np.arange(len(half)) + (_in_turn(first, middle) - (np.cumsum(count) - count)).take(half)
+    y, triangle = row + 0.5, half >> 1
+    short = _crossings(y, half, _in_turn(xa, xb), _in_turn(ya, yb), _in_turn(slope_ab, slope_bc))
+    long = _crossings(y, triangle, xa, ya, slope_ac)
     begin = np.maximum(np.ceil(np.minimum(short, long) - 0.5), box.left).astype(np.int64)
     end = np.minimum(np.ceil(np.maximum(short, long) - 0.5), box.right).astype(np.int64)
-    kept = np.flatnonzero(end > begin)
-    return Fragments(triangle[kept], row[kept] - box.top, begin[kept] - box.left, (end - begin)[kept], box)
+    length = end - begin
+    kept = np.flatnonzero(length > 0)
+    return Fragments(triangle.take(kept), row.take(kept) - box.top, begin.take(kept) - box.left, length.take(kept), box)
+
+
+def _in_turn(one: NDArray[Any], other: NDArray[Any]) -> NDArray[Any]:
+    """One value of each array after the other, shape [2 t] of [t] each."""
+    return np.stack([one, other], axis=1).ravel()
+
+
+def _crossings(
+    y: FloatArray, edge: IndexArray, start_x: FloatArray, start_y: FloatArray, slope: FloatArray
+) -> FloatArray:
+    """Where edges go through rows, shape [r]: column of the edge with each number at each height."""
+    x = y - start_y.take(edge)
+    x *= slope.take(edge)
+    x += start_x.take(edge)
+    return x
 
 
 def _sorted_by_height(points: FloatArray, triangles: NDArray[np.integer]) -> list[tuple[FloatArray, FloatArray]]:
@@ -121,9 +162,19 @@ def _sorted_by_height(points: FloatArray, triangles: NDArray[np.integer]) -> lis
 
     An edge always runs from its upper to its lower end, so both its triangles round its crossings alike.
     """
-    order = np.argsort(points[triangles, 1], axis=1)
-    corners = points[np.take_along_axis(triangles, order, axis=1)]
-    return [(corners[:, k, 0], corners[:, k, 1]) for k in range(3)]
+    corners = _corners(points, triangles)
+    for upper, lower in ((0, 1), (1, 2), (0, 1)):
+        (xa, ya), (xb, yb) = corners[upper], corners[lower]
+        turned = ya > yb
+        corners[upper] = np.where(turned, xb, xa), np.minimum(ya, yb)
+        corners[lower] = np.where(turned, xa, xb), np.maximum(ya, yb)
+    return corners
+
+
+def _corners(points: FloatArray, triangles: NDArray[np.integer]) -> list[tuple[FloatArray, FloatArray]]:
+    """The corners of each triangle, as (x, y)."""
+    x, y = np.ascontiguousarray(points.T)
+    return [(x.take(corner), y.take(corner)) for corner in np.asarray(triangles).T]
 
 
 def triangle_ids(points: ArrayLike, triangles: ArrayLike, box: PixelBox) -> NDArray[np.int32]:
@@ -149,29 +200,23 @@ def triangle_ids(points: ArrayLike, triangles: ArrayLike, box: PixelBox) -> NDAr
     return ids.reshape(box.height, box.width)
 
 
-def affine_per_triangle(points: ArrayLike, triangles: ArrayLike, values: ArrayLike) -> tuple[FloatArray, FloatArray]:
+def affine_per_triangle(points: ArrayLike, triangles: ArrayLike, values: ArrayLike) -> AffinePerTriangle:
     """The affine functions that take given values at the corners of triangles.
 
     Args:
         points: vertex positions [px], shape [v, 2].
         triangles: vertex indices, shape [t, 3].
-        values: value of each vertex, shape [v, k].
-
-    Returns:
-        Value at the picture's origin, shape [t, k], and gradient per pixel in x and y, shape [t, k, 2]; both zero
-        for triangles without an area.
+        values: value of each vertex, real or complex, shape [v].
     """
-    indices = np.asarray(triangles)
-    corners = np.asarray(points, dtype=np.float64)[indices]
-    at_corners = np.asarray(values, dtype=np.float64)[indices]
-    (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+    indices, given = np.asarray(triangles), np.asarray(values)
+    (xa, ya), (xb, yb), (xc, yc) = _corners(np.asarray(points, dtype=np.float64), indices)
+    a, b, c = (given.take(corner) for corner in indices.T)
+    ux, uy, vx, vy = xb - xa, yb - ya, xc - xa, yc - ya
     area = ux * vy - uy * vx
-    inverse = np.divide(1.0, area, out=np.zeros_like(area), where=area != 0)[:, None]
-    du, dv = at_corners[:, 1] - at_corners[:, 0], at_corners[:, 2] - at_corners[:, 0]
-    dx = (du * vy[:, None] - dv * uy[:, None]) * inverse
-    dy = (dv * ux[:, None] - du * vx[:, None]) * inverse
-    offset = at_corners[:, 0] - dx * corners[:, 0, :1] - dy * corners[:, 0, 1:]
-    return offset, np.stack([dx, dy], axis=-1)
+    inverse = np.divide(1.0, area, out=np.zeros_like(area), where=area != 0)
+    du, dv = b - a, c - a
+    dx, dy = (du * vy - dv * uy) * inverse, (dv * ux - du * vx) * inverse
+    return AffinePerTriangle(a - dx * xa - dy * ya, dx, dy)
 
 
 def barycentric(points: FloatArray, corners: FloatArray) -> FloatArray:
@@ -214,9 +259,9 @@ def interpolate(
         [[[0.5, 1.5, 2.5]]]
     """
     fragments = rasterise(points, triangles, box)
-    spread = fragments.spread(*affine_per_triangle(points, triangles, values))
-    planes = np.full((len(spread), box.height * box.width), fill, dtype=np.float32)
     pixels = fragments.pixels()
-    for plane, line in zip(planes, spread, strict=True):
-        plane[pixels] = line
+    columns = np.asarray(values, dtype=np.float64).T
+    planes = np.full((len(columns), box.height * box.width), fill, dtype=np.float32)
+    for plane, column in zip(planes, columns, strict=True):
+        plane[pixels] = fragments.spread(affine_per_triangle(points, triangles, column))
     return planes.reshape(-1, box.height, box.width)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..checks import require_kind
-from ..errors import InvalidInputError, require
+from ..errors import InvalidInputError, counted, require
 from ..fields import Field, Input, check_fields, described
 from ..limits import MAX_BODIES
 from ..points import Point, Scale, checked_pair, point_field, points_field, scaled_points
@@ -199,7 +199,7 @@ class Wave:
 def _checked_motions(name: str, given: Any) -> tuple[RigMotion, ...]:
     require_kind(name, given, (tuple, list), "a list of motions")
     motions = tuple(given)
-    require(name, f"{len(motions)} motions", 1 <= len(motions) <= MOST_COMBINED, f"1 to {MOST_COMBINED}")
+    require(name, counted(len(motions), "motion"), 1 <= len(motions) <= MOST_COMBINED, f"1 to {MOST_COMBINED}")
     if any(isinstance(motion, Combined) for motion in motions):
         raise InvalidInputError("motions must not be combined themselves. Got: a combined motion among them")
     for motion in motions:

@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import Annotated, Literal, TypeVar, get_args
 
 from ..checks import numbers_of
-from ..errors import require
+from ..errors import counted, require
 from ..fields import Field, Input, check_fields, described
 from ..limits import LARGEST, MAX_POINTS
 from ..points import Scale
@@ -54,7 +54,7 @@ def checked_times(times: Sequence[float], count: int, what: str) -> tuple[float,
         InvalidInputError: they are not.
     """
     checked = numbers_of("times", times, "a list of numbers [s]")
-    require("times", f"{len(checked)} times", len(checked) == count, f"one per {what} ({count})")
+    require("times", counted(len(checked), "time"), len(checked) == count, f"one per {what} ({count})")
     bounded = checked[0] >= 0 and all(t <= LARGEST for t in checked)
     require("times", checked[:8], bounded, f"from 0 to {LARGEST} s")
     rising = all(b - a > _SHORTEST * (1 - 1e-6) for a, b in pairwise(checked))
@@ -66,7 +66,7 @@ def _checked_values(
     name: str, values: Sequence[float], *, low: float, high: float, unit: str = ""
 ) -> tuple[float, ...]:
     checked = numbers_of(name, values, "a list of numbers")
-    require(name, f"{len(checked)} values", len(checked) >= 2, "at least 2 values")
+    require(name, counted(len(checked), "value"), len(checked) >= 2, "at least 2 values")
     require(name, checked[:8], all(low <= value <= high for value in checked), f"{low:g} to {high:g}{unit}")
     return checked
 

@@ -31,7 +31,17 @@ from .program import end_program, import_taichi, is_initialising, new_program, p
 from .reading import quick_reading
 from .worker import TaichiWorker
 
-__all__ = ["aside", "compiled", "compiles_here", "keep_compiled", "launch", "own_this_process", "read_anew", "run"]
+__all__ = [
+    "aside",
+    "begin_aside",
+    "compiled",
+    "compiles_here",
+    "keep_compiled",
+    "launch",
+    "own_this_process",
+    "read_anew",
+    "run",
+]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -131,6 +141,14 @@ class _TaichiThread:
     def read_anew(self) -> None:
         if self._is_ours():
             self._drop()
+
+    def begin_aside(self, function: Callable[..., Any]) -> None:
+        def begin() -> None:
+            if self._can_go_aside():
+                self._worker.launch(function, (), None, ())
+
+        self._start()
+        self._jobs.put(_Job(begin))
 
     @property
     def compiles_here(self) -> bool:
@@ -283,6 +301,17 @@ def aside(wanted: bool = True) -> Iterator[None]:
         yield
     finally:
         _goes_aside.reset(token)
+
+
+def begin_aside(function: Callable[..., Any]) -> None:
+    """Start the process of our own, where one can be had, and call ``function(constant, state)`` in it; do not wait.
+
+    What is launched ``aside`` later then finds it ready, or waits for it.
+
+    Args:
+        function: a function of a module of this package, that does without its arguments.
+    """
+    _taichi_thread.begin_aside(function)
 
 
 def compiled(build: Callable[[Any], T]) -> T:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..checks import numbers_of, require_kind, within
-from ..errors import InvalidInputError, require
+from ..errors import InvalidInputError, counted, require
 from ..fields import Field, Input, check_field, check_fields, described
 from ..forces import EnergyStroke, Wind
 from ..limits import (
@@ -63,7 +63,7 @@ def _several(kind: type, title: str, about: str, entry: str, most: int) -> Field
         require_kind(name, given, (tuple, list), f"a list of {kind.__name__} objects")
         for number, each in enumerate(given):
             require_kind(f"{name}[{number}]", each, kind, f"of type {kind.__name__}")
-        require(name, f"{len(given)} entries", len(given) <= most, f"at most {most} entries")
+        require(name, counted(len(given), "entry"), len(given) <= most, f"at most {most} entries")
         return tuple(given)
 
     return Field(title, about, entry=entry, most=most, check=check)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from .kernel_preparation import compile_aside, simulated_aside
+from .kernel_preparation import begin_aside, compile_aside, simulated_aside, simulated_beside
 from .loop import first_frame, loop_frames, periodic
 from .sample_simulations import simulate_samples
 from .simulation import simulate
 
 __all__ = [
+    "begin_aside",
     "compile_aside",
     "first_frame",
     "loop_frames",
@@ -15,4 +16,5 @@ __all__ = [
     "simulate",
     "simulate_samples",
     "simulated_aside",
+    "simulated_beside",
 ]

@@ -21,7 +21,7 @@ from ..errors import PhysAnimatorError
 from ..interruption import checkpoint
 from ..runtime import TaichiWorker, kernel_cache, taichi_runtime
 
-__all__ = ["compile_aside", "simulated_aside"]
+__all__ = ["begin_aside", "compile_aside", "simulated_aside", "simulated_beside"]
 
 _POLL_SECONDS = 0.05
 
@@ -47,6 +47,11 @@ def compile_aside(*, contact: bool, check: Callable[[], None] = checkpoint) -> N
         check()
 
 
+def begin_aside() -> None:
+    """Start the process in which ``simulated_beside`` simulates, and let it read its kernels; returns at once."""
+    taichi_runtime.begin_aside(_read_kernels)
+
+
 def simulated_aside(*, contact: bool) -> AbstractContextManager[None]:
     """What is simulated meanwhile, in this thread, shall not keep others in this process from answering.
 
@@ -54,6 +59,14 @@ def simulated_aside(*, contact: bool) -> AbstractContextManager[None]:
         contact: whether parts touch.
     """
     return taichi_runtime.aside(contact)
+
+
+def simulated_beside() -> AbstractContextManager[None]:
+    """What is simulated meanwhile, in this thread, leaves the processor's other cores to this process's other threads.
+
+    In this process, a kernel would hold Python's global lock.
+    """
+    return taichi_runtime.aside()
 
 
 def _compile(contact: bool, done: threading.Event) -> None:
@@ -76,6 +89,13 @@ def _compile(contact: bool, done: threading.Event) -> None:
         logging.exception("PhysAnimator: kernels could not be compiled aside")
     finally:
         done.set()
+
+
+def _read_kernels(_constant: None, _state: None) -> None:
+    """Bring what bodies that do not touch need of kernels into the other process, on Taichi's thread there."""
+    from .sample_simulations import simulate_samples
+
+    simulate_samples(contact=False)
 
 
 def _compile_here(contact: bool) -> None:

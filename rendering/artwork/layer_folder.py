@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 from typing import Any
 
-from ...physics.errors import InvalidInputError, require, shown
+from ...physics.errors import InvalidInputError, counted, require, shown
 from ..files import check_regular
 from .artwork import ArtLayer, Artwork
 from .limits import MAX_OFFSET, MemoryCount, check_canvas
@@ -100,7 +100,7 @@ def read_layer_list(path: StrPath) -> Artwork:
     with reading(path, name):
         with _opened(Path(path)) as file:
             text = file.read(_MOST_TEXT + 1)
-        require(name, f"{len(text)} bytes", len(text) <= _MOST_TEXT, f"at most {_MOST_TEXT / 2**20:.0f} MiB")
+        require(name, counted(len(text), "byte"), len(text) <= _MOST_TEXT, f"at most {_MOST_TEXT / 2**20:.0f} MiB")
         document = json.loads(text.decode("utf-8-sig"))
         if not isinstance(document, dict) or not isinstance(document.get("layers"), list):
             raise InvalidInputError(

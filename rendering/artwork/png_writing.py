@@ -11,16 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError
-from ..files import check_folder_place, replacing
+from ..files import check_folder_place, plain_name, replacing
 from .artwork import ArtLayer, Artwork
 from .flattening import as_whole_numbers
 
 __all__ = ["check_layer_folder", "layer_on_canvas", "png_names", "save_layer_pngs"]
 
 StrPath = str | os.PathLike[str]
-
-_LONGEST = 80
-"""Letters of a layer's name that go into a file's."""
 
 
 def save_layer_pngs(artwork: Artwork, folder: StrPath) -> list[Path]:
@@ -65,12 +62,7 @@ def check_layer_folder(folder: StrPath) -> None:
 def png_names(artwork: Artwork) -> list[str]:
     """A file name for each layer, which any system can write."""
     digits = max(2, len(str(len(artwork.layers) - 1)))
-    return [f"{index:0{digits}} {_plain(name)}.png" for index, name in enumerate(artwork.names)]
-
-
-def _plain(name: str) -> str:
-    kept = "".join("_" if each in '<>:"/\\|?*' or not each.isprintable() else each for each in name)
-    return kept[:_LONGEST].strip(" .") or "layer"
+    return [f"{index:0{digits}} {plain_name(name, or_else='layer')}.png" for index, name in enumerate(artwork.names)]
 
 
 def layer_on_canvas(layer: ArtLayer, artwork: Artwork) -> NDArray[Any]:

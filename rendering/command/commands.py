@@ -50,13 +50,17 @@ def _schema(options: argparse.Namespace) -> None:
 
 
 def _demo(options: argparse.Namespace) -> None:
+    from ...physics.simulation import begin_aside
     from .example import bundled_files, read_example
     from .networks import check_networks_used
-    from .outputs import check_outputs, check_sizes
+    from .outputs import check_layers, check_outputs, check_sizes
 
     check_outputs(options, bundled=bundled_files())
     check_networks_used(options)
+    if not options.pixel_art:
+        begin_aside()
     image, masks, scene = read_example()
+    check_layers(options, image)
     check_sizes(options, image)
     _run(options, image, masks=masks, scene=scene)
 

@@ -9,6 +9,7 @@ from itertools import islice
 from pathlib import Path
 
 from ...physics.errors import InvalidInputError
+from ..export import SPINE_RECORD, is_spine_name, spine_files_in
 from ..files import is_folder_name, place_of, same_name
 from ..pictures import RECORD, frames_in, is_frame_name
 from .names import named_as, option_of
@@ -43,8 +44,20 @@ INPUTS = (
 CLIPS = ("output", "save_sketch", "save_flow", "preview")
 """Every option that names a clip to write: a file, or a folder of frames."""
 
-OUTPUTS = (*CLIPS, "save_tracks", "save_motion", "save_svg", "save_scene", "save_psd", "save_png")
+OUTPUTS = (
+    *CLIPS,
+    "save_spine",
+    "save_tracks",
+    "save_motion",
+    "save_svg",
+    "save_scene",
+    "save_gltf",
+    "save_psd",
+    "save_png",
+)
 """Every option that names something to write."""
+
+_SPINE = "save_spine"
 
 _Identity = tuple[int, int]
 
@@ -61,16 +74,17 @@ def named(options: argparse.Namespace, names: Sequence[str]) -> Iterator[tuple[s
 
 
 def writing_order(options: argparse.Namespace) -> list[str]:
-    """The options of the clips to write, as the parser calls them: folders before what may be written into them."""
-    asked = [name for name in CLIPS if getattr(options, name, None) is not None]
-    folders = [name for name in asked if is_folder_name(getattr(options, name))]
+    """The options of clips and skeletons to write, as the parser calls them: folders before what may be in them."""
+    asked = [name for name in (*CLIPS, _SPINE) if getattr(options, name, None) is not None]
+    folders = [name for name in asked if name == _SPINE or is_folder_name(getattr(options, name))]
     folders.sort(key=lambda name: len(place_of(getattr(options, name)).parts))
     return folders + [name for name in asked if name not in folders]
 
 
 def coming_folders(options: argparse.Namespace) -> frozenset[Path]:
-    """The folders of frames that a command fills: other results may be written into them, even where they are new."""
-    return frozenset(place_of(path) for _, path in named(options, CLIPS) if path and is_folder_name(path))
+    """The folders that a command fills: other results may be written into them, even where they are new."""
+    clips = [path for _, path in named(options, CLIPS) if path and is_folder_name(path)]
+    return frozenset(map(place_of, clips + [path for _, path in named(options, (_SPINE,)) if path]))
 
 
 def check_apart(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) -> None:
@@ -91,7 +105,7 @@ def check_apart(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) ->
     inputs = [*given, *(("the bundled example", os.fspath(path)) for path in bundled)]
     read = {identity: each for each in inputs if (identity := _identity(Path(each[1]))) is not None}
     for option, path in outputs:
-        for place in _replaced(path):
+        for place in _replaced(path, spine=option == option_of(_SPINE)):
             identity = _identity(place)
             if identity in read:
                 source, name = read[identity]
@@ -100,6 +114,7 @@ def check_apart(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) ->
                 )
     _check_distinct(outputs)
     _check_among_frames(outputs)
+    _check_among_skeletons(outputs)
 
 
 def _read(path: str) -> Iterator[str]:
@@ -119,9 +134,24 @@ def _check_among_frames(outputs: Sequence[tuple[str, str]]) -> None:
             raise InvalidInputError(f"{option} must not be named as the frames beside it are. Got: {path}")
 
 
-def _replaced(path: str) -> Iterator[Path]:
+def _check_among_skeletons(outputs: Sequence[tuple[str, str]]) -> None:
+    """Refuse a result that has the name of a skeleton's file, or lies among its images, where one is written, too."""
+    for folder in [place_of(path) for option, path in outputs if option == option_of(_SPINE)]:
+        for option, path in outputs:
+            place = place_of(path)
+            within = place.is_relative_to(folder) and place != folder
+            if within and is_spine_name(folder, place.relative_to(folder).as_posix()):
+                raise InvalidInputError(f"{option} must not be named as the skeleton's files are. Got: {path}")
+
+
+def _replaced(path: str, *, spine: bool = False) -> Iterator[Path]:
     """What is there and would go."""
     place = place_of(path)
+    if spine and os.path.isdir(place):
+        yield place  # of layers: the skeleton's pictures would be among them
+        yield from (place / name for name in spine_files_in(place))
+        yield place / SPINE_RECORD
+        return
     if not (is_folder_name(path) and os.path.isdir(place)):
         yield place
         return

@@ -15,8 +15,9 @@ if TYPE_CHECKING:
 
 __all__ = ["printable_streams", "progress_bars", "say", "show", "warn"]
 
-_OF_STEPS = ("svd", "inpainting", "tooncrafter")
-"""Stages of models, which advance by steps of sampling."""
+_UNITS = {"mesh": "part", "prepare": "step", "svd": "step", "inpainting": "step", "tooncrafter": "step"}
+_UNITS |= {"spine": "layer", "gltf": "layer"}
+"""What stages advance by, where not by frames."""
 
 
 @contextmanager
@@ -65,7 +66,7 @@ def progress_bars(stack: ExitStack) -> StageProgress | None:
 
     def advance(stage: str, done: int, total: int) -> None:
         if stage not in bars:
-            unit = "step" if stage in _OF_STEPS else "frame"
+            unit = _UNITS.get(stage, "frame")
             bars[stage] = stack.enter_context(tqdm(total=total, desc=f"{stage:<8}", unit=unit, file=stream))
         bars[stage].update(done - bars[stage].n)
         if done == total:

@@ -201,7 +201,9 @@ def _add_direction(parser: argparse.ArgumentParser) -> None:
         help="slit parts along the lines that are drawn between their strands, so that these swing apart (default: hair"
         " and ribbon; with --scene, as it says)",
     )
-    how.add_argument("--spacing", metavar="PX", type=float, help="distance of mesh vertices (default: from the mask)")
+    how.add_argument(
+        "--spacing", metavar="PX", type=float, help="distance of mesh vertices, at least 2 (default: from the mask)"
+    )
     add_physics(parser)
 
 
@@ -220,8 +222,9 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
         metavar="OUT",
         required=output is None,
         default=output,
-        help=".mp4, .webm (with transparency; of an opaque picture the moving parts alone), .gif, .webp, .apng, or a"
-        " folder ending in / for numbered PNG files" + (f" (default: {output})" if output else ""),
+        help=".mp4, .webm or .mov (ProRes 4444 for editing programs; both with transparency, of an opaque picture the"
+        " moving parts alone), .gif, .webp, .apng, or a folder ending in / for numbered PNG files"
+        + (f" (default: {output})" if output else ""),
     )
     _add_timing(drawing)
     drawing.add_argument(
@@ -233,15 +236,15 @@ def _add_files(parser: argparse.ArgumentParser, *, output: str | None) -> None:
         help="what is there where nothing moves. picture: all of the picture, opaque, its transparent places white."
         " A colour (a CSS name, #rgb or #rrggbb): the same on that colour. transparent: all of the picture with its own"
         " transparency; of an opaque picture the moving parts alone. parts: the moving parts alone, on transparency."
-        " layers: each layer of layered artwork as a sequence of its own, OUT/01 hair/frame_0000.png."
-        " (default: a transparent picture keeps its transparency, except in .mp4; of an opaque one parts for .webm,"
-        " else picture)",
+        " layers: each layer, or of a flat picture each part, as a sequence of its own, OUT/01 hair/frame_0000.png."
+        " (default: a transparent picture keeps its transparency, except in .mp4; of an opaque one parts for .webm"
+        " and .mov, else picture)",
     )
     drawing.add_argument(
         "--pixel-art",
         action="store_true",
         help="move whole pixels (or blocks, where each pixel of the art is one) and mix no colours. Folders of PNG"
-        " files, .apng, .webp and a .gif of up to 255 colours keep them exactly, .mp4 and .webm blur them a little."
+        " files, .apng, .webp and a .gif of up to 255 colours keep them exactly, videos blur them a little."
         " --width repeats pixels: take a whole multiple",
     )
     drawing.add_argument(
@@ -296,6 +299,25 @@ def _add_data(parser: argparse.ArgumentParser) -> None:
         metavar="OUT.json",
         help="write the scene, what holds the parts and what they are made of included, to edit it and give it to"
         " --scene",
+    )
+    data.add_argument(
+        "--save-spine",
+        metavar="OUT_FOLDER",
+        help="write a skeleton for Spine 4.2 and its runtimes: each layer or part a slot, those that move as meshes"
+        " with deform keys; images/ for the editor, an atlas with straight alpha for engines",
+    )
+    data.add_argument(
+        "--save-gltf",
+        metavar="OUT.glb",
+        help="write a glTF scene for 3D programs and engines: each layer or part a textured mesh, moved by morph"
+        " targets",
+    )
+    data.add_argument(
+        "--tolerance",
+        metavar="PX",
+        type=float,
+        help="how far --save-spine and --save-gltf may be from the motion (default: 0.25): with more there are fewer"
+        " keys and targets",
     )
     data.add_argument("--save-svg", metavar="OUT.svg", help="write the moving meshes as an SVG that plays in a browser")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .files import CLIPS, coming_folders, named, writing_order
-from .messages import warn
+from .messages import say, warn
 from .names import named_as
 from .networks import keyframes_of
 
@@ -22,7 +22,14 @@ if TYPE_CHECKING:
 __all__ = ["background_for", "check_layers", "check_outputs", "check_sizes", "draws_opaque", "report", "write_outputs"]
 
 _TRACKED = ("--track-points", "--track-static", "--track-frames")
-_TEXTS = {"save_tracks": ".json", "save_motion": ".json", "save_svg": ".svg", "save_scene": ".json"}
+_TEXTS = {
+    "save_tracks": ".json",
+    "save_motion": ".json",
+    "save_svg": ".svg",
+    "save_scene": ".json",
+    "save_gltf": ".glb",
+}
+_EDITABLE = ("save_spine", "save_gltf")
 
 LARGEST_WIDTH = 8192
 """The largest width that can be asked for [px]; its square is the most pixels that a frame may have."""
@@ -44,12 +51,13 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     from ..composite import Background, background_of
     from ..drawing_checks import check_drawing
     from ..files import is_folder_name, suffix_of
+    from ..pictures import OVERLAYS
     from .files import check_apart
 
     check_apart(options, bundled=bundled)
-    # Frames in .webm have an alpha channel whatever the illustration is, unless something else is said.
+    # Frames of overlays have an alpha channel whatever the illustration is, unless something else is said.
     by_model = draws_opaque(options)
-    usual = Background("parts" if suffix_of(options.output) == ".webm" and not by_model else "picture")
+    usual = Background("parts" if suffix_of(options.output) in OVERLAYS and not by_model else "picture")
     said = background_of(options.background) if options.background and not in_layers(options) else usual
     if in_layers(options) and not is_folder_name(options.output):
         raise InvalidInputError(f"--background layers needs --output to end in '/'. Got: {options.output}")
@@ -68,6 +76,7 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     if options.fps is not None:
         check_scene_rate(options.fps)
     _check_texts(options)
+    _check_editable(options)
     if options.width is not None and not 16 <= options.width <= LARGEST_WIDTH:
         raise InvalidInputError(f"--width must be 16 to {LARGEST_WIDTH} px. Got: {options.width}")
     tracked = (options.track_points, options.track_static, options.track_frames)
@@ -89,7 +98,7 @@ def in_layers(options: argparse.Namespace) -> bool:
 
 
 def check_layers(options: argparse.Namespace, image: Any) -> None:
-    """Refuse layers as sequences where there are none, or where they cannot be written, before any work.
+    """Refuse layers as sequences where they cannot be drawn or written, before any work.
 
     Args:
         options: of the command.
@@ -100,17 +109,19 @@ def check_layers(options: argparse.Namespace, image: Any) -> None:
     """
     import numpy as np
 
-    from ...physics.errors import InvalidInputError, require
-    from ..layer_sequences import check_layer_sequences
+    from ...physics.errors import require
+    from ..layer_sequences import check_layer_sequences, check_part_sequences
 
     if not in_layers(options):
         return
-    if isinstance(image, np.ndarray):
-        raise InvalidInputError("--background layers needs layered artwork as IMAGE. Got: a flat picture")
+    require("--pixel-art", "with it", not options.pixel_art, "left out with --background layers")
     require("--interpolate", options.interpolate, options.interpolate == 1, "1 with --background layers")
     require("--keyframes-at", options.keyframes_at, not options.keyframes_at, "left out with --background layers")
     with named_as("--output", "output", "folder"):
-        check_layer_sequences(image, options.output)
+        if isinstance(image, np.ndarray):
+            check_part_sequences(options.output)
+        else:
+            check_layer_sequences(image, options.output)
 
 
 def check_sizes(options: argparse.Namespace, image: NDArray[Any]) -> None:
@@ -155,12 +166,33 @@ def _check_texts(options: argparse.Namespace) -> None:
                 check_text_output(path, suffix, coming=coming)
 
 
+def _check_editable(options: argparse.Namespace) -> None:
+    """Refuse places and tolerances of what other programs go on with."""
+    from ...physics.errors import require
+    from ..editable import check_spine_output
+    from ..moving_pieces import check_tolerance
+
+    asked = list(named(options, _EDITABLE))
+    needless = options.tolerance is not None and not asked
+    require("--tolerance", options.tolerance, not needless, "left out without --save-spine or --save-gltf")
+    for option, _ in asked:
+        require(option, "both", not options.pixel_art, "left out with --pixel-art")
+    if options.tolerance is not None:
+        with named_as("--tolerance", "tolerance"):
+            check_tolerance(options.tolerance)
+    for option, path in named(options, ("save_spine",)):
+        with named_as(option, "output", "folder"):
+            check_spine_output(path, coming=coming_folders(options))
+
+
 def write_outputs(options: argparse.Namespace, animation: Animation, progress: StageProgress | None) -> None:
     """Write the animation, and all that was asked for beside it."""
     drawn = {"save_sketch": animation.sketches, "save_flow": animation.flows, "preview": animation.previews}
     for name in writing_order(options):
         path = getattr(options, name)
-        if name == "output" and in_layers(options):
+        if name == "save_spine":
+            _tell(options, path, animation.save_spine(path, **_tolerance(options), progress=progress))
+        elif name == "output" and in_layers(options):
             animation.save_layers(path, width=options.width, progress=progress)
         elif name == "output":
             animation.save(
@@ -174,6 +206,22 @@ def write_outputs(options: argparse.Namespace, animation: Animation, progress: S
         else:
             animation.write(drawn[name](progress=progress), path, width=options.width)
     _save_data(options, animation)
+    if options.save_gltf:
+        told = animation.save_gltf(options.save_gltf, **_tolerance(options), progress=progress)
+        _tell(options, options.save_gltf, told)
+
+
+def _tolerance(options: argparse.Namespace) -> dict[str, float]:
+    return {} if options.tolerance is None else {"tolerance": options.tolerance}
+
+
+def _tell(options: argparse.Namespace, path: str, told: Sequence[str]) -> None:
+    """Say what was written, and warn of what is otherwise than in the frames."""
+    written, *warnings = told
+    if not options.quiet:
+        say(f"{path}: {written}")
+    for sentence in warnings:
+        warn(f"physanimator: warning: {sentence}")
 
 
 def report(animation: Animation) -> None:
@@ -234,7 +282,7 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
     from ..composite import usual_background
     from ..drawing_checks import check_drawing
     from ..files import suffix_of
-    from ..pictures import holds_alpha, is_transparent
+    from ..pictures import OVERLAYS, holds_alpha, is_transparent
 
     if in_layers(options):
         return "transparent"
@@ -245,7 +293,7 @@ def background_for(options: argparse.Namespace, image: Any) -> str:
     usual = usual_background(
         transparent_picture=is_transparent(image),
         file_has_alpha=holds_alpha(options.output),
-        parts=suffix_of(options.output) == ".webm",
+        parts=suffix_of(options.output) in OVERLAYS,
     )
     keyframes = keyframes_of(options)
     with named_as("--keyframes-at" if keyframes else "--interpolate", "every"):

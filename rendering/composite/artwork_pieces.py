@@ -165,13 +165,13 @@ def bent(layer: ArtLayer, pieces: Sequence[tuple[PixelBox, FloatImage]]) -> ArtL
 
     Args:
         layer: at rest.
-        pieces: boxes of the canvas and premultiplied RGBA there, from back to front.
+        pieces: boxes of the canvas and premultiplied RGBA there, from back to front; a fifth channel is left out.
     """
     whole = around([box for box, _ in pieces])
     planes = np.zeros((4, whole.height, whole.width), dtype=np.float32)
     for box, texture in pieces:
         rows, columns = within(box, whole).slices
-        lay_over(planes[:, rows, columns], texture)
+        lay_over(planes[:, rows, columns], texture[..., :4])
     left, top, across, down = cv2.boundingRect((planes[3] > 0).astype(np.uint8))
     shown = straight(np.ascontiguousarray(np.moveaxis(planes, 0, 2)[top : top + down, left : left + across]))
     kind = layer.pixels.dtype

@@ -88,15 +88,13 @@ class Beyond:
         """Positions of the corners [px], shape [p, 2], for shifts of the mesh's vertices [px], shape [v, 2]."""
         return self.rest + np.einsum("pk,pkx->px", self.weights, shifts[self.sources])
 
-    def without_own(
-        self, x: NDArray[np.float32], y: NDArray[np.float32]
-    ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        """Columns and rows of the canvas, the columns NOWHERE where the mesh itself draws at rest."""
-        row, column = np.rint(y).astype(np.int32), np.rint(x).astype(np.int32)
+    def without_own(self, places: NDArray[np.complex64]) -> NDArray[np.complex64]:
+        """Places of the canvas, column + row i, far off it where the mesh itself draws at rest."""
+        row, column = np.rint(places.imag).astype(np.int32), np.rint(places.real).astype(np.int32)
         height, width = self.own.shape
         there = (row >= 0) & (row < height) & (column >= 0) & (column < width)
         there[there] = self.own[row[there], column[there]]
-        return np.where(there, np.float32(NOWHERE), x), y
+        return np.where(there, np.complex64(complex(NOWHERE, NOWHERE)), places)
 
 
 def _leading(vertices: NDArray[np.floating], points: FloatArray) -> tuple[IndexArray, FloatArray]:

@@ -15,12 +15,13 @@ from ...physics.mesh import PixelBox, bounding_box
 from .apron import ApronedMesh
 from .beyond import Beyond
 from .half_pixels import with_half_pixels
-from .places import NOWHERE
-from .sheet_edges import Slits, tiles_of, torn
-from .sheets import Sheets, sheets_at, sheets_in_tiles
+from .laying import as_planes
+from .sheet_edges import Slits, drawn_sides, tiles_of, torn
+from .sheets import Places, Sheets, pairs_of, sheets_at, sheets_in_tiles
 
 if TYPE_CHECKING:
     from ..artwork import Blend
+    from .hidden_areas import HiddenArea
 
 __all__ = ["Layer"]
 
@@ -64,27 +65,35 @@ class Layer:
             points.append(self.beyond.positions(vertices - self.mesh.rest[: len(vertices)].astype(np.float32)))
         return points
 
-    def drawn(self, vertices: NDArray[np.float32], width: int, height: int) -> tuple[PixelBox, FloatImage]:
+    def drawn(
+        self, vertices: NDArray[np.float32], width: int, height: int, *, hidden: HiddenArea | None = None
+    ) -> tuple[PixelBox, FloatImage]:
         """The layer with its mesh moved.
 
         Args:
             vertices: positions of the body's vertices [px], shape [v, 2].
             width: of the picture [px].
             height: of the picture [px].
+            hidden: where the layer is not seen, so that anything may be drawn; None for nowhere.
 
         Returns:
-            The box of the picture that the layer may touch, and the texture's channels there, shape [h, w, 4 or 5].
+            The box of the picture that the layer may touch, and the texture's channels there, as a view of planes,
+            shape [h, w, 4 or 5].
         """
         points = self.points(vertices)
         box = bounding_box(np.concatenate(points)).clipped(width, height)
         if not (box.width and box.height):
             return box, np.zeros((box.height, box.width, self.texture.shape[2]), dtype=np.float32)
-        sheets = self._sheets(points, partial(sheets_at, box=box, canvas=self.canvas))
+        triangles = self.mesh.triangles if hidden is None else hidden.seen(points[0], self.mesh.triangles)
+        sheets = self._sheets(points, triangles, partial(sheets_at, box=box, canvas=self.canvas))
         drawn = self._read(sheets)
-        edges = self._slits.open(points[0] - self.mesh.rest, points[0], box) | torn(sheets)
-        for tiles in _at_once(tiles_of(edges, _TILE)):
-            self._smooth(drawn, points, box, tiles, edges)
-        return box, drawn
+        sides = self._slits.opened(points[0] - self.mesh.rest)
+        simple = not (len(sides) or len(sheets.double))
+        if not simple:
+            edges = drawn_sides(sides, points[0], box) | torn(sheets)
+            for tiles in _at_once(tiles_of(edges, _TILE)):
+                self._smooth(drawn, points, box, tiles, edges)
+        return box, as_planes(drawn, clean=simple and self.fine)
 
     def _smooth(
         self,
@@ -97,7 +106,7 @@ class Layer:
         """Draw pixels of tiles of a box as the mean of several places, where an edge of a sheet goes through them."""
         corners = tiles + (box.left, box.top)
         find = partial(sheets_in_tiles, tiles=corners, canvas=self.canvas, side=_TILE, scale=_FINE)
-        fine = self._read(self._sheets(points, find))
+        fine = self._read(self._sheets(points, self.mesh.triangles, find))
         mean = cv2.resize(fine, (_TILE, _TILE * len(tiles)), interpolation=cv2.INTER_AREA)
         beside = np.arange(_TILE)
         rows = np.repeat(tiles[:, 1:] + beside, _TILE, axis=1).ravel()
@@ -106,35 +115,35 @@ class Layer:
         there = there[edges[rows[there], columns[there]]]
         drawn[rows[there], columns[there]] = mean.reshape(len(rows), -1)[there]
 
-    def _sheets(self, points: Sequence[FloatArray], find: Callable[..., Sheets]) -> Sheets:
-        """The places of the texture that are shown."""
-        sheets = find(points[0], self.mesh.triangles, self.mesh.rest)
+    def _sheets(
+        self, points: Sequence[FloatArray], triangles: NDArray[np.integer], find: Callable[..., Sheets]
+    ) -> Sheets:
+        """The places of the texture that are shown by triangles of the mesh, and beyond it."""
+        sheets = find(points[0], triangles, self.mesh.rest)
         if self.beyond is None:
             return sheets
-        free, other = sheets.x <= NOWHERE / 2, find(points[1], self.beyond.triangles, self.beyond.rest)
-        x, y = self.beyond.without_own(other.x, other.y)
-        return replace(sheets, x=np.where(free, x, sheets.x), y=np.where(free, y, sheets.y))
+        other = find(points[1], self.beyond.triangles, self.beyond.rest)
+        return replace(sheets, shown=np.where(sheets.covered, sheets.shown, self.beyond.without_own(other.shown)))
 
     def _read(self, sheets: Sheets) -> FloatImage:
         """The texture at places of it, with what shows through of sheets beneath, shape [h, w, c]."""
-        drawn = self._resampled(sheets.x, sheets.y)
+        drawn = self._resampled(sheets.shown)
         flat = drawn.reshape(-1, drawn.shape[2])
         through = 1 - np.clip(flat[sheets.double, -1:], 0, 1)
         for shown in _at_once(np.flatnonzero(through > 1 - _OPAQUE)):
-            beneath = self._resampled(*sheets.beneath[:, shown, None])[:, 0]
+            beneath = self._resampled(sheets.beneath[shown, None])[:, 0]
             flat[sheets.double[shown]] += through[shown] * beneath
         return drawn
 
-    def _resampled(self, x: FloatImage, y: FloatImage) -> FloatImage:
+    def _resampled(self, places: Places) -> FloatImage:
         """The texture at places of it, shape [h, w, c]."""
         how = {"borderMode": cv2.BORDER_CONSTANT, "borderValue": 0}
         if self.fine:
             texture, border = self._finer
-            x, y = x + border, y + border
-            x *= 2
-            y *= 2
-            return cv2.remap(texture, x, y, cv2.INTER_LINEAR, **how)
-        parts = [cv2.remap(part, x, y, cv2.INTER_CUBIC, **how) for part in self._parts]
+            pairs = pairs_of(places) + np.float32(border)
+            pairs *= 2
+            return cv2.remap(texture, pairs, None, cv2.INTER_LINEAR, **how)
+        parts = [cv2.remap(part, pairs_of(places), None, cv2.INTER_CUBIC, **how) for part in self._parts]
         return parts[0] if len(parts) == 1 else np.dstack(parts)
 
     @cached_property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from copy import copy
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -17,6 +18,7 @@ from ...physics.motion import Motion, layer_order
 from ...physics.progress import Progress
 from ..pictures import as_dtype, as_float, as_picture, is_transparent, straight
 from .cutting import take_apart
+from .hidden_areas import HiddenArea, hidden_areas
 from .kept_layers import apart
 from .layer import Layer
 from .laying import lay_over
@@ -119,8 +121,10 @@ class LayeredRenderer:
         self._take(motion, background, layers, layer_order(motion.bodies))
         self._stand(background, image.dtype)
         self.drawn_plate = plate is not None
-        self._artwork: Artwork | None = None
-        self._sources: list[int | None] = []
+        # In the artwork that a flat picture is taken for, the background is the first layer.
+        self._sources: list[int | None] = [
+            number if isinstance(layer, Layer) else None for number, layer in enumerate(self._layers, 1)
+        ]
 
     @classmethod
     def of_artwork(cls, artwork: Artwork, layers: Sequence[int], motion: Motion) -> LayeredRenderer:
@@ -148,24 +152,60 @@ class LayeredRenderer:
         renderer._artwork, renderer._sources = artwork, pieces.sources
         return renderer
 
+    @cached_property
+    def _artwork(self) -> Artwork:
+        """The layers at rest: those that were given, or the parts that a flat picture was taken apart into."""
+        from .flat_artwork import artwork_of, part_names
+
+        names = part_names(self.motion)
+        called = ["in front" if body is None else names[body] for body in self._bodies]
+        dtype = np.dtype(np.uint8 if self.plate.dtype == np.uint8 else np.uint16)
+        return artwork_of(np.moveaxis(self._planes, 0, 2), self._layers, called, dtype)
+
+    @property
+    def layers_at_rest(self) -> Artwork:
+        """The illustration in layers: those that were given, or what a flat picture was taken apart into."""
+        return self._artwork
+
+    @property
+    def movers(self) -> dict[int, tuple[Layer, int]]:
+        """For each layer of :attr:`layers_at_rest` that moves, how it is bent, and the number of its body."""
+        pieces = zip(self._sources, self._layers, self._bodies, strict=True)
+        return {
+            source: (piece, body)
+            for source, piece, body in pieces
+            if source is not None and isinstance(piece, Layer) and body is not None
+        }
+
+    def showing(self, motion: Motion) -> LayeredRenderer:
+        """The same for another motion of the same bodies; only where the illustration is flat."""
+        other = copy(self)
+        other.motion = motion
+        return other
+
     @property
     def moving_layers(self) -> list[int]:
-        """Indices of the layers of an artwork that move; none where the illustration is flat."""
+        """Indices of the layers that move in what :meth:`artwork` gives."""
         return sorted({source for source in self._sources if source is not None})
 
+    @property
+    def source(self) -> Artwork | None:
+        """The layered artwork that is drawn, at rest; None where the illustration is flat."""
+        return self._artwork
+
     def artwork(self, t: int, *, only: int | None = None) -> Artwork:
-        """Frame ``t`` of layered artwork as layers again: those that move bent, the others as they are.
+        """Frame ``t`` as layers: those that move bent, the others as they are.
+
+        A flat picture gives its background, a layer for each part, and one for what stands still in front of them.
 
         Args:
             t: number of the frame.
             only: index of the layer that is wanted; others that move may be anywhere. None for all.
 
         Raises:
-            InvalidInputError: there is no such frame, or the renderer is none of layered artwork.
+            InvalidInputError: there is no such frame.
         """
         require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
-        if self._artwork is None:
-            raise InvalidInputError("frames in layers need layered artwork. Got: a flat picture")
         from .artwork_pieces import bent
 
         layers = list(self._artwork.layers)
@@ -298,6 +338,12 @@ class LayeredRenderer:
                 part *= 1 - alpha
         return covered
 
+    @cached_property
+    def _hidden(self) -> list[HiddenArea | None]:
+        """Where each layer is never seen."""
+        still = [layer if isinstance(layer, StillLayer) else None for layer in self._layers]
+        return hidden_areas(still, self.motion.width, self.motion.height)
+
     def _drawn(self, t: int) -> list[_Drawn]:
         """The layers that show in a frame, from back to front."""
         require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
@@ -306,18 +352,20 @@ class LayeredRenderer:
     def _laid(self, motion: Motion, t: int) -> list[_Drawn]:
         """The layers in a frame of any motion of the bodies."""
         drawn = []
-        for layer, body in zip(self._layers, self._bodies, strict=True):
-            box, texture = _placed(layer, body, motion, t)
+        for layer, body, hidden in zip(self._layers, self._bodies, self._hidden, strict=True):
+            box, texture = _placed(layer, body, motion, t, hidden)
             if box.width and box.height:
                 drawn.append(_Drawn(box, texture, layer.blend, isinstance(layer, Layer)))
         return drawn
 
 
-def _placed(layer: Layer | StillLayer, body: int | None, motion: Motion, t: int) -> tuple[PixelBox, FloatImage]:
-    """Where a layer is in a frame, and its channels there."""
+def _placed(
+    layer: Layer | StillLayer, body: int | None, motion: Motion, t: int, hidden: HiddenArea | None = None
+) -> tuple[PixelBox, FloatImage]:
+    """Where a layer is in a frame, and its channels there, which may be any where it is hidden."""
     if isinstance(layer, StillLayer) or body is None:
         return layer.box, layer.texture  # type: ignore[union-attr]
-    return layer.drawn(motion.of_body(body)[t], motion.width, motion.height)
+    return layer.drawn(motion.of_body(body)[t], motion.width, motion.height, hidden=hidden)
 
 
 def render_frames(renderer: LayeredRenderer, *, progress: Progress | None = None) -> Iterator[NDArray[Any]]:
@@ -342,7 +390,11 @@ def _part(planes: FloatImage, box: PixelBox) -> FloatImage:
 def _interleaved(planes: FloatImage, dtype: np.dtype[Any]) -> NDArray[Any]:
     """Planes in 0 to 1, four of them premultiplied, shape [c, h, w], as a straight picture, shape [h, w, c]."""
     picture = np.asarray(cv2.merge(list(planes)))
-    return as_dtype(straight(picture) if is_transparent(picture) else picture, dtype)
+    if is_transparent(picture):
+        picture = straight(picture)
+    if dtype != np.uint8:
+        return as_dtype(picture, dtype)
+    return np.asarray(cv2.convertScaleAbs(np.clip(picture, 0, 1, out=picture), alpha=255))
 
 
 def _within_box(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from ..artwork import Blend
 
-__all__ = ["lay_over"]
+__all__ = ["as_planes", "lay_over"]
 
 FloatImage = NDArray[np.float32]
 
@@ -21,30 +21,36 @@ def lay_over(planes: FloatImage, layer: FloatImage, blend: Blend = "normal") -> 
 
     Args:
         planes: RGB, or premultiplied RGBA, in 0 to 1, shape [3 or 4, h, w].
-        layer: premultiplied RGB and coverage, shape [h, w, 4]; or premultiplied RGBA and coverage, shape [h, w, 5].
-            A view of planes that were not resampled is taken as it is, which is faster.
+        layer: premultiplied RGB and coverage, shape [h, w, 4]; or premultiplied RGBA and coverage, shape [h, w, 5];
+            no colour above its alpha. A view of planes is fastest.
         blend: how colours meet; one of five channels knows "normal" alone.
     """
     if blend != "normal":
         _blend(planes, np.clip(layer, 0, 1), blend)
         return
-    *colours, alpha = _planes(layer)
+    *colours, alpha = np.moveaxis(layer, 2, 0)
     beneath = 1 - alpha
     for plane, added in zip(planes, [*colours, alpha], strict=False):
         plane *= beneath
         plane += added
 
 
-def _planes(layer: FloatImage) -> list[FloatImage]:
-    """The channels of a layer, none with more light than alpha."""
-    if layer.strides[2] > layer.strides[1]:
-        return list(np.moveaxis(layer, 2, 0))
-    *colours, alpha = cv2.split(layer)
-    np.clip(alpha, 0, 1, out=alpha)
-    # Bicubic resampling overshoots at edges; light that is no colour times alpha would be seen as a fringe.
-    for colour in colours:
-        cv2.min(cv2.max(colour, 0, dst=colour), alpha, dst=colour)
-    return [*colours, alpha]
+def as_planes(layer: FloatImage, *, clean: bool = False) -> FloatImage:
+    """A resampled layer, shape [h, w, c], as a view of planes, none with more light than alpha.
+
+    Args:
+        layer: premultiplied colours and coverage.
+        clean: whether it was resampled so that there is no overshoot.
+    """
+    planes = np.empty((layer.shape[2], *layer.shape[:2]), dtype=np.float32)
+    cv2.split(layer, list(planes))
+    if not clean:
+        alpha = planes[-1]
+        np.clip(alpha, 0, 1, out=alpha)
+        # Bicubic resampling overshoots at edges; light that is no colour times alpha would be seen as a fringe.
+        for colour in planes[:-1]:
+            cv2.min(cv2.max(colour, 0, dst=colour), alpha, dst=colour)
+    return np.moveaxis(planes, 0, 2)
 
 
 def _blend(planes: FloatImage, layer: FloatImage, blend: Blend) -> None:

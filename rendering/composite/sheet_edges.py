@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 
 from ...physics.mesh import PixelBox, half_edges, on_boundary
 from .boundary import same_places
-from .places import NOWHERE
 from .sheets import Sheets
 
-__all__ = ["Slits", "tiles_of", "torn"]
+__all__ = ["Slits", "drawn_sides", "tiles_of", "torn"]
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
@@ -53,33 +52,43 @@ class Slits:
         cut = on_boundary(sides) & ~on_boundary(twins[sides])
         return cls(sides[cut].astype(np.int64), twins)
 
-    def open(self, shifts: FloatArray, positions: FloatArray, box: PixelBox) -> Mask:
-        """Pixels of a box through which a side goes that has left its other side, shape [box height, box width].
+    def opened(self, shifts: FloatArray) -> IndexArray:
+        """Sides that have left their other side: vertices at their ends, shape [s, 2].
 
         Args:
             shifts: how far each vertex has moved [px], shape [v, 2].
-            positions: where it is [px], shape [v, 2].
-            box: pixels of the picture.
         """
-        near = np.zeros((box.height, box.width), np.uint8)
+        if not len(self.sides):
+            return self.sides
         apart = (shifts != shifts[self.twins]).any(axis=1)
         left = np.zeros(len(apart), bool)
         left[self.twins[apart]] = True
-        sides = self.sides[left[self.twins[self.sides]].any(axis=1)]
-        lines = (positions[sides] - (box.left + 0.5, box.top + 0.5)) * 2**_SHIFT
-        cv2.polylines(near, list(np.rint(lines).astype(np.int32)), False, 1, 3, cv2.LINE_8, _SHIFT)
-        return near > 0
+        return self.sides[left[self.twins[self.sides]].any(axis=1)]
+
+
+def drawn_sides(sides: IndexArray, positions: FloatArray, box: PixelBox) -> Mask:
+    """Pixels of a box through which sides of slits go, shape [box height, box width].
+
+    Args:
+        sides: vertices at their ends, shape [s, 2].
+        positions: of the vertices [px], shape [v, 2].
+        box: pixels of the picture.
+    """
+    near = np.zeros((box.height, box.width), np.uint8)
+    lines = (positions[sides] - (box.left + 0.5, box.top + 0.5)) * 2**_SHIFT
+    cv2.polylines(near, list(np.rint(lines).astype(np.int32)), False, 1, 3, cv2.LINE_8, _SHIFT)
+    return near.view(bool)
 
 
 def torn(sheets: Sheets) -> Mask:
     """Pixels beside others that come from far apart, shape [h, w]: the ends of what lies over another sheet."""
-    found = np.zeros(sheets.x.shape, dtype=bool)
+    found = np.zeros(sheets.shown.shape, dtype=bool)
     if not len(sheets.double):
         return found
-    places = np.divmod(sheets.double, sheets.x.shape[1])
+    places = np.divmod(sheets.double, sheets.shown.shape[1])
     rows, columns = (slice(max(0, int(each.min()) - 1), int(each.max()) + 2) for each in places)
-    x, y, part = sheets.x[rows, columns], sheets.y[rows, columns], found[rows, columns]
-    there = x > NOWHERE / 2
+    shown, part, there = sheets.shown[rows, columns], found[rows, columns], sheets.covered[rows, columns]
+    x, y = shown.real, shown.imag
     for before, after in (
         ((slice(None), slice(None, -1)), (slice(None), slice(1, None))),
         ((slice(None, -1), slice(None)), (slice(1, None), slice(None))),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,33 +11,37 @@ from numpy.typing import NDArray
 from ...physics.mesh import Fragments, PixelBox, affine_per_triangle, rasterise
 from .places import NOWHERE
 
-__all__ = ["Sheets", "sheets_at", "sheets_in_tiles"]
+__all__ = ["Places", "Sheets", "pairs_of", "sheets_at", "sheets_in_tiles"]
 
 FloatArray = NDArray[np.float64]
-FloatImage = NDArray[np.float32]
+Places = NDArray[np.complex64]
 IndexArray = NDArray[np.int64]
 
 # Two places that a pixel shows at once are of different sheets if they are farther apart than this [px].
 _APART = 2.0
 # Triangles are looked for around squares so large before they are for each tile [px].
 _BLOCK = 32
+_OFF = np.complex64(complex(NOWHERE, NOWHERE))
 
 
 @dataclass(frozen=True, eq=False)
 class Sheets:
-    """Places of a drawing.
+    """Places of a drawing, as complex numbers: column + row i.
 
     Attributes:
-        x: column that each pixel shows, NOWHERE off the mesh, shape [h, w].
-        y: row, of the same shape.
+        shown: place that each pixel shows, far off the drawing where the mesh is not, shape [h, w].
         double: flat numbers of pixels with another sheet beneath, shape [n].
-        beneath: column and row that each of these shows there, shape [2, n].
+        beneath: place that each of these shows there, shape [n].
     """
 
-    x: FloatImage
-    y: FloatImage
+    shown: Places
     double: IndexArray
-    beneath: FloatImage
+    beneath: Places
+
+    @cached_property
+    def covered(self) -> NDArray[np.bool_]:
+        """Which pixels the mesh covers, shape [h, w]."""
+        return np.asarray(self.shown.real > NOWHERE / 2)
 
 
 def sheets_at(
@@ -52,10 +57,10 @@ def sheets_at(
         canvas: in whose pixels the places are told; pixel [0, 0] has its centre at (0, 0).
     """
     fragments = rasterise(positions, triangles, box)
-    shifts = fragments.spread(*affine_per_triangle(positions, triangles, rest - positions))
+    shifts = fragments.spread(affine_per_triangle(positions, triangles, as_places(rest - positions)))
     x = np.arange(box.left, box.right, dtype=np.float32) - canvas.left
     y = np.arange(box.top, box.bottom, dtype=np.float32) - canvas.top
-    return _sheets(fragments, shifts, *np.broadcast_arrays(x, y[:, None]))
+    return _sheets(fragments, shifts, x, y[:, None])
 
 
 def sheets_in_tiles(
@@ -94,13 +99,13 @@ def sheets_in_tiles(
     box = PixelBox(0, 0, fine, len(tiles) * fine)
     pairs = np.arange(3 * len(tile)).reshape(-1, 3)
     fragments = rasterise(points.reshape(-1, 2), pairs, box, rows=(top, top + fine))
-    moves = (rest - positions)[triangles[triangle]].reshape(-1, 2)
-    shifts = fragments.spread(*affine_per_triangle(points.reshape(-1, 2), pairs, moves))
+    moves = as_places(rest - positions)[triangles[triangle]].ravel()
+    shifts = fragments.spread(affine_per_triangle(points.reshape(-1, 2), pairs, moves))
     within = ((np.arange(fine) + 0.5) / scale - 0.5).astype(np.float32)
     x, y = (
         within + (tiles[:, k, None] - start).astype(np.float32) for k, start in enumerate((canvas.left, canvas.top))
     )
-    return _sheets(fragments, shifts, *np.broadcast_arrays(np.repeat(x, fine, axis=0), y.reshape(-1, 1)))
+    return _sheets(fragments, shifts, np.repeat(x, fine, axis=0), y.reshape(-1, 1))
 
 
 def _touching(corners: FloatArray, starts: IndexArray, side: int) -> NDArray[np.bool_]:
@@ -118,29 +123,50 @@ def _touching(corners: FloatArray, starts: IndexArray, side: int) -> NDArray[np.
     return near
 
 
-def _sheets(fragments: Fragments, shifts: FloatImage, x: FloatImage, y: FloatImage) -> Sheets:
+def as_places(points: NDArray[np.floating]) -> NDArray[np.complex128]:
+    """Points, shape [n, 2], as complex numbers x + y i, shape [n]."""
+    return np.ascontiguousarray(points, dtype=np.float64).view(np.complex128)[:, 0]
+
+
+def pairs_of(places: Places) -> NDArray[np.float32]:
+    """Places, shape [h, w], as OpenCV takes them: columns and rows, shape [h, w, 2]."""
+    return np.ascontiguousarray(places).view(np.float32).reshape(*places.shape, 2)
+
+
+def _sheets(fragments: Fragments, shifts: Places, x: NDArray[np.float32], y: NDArray[np.float32]) -> Sheets:
     """The last fragment of each pixel, and the last one before that comes from elsewhere.
 
     Args:
         fragments: of triangles, n pixels.
-        shifts: from each of them to the place that it shows, shape [2, n].
-        x: column of each pixel in the drawing as it is at rest, shape [h, w].
-        y: row, of the same shape.
+        shifts: from each of them to the place that it shows, shape [n].
+        x: column of each pixel in the drawing as it is at rest, shape [h, w] or [w].
+        y: row, shape [h, 1].
     """
     pixels = fragments.pixels()
-    planes = np.full((2, x.size), NOWHERE, dtype=np.float32)
-    for plane, shift in zip(planes, shifts, strict=True):
-        plane[pixels] = shift
-    hidden = np.flatnonzero(_apart(planes[0].take(pixels), shifts[0]) | _apart(planes[1].take(pixels), shifts[1]))[::-1]
+    flat = np.full(len(y) * x.shape[-1], _OFF, dtype=np.complex64)
+    flat[pixels] = shifts
+    hidden = _hidden(flat, pixels, shifts)
     double, last = np.unique(pixels[hidden], return_index=True)
-    beneath = shifts[:, hidden[last]] + np.stack([x.ravel()[double], y.ravel()[double]])
-    planes = planes.reshape(2, *x.shape)
-    planes[0] += x
-    planes[1] += y
-    return Sheets(planes[0], planes[1], double, beneath)
+    shown = flat.reshape(len(y), -1)
+    at_rest = x.astype(np.complex64)
+    shown += at_rest
+    shown.imag += y
+    row, column = np.divmod(double, shown.shape[1])
+    beneath = shifts[hidden[last]] + np.broadcast_to(at_rest, shown.shape)[row, column]
+    beneath.imag += y[row, 0]
+    return Sheets(shown, double, beneath)
 
 
-def _apart(one: FloatImage, other: FloatImage) -> NDArray[np.bool_]:
-    """Whether values are of different sheets; the first ones are lost."""
-    one -= other
-    return np.asarray(np.abs(one, out=one) > _APART)
+def _hidden(flat: Places, pixels: IndexArray, shifts: Places) -> IndexArray:
+    """Numbers of fragments that are hidden by one from elsewhere, the last one first, shape [k].
+
+    Args:
+        flat: shift that each pixel shows.
+        pixels: of the fragments, shape [n].
+        shifts: of the fragments, shape [n].
+    """
+    if np.count_nonzero(flat.view(np.int64) != _OFF.view(np.int64)) == len(pixels):
+        return np.zeros(0, dtype=np.int64)  # no pixel has two
+    hidden = np.flatnonzero(flat.take(pixels).view(np.int64) != shifts.view(np.int64))
+    apart = (flat[pixels[hidden]] - shifts[hidden]).view(np.float32).reshape(-1, 2)
+    return hidden[(np.abs(apart) > _APART).any(axis=1)][::-1]

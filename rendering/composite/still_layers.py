@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError
 from ...physics.mesh import PixelBox
+from .laying import as_planes
 
 if TYPE_CHECKING:
     from ..artwork import Blend
@@ -45,7 +46,7 @@ def still_layer(texture: FloatImage, blend: Blend = "normal") -> StillLayer | No
     if not width:
         return None
     box = PixelBox(left, top, left + width, top + height)
-    return StillLayer(box, np.ascontiguousarray(texture[box.slices]), blend)
+    return StillLayer(box, as_planes(np.ascontiguousarray(texture[box.slices])), blend)
 
 
 def behind_still(mask: FloatImage, cover: Mask) -> FloatImage:

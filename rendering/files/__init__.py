@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from .atomic import naming_place, putting_in_place, replacing
-from .path_names import StrPath, is_folder_name, same_name, suffix_of
+from .path_names import StrPath, is_folder_name, plain_name, same_name, suffix_of
 from .places import check_file_place, check_folder_place, check_replaceable, is_read_only, place_of
+from .recorded_folder import RecordedFiles, check_recorded_folder, write_recorded_folder
 from .regular import check_regular
 from .signals import ending_signals, hear_signals, ignore_signals, uninterrupted
 from .text_files import check_text_output, write_text
 from .unfinished import made_beside, remove_unfinished
 
 __all__ = [
+    "RecordedFiles",
     "StrPath",
     "check_file_place",
     "check_folder_place",
+    "check_recorded_folder",
     "check_regular",
     "check_replaceable",
     "check_text_output",
@@ -25,11 +28,13 @@ __all__ = [
     "made_beside",
     "naming_place",
     "place_of",
+    "plain_name",
     "putting_in_place",
     "remove_unfinished",
     "replacing",
     "same_name",
     "suffix_of",
     "uninterrupted",
+    "write_recorded_folder",
     "write_text",
 ]

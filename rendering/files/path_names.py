@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ...physics.errors import InvalidInputError
 
-__all__ = ["StrPath", "check_windows_name", "is_folder_name", "same_name", "spelled", "suffix_of"]
+__all__ = ["StrPath", "check_windows_name", "is_folder_name", "plain_name", "same_name", "spelled", "suffix_of"]
 
 StrPath = str | os.PathLike[str]
 _RESERVED = {"CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"} | {
@@ -17,10 +17,25 @@ _RESERVED = {"CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"} | {
 }
 _FORBIDDEN = '<>:"|?*'
 
+_LONGEST = 80  # letters of a name that go into a file's
+_MOST_BYTES = 200  # of them; file systems take 255, a number and an ending among them
+
 
 def is_folder_name(path: StrPath) -> bool:
     """Whether a name is that of a folder: it ends in a slash."""
     return spelled(path).endswith(("/", os.sep))
+
+
+def plain_name(name: str, *, or_else: str) -> str:
+    """A name as a part of a file's that any system can write, without an ending.
+
+    Args:
+        name: such as a layer's.
+        or_else: what stands for a name of which nothing is left.
+    """
+    kept = "".join("_" if each in '<>:"/\\|?*' or not each.isprintable() else each for each in name)[:_LONGEST]
+    kept = kept.encode("utf-8", "ignore")[:_MOST_BYTES].decode("utf-8", "ignore").strip(" .") or or_else
+    return f"{kept}_" if kept.partition(".")[0].rstrip().upper() in _RESERVED else kept
 
 
 def suffix_of(path: StrPath) -> str:

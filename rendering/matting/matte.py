@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..pictures import window_around
+from .line_fill import filled_behind_lines
 from .mask_edges import FAINT, LEAST_CONTRAST, SOLID, SQUARE, grown, hard_edge, inner_colour, mean_near
 from .measured_alpha import measured_alpha
 from .raised_alpha import raised_alpha
@@ -98,7 +99,7 @@ def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: 
         support: where the part is, from ``with_outline``; shape [h, w].
     """
     found = measured_alpha if _is_outlined(image, mask > FAINT, support) else solved_alpha
-    alpha = found(image, plate, mask, support)
+    alpha = filled_behind_lines(found(image, plate, mask, support), mask, support)
     # The last percents of a mask that nowhere becomes quite white would leave black of the part behind as black.
     return raised_alpha(image, plate, alpha, (alpha > SOLID) & (alpha < 1), beyond=LEAST_CONTRAST)
 
@@ -150,6 +151,7 @@ def _joined(inside: Mask, outline: Mask, reach: int) -> Mask:
     joined = inside.copy()
     for _ in range(reach):
         joined |= outline & grown(joined, SQUARE)
+    joined |= _between(outline & ~joined, joined & ~inside)
     # The line's outermost pixels are too faint to be told by their lightness.
     added = grown(joined & ~inside, SQUARE)
     joined |= added
@@ -157,3 +159,15 @@ def _joined(inside: Mask, outline: Mask, reach: int) -> Mask:
     small = statistics[:, cv2.CC_STAT_AREA] < _SPECK
     small[0] = False
     return joined | (small[labels] & grown(added, SQUARE))
+
+
+def _between(outline: Mask, found: Mask) -> Mask:
+    """Stretches of an outline that go on from found ones at either end."""
+    _, stretches = cv2.connectedComponents(outline.astype(np.uint8), connectivity=8)
+    _, ends = cv2.connectedComponents((grown(outline, SQUARE) & found).astype(np.uint8), connectivity=8)
+    (row, column), padded = np.nonzero(outline), np.pad(ends, 1)
+    beside = np.stack([padded[row + down, column + right] for down in range(3) for right in range(3)])
+    stretch = np.broadcast_to(stretches[outline], beside.shape)[beside > 0]
+    met = np.unique(np.stack([stretch, beside[beside > 0]]), axis=1)
+    several = np.bincount(met[0], minlength=int(stretches.max()) + 1) > 1
+    return np.asarray(outline & several[stretches])

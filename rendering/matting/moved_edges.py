@@ -22,6 +22,7 @@ __all__ = [
     "searched",
     "share_moved",
     "with_all_strands",
+    "without_new_specks",
 ]
 
 FloatImage = NDArray[np.float32]
@@ -53,6 +54,8 @@ _AROUND_STRANDS = np.ones((11, 11), np.uint8)
 _NARROW = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (9, 9))
 _TOUCHING = np.ones((5, 5), np.uint8)
 _MARGIN = 40
+# Smaller pieces and holes are none of a part's [px].
+_SPECK = 20
 
 
 def searched(image: FloatImage, mask: FloatImage, edge: MaskEdge, *, reach: float) -> tuple[Mask, Mask]:
@@ -116,6 +119,18 @@ def with_all_strands(image: FloatImage, shape: Mask, given: Mask) -> Mask:
     if image.shape[2] > 3:
         shape = shape | _hanging(image[..., 3], shape)
     return _with_strands(image, shape, given)
+
+
+def without_new_specks(shape: Mask, given: Mask) -> Mask:
+    """The shape without pieces and holes of a few pixels that the mask did not have."""
+    for inside in (False, True):
+        side, before = (shape, given) if inside else (~shape, ~given)
+        _, labels, boxes, _ = cv2.connectedComponentsWithStats(side.astype(np.uint8), connectivity=4)
+        specks = boxes[:, cv2.CC_STAT_AREA] < _SPECK
+        specks[np.unique(labels[before & side])] = False
+        specks[0] = False
+        shape = shape ^ specks[labels]
+    return shape
 
 
 def share_moved(moved: Mask, line: Mask) -> float:

@@ -7,11 +7,14 @@ the picture shows it, and its edge is hard or as soft as one pixel; the matting 
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..pictures import window_around
-from .mask_edges import FAINT, SQUARE, edge_strength, grown
+from ...physics.interruption import checkpoint
+from ..pictures import nearest_pixels, window_around
+from .kept_masks import KeptMasks
+from .mask_edges import CROSS, FAINT, SQUARE, edge_strength, grown
 from .mask_forms import NOISE, MaskEdge, edge_of, from_edge, in_blocks, is_noisy, up_to_white
 from .moved_edges import (
     LEAST_STEP,
@@ -23,6 +26,7 @@ from .moved_edges import (
     searched,
     share_moved,
     with_all_strands,
+    without_new_specks,
 )
 
 __all__ = ["regular_mask"]
@@ -37,6 +41,10 @@ _BLURRED = 3.0
 # Where less of an edge would move, the mask has been made with care and is taken at its word.
 _MOVED = 0.3
 _MARGIN = 40
+# A soft piece this many times as long as it is wide is no accident.
+_LONG = 3
+# Within a soft transition an edge of the picture is looked for along these levels of the mask.
+_LEVELS = (0.1, 0.3, 0.5, 0.7, 0.9)
 
 
 def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
@@ -69,7 +77,7 @@ def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
     margin = _MARGIN
     while True:
         window = window_around(mask > FAINT, margin=margin)
-        found = _regular(image[window], mask[window])
+        found = _REGULAR(image[window], mask[window])
         # A strand may go on beyond what has been looked at.
         if found.shape == mask.shape or not _meets_border(found, mask[window]):
             break
@@ -93,12 +101,14 @@ def _meets_border(found: FloatImage, mask: FloatImage) -> bool:
 
 
 def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
+    checkpoint()
     edge = edge_of(mask)
     noisy = edge.median_width() < _BLURRED and is_noisy(mask)
     if noisy:
         mask = np.where(mask < NOISE, np.float32(0), np.where(mask > 1 - NOISE, np.float32(1), mask))
     blurred = edge.width > _BLURRED
     shape, displaced = _shape(image, mask, edge, blurred)
+    shape = without_new_specks(shape, edge.inside)
     moved = shape != edge.inside
     soft = noisy or displaced or edge.median_width() > _ANTI_ALIASED or in_blocks(mask)
     rewritten = blurred | grown(moved, SQUARE) | soft
@@ -106,10 +116,31 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
     near = away <= REACH + np.minimum(edge.width, WIDEST)
     # Where the picture has no edge, a soft transition is what somebody wanted.
     wanted = blurred & (edge_strength(image, shape) < LEAST_STEP)
+    wanted &= _long(wanted, shape, edge) | ~_shows_edge(image, mask, shape)
     # Where a slightly soft edge stays in its place, it says between pixels where that is.
     narrowed = np.clip(_HALF + (mask - _HALF) * np.maximum(edge.width, 1), 0, 1)
     stays = ~displaced & ~noisy & (edge.width <= _BLURRED) & ((narrowed > _HALF) == shape) & ~in_blocks(mask)
     return np.where(rewritten & near & ~wanted, np.where(stays, narrowed, shape), mask).astype(np.float32)
+
+
+_REGULAR = KeptMasks(_regular)
+
+
+def _shows_edge(image: FloatImage, mask: FloatImage, shape: Mask) -> Mask:
+    """Where the picture has an edge somewhere in the transition of a mask, shape [h, w].
+
+    Along the edge that was found it may be missed for a few pixels; the soft wedge left there would cut its ink in two.
+    """
+    levels = [shape, *(mask > level for level in _LEVELS)]
+    return np.max([edge_strength(image, each) for each in levels], axis=0) >= LEAST_STEP
+
+
+def _long(wanted: Mask, shape: Mask, edge: MaskEdge) -> Mask:
+    """Where what is wanted goes on along the edge for much longer than the transition is wide, shape [h, w]."""
+    line = shape & grown(~shape, CROSS)
+    _, pieces = cv2.connectedComponents((line & wanted).astype(np.uint8), connectivity=8)
+    length = np.bincount(pieces[line], minlength=int(pieces.max()) + 1)
+    return np.asarray((line & (length[pieces] > _LONG * edge.width)).ravel()[nearest_pixels(line)[1]])
 
 
 def _shape(image: FloatImage, mask: FloatImage, edge: MaskEdge, blurred: Mask) -> tuple[Mask, bool]:

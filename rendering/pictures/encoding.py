@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError
+from ...physics.interruption import checkpoint
 from .container_formats import ContainerFormat
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ def encode(
     *,
     exact: bool,
 ) -> None:
-    """Write frames into a file.
+    """Write frames into a file; may be stopped at checkpoints.
 
     Args:
         frames: RGB or RGBA, shape [h, w, 3] or [h, w, 4].
@@ -78,6 +79,7 @@ def encode(
         stream.codec_context.time_base = 1 / rate
         _describe(stream)
         for frame in _converted(frames, stream.pix_fmt, rate, even=even, exact=exact, folder=path.parent):
+            checkpoint()
             container.mux(stream.encode(frame))
         container.mux(stream.encode(None))
 
@@ -107,9 +109,17 @@ def _converted(
         return
     for frame in _numbered(frames, rate, even=even):
         if pixels.startswith("yuv"):
-            yield frame.reformat(format=pixels, dst_colorspace="ITU709", dst_color_range="MPEG")
+            yield _tagged(frame.reformat(format=pixels, dst_colorspace="ITU709", dst_color_range="MPEG"))
         else:
             yield frame.reformat(format=pixels)
+
+
+def _tagged(frame: av.VideoFrame) -> av.VideoFrame:
+    """A frame that says itself what its numbers mean: ProRes has that in each frame, besides in the file's head."""
+    for name in ("color_primaries", "color_trc"):
+        if hasattr(frame, name):  # since PyAV 16
+            setattr(frame, name, _BT709)
+    return frame
 
 
 def _numbered(frames: Iterable[NDArray[np.uint8]], rate: Fraction, *, even: bool) -> Iterator[av.VideoFrame]:

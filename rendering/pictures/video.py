@@ -1,4 +1,4 @@
-"""Animations into files: MP4, WebM with alpha, GIF, animated WebP and PNG, or a folder of numbered pictures."""
+"""Animations into files: MP4, WebM and ProRes with alpha, GIF, animated WebP and PNG, or a folder of pictures."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from .container_formats import FORMATS, ContainerFormat
 from .encoding import encode
 from .frame_folder import check_frame_folder, write_frame_folder
 from .frame_rates import check_frame_rate, exact_frame_rate
+from .hand_over import consumed_beside
 from .pixels import as_uint8
 
 if TYPE_CHECKING:
@@ -106,13 +107,14 @@ def write_animation(
     check_output(path, alpha=first.shape[2] == 4, size=(first.shape[1], first.shape[0]))
     every: Iterable[NDArray[np.uint8]] = itertools.chain([first], iterator)
     if is_folder_name(path):
-        write_frame_folder(every, path)
+        consumed_beside(every, lambda each: write_frame_folder(each, path))
         return
     chosen = FORMATS[suffix_of(path)]
     if first.shape[2] == 4 and chosen.mixes_neighbours and not exact:
         every = map(bled, every)
     with replacing(path) as temporary:
-        encode(every, temporary, chosen, first.shape, exact_frame_rate(frame_rate), exact=exact)
+        rate = exact_frame_rate(frame_rate)
+        consumed_beside(every, lambda each: encode(each, temporary, chosen, first.shape, rate, exact=exact))
         if first.shape[2] == 4 and chosen.container == "webp":
             _declare_alpha(temporary)
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+
+from ..pictures import window_around
 
 __all__ = ["spread_colours", "spread_sides"]
 
@@ -63,16 +64,22 @@ def _spread(picture: FloatImage, known: Mask, wanted: Mask, power: float, *, sid
         edge = known
     if not edge.any():
         return picture
-    groups = _groups(picture, edge) if sides else np.zeros(int(edge.sum()), dtype=np.int32)
-    weights, colours = _by_distance(picture, edge, groups, power)
-    if len(weights) > 1:
-        depth = cv2.distanceTransform((~edge).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-        means = np.stack([picture[edge][groups == k].mean(axis=0) for k in range(len(weights))])
-        weights = _competing(weights, means, depth)
-    shares = weights / weights.sum(axis=0)
+    window = window_around(edge | wanted, margin=0)
     filled = picture.copy()
-    filled[wanted] = np.einsum("khw,khwc->hwc", shares, colours)[wanted]
+    filled[wanted] = _from_edge(picture[window], edge[window], wanted[window], power, sides=sides)
     return filled
+
+
+def _from_edge(picture: FloatImage, edge: Mask, wanted: Mask, power: float, *, sides: bool) -> FloatArray:
+    """The wanted colours from those along an edge, shape [n, 3]."""
+    groups = _groups(picture, edge) if sides else np.zeros(int(edge.sum()), dtype=np.int32)
+    weights, sums = _by_distance(picture, edge, wanted, groups, power)
+    shares = weights
+    if len(weights) > 1:
+        depth = cv2.distanceTransform((~edge).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)[wanted]
+        means = np.stack([picture[edge][groups == k].mean(axis=0) for k in range(len(weights))])
+        shares = _competing(weights, means, depth)
+    return np.asarray(np.einsum("kn,kcn->nc", shares / (shares.sum(axis=0) * weights), sums))
 
 
 def _groups(picture: FloatImage, edge: Mask) -> NDArray[np.int32]:
@@ -105,41 +112,45 @@ def _far_apart(colours: FloatArray, count: int) -> FloatArray:
 
 
 def _by_distance(
-    picture: FloatImage, known: Mask, groups: NDArray[np.int32], power: float
+    picture: FloatImage, known: Mask, wanted: Mask, groups: NDArray[np.int32], power: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Sum of distance^-power to each group's pixels, shape [k, h, w], and their mean colour so weighted, [k, h, w, 3].
+    """Sum of distance^-power to each group's pixels, shape [k, n], and the sum of their colours so weighted, [k, 3, n].
 
-    Both are convolutions.
+    Both are convolutions. Rows that are empty, or that nobody asks for, are left out of the transforms.
     """
     from scipy import fft
 
     # Double precision: the weights span more than the range of single precision.
+    height, width = known.shape
     size = [fft.next_fast_len(2 * length, real=True) for length in known.shape]
     y, x = (np.minimum(np.arange(length), length - np.arange(length)).astype(np.float64) for length in size)
     kernel = fft.rfft2((y[:, None] ** 2 + x**2 + 0.5) ** (-power / 2))
 
-    def convolved(planes: Sequence[FloatArray]) -> list[FloatArray]:
-        spread = (fft.irfft2(fft.rfft2(plane, s=size, workers=-1) * kernel, s=size, workers=-1) for plane in planes)
-        return [plane[: known.shape[0], : known.shape[1]] for plane in spread]
+    def convolved(plane: FloatArray) -> FloatArray:
+        turned = fft.fft(fft.rfft(plane, size[1], workers=-1), size[0], axis=0, overwrite_x=True, workers=-1)
+        turned *= kernel
+        back = fft.ifft(turned, axis=0, overwrite_x=True, workers=-1)[:height]
+        return np.asarray(fft.irfft(back, size[1], workers=-1)[:, :width][wanted])
 
     number = np.full(known.shape, -1, dtype=np.int32)
     number[known] = groups
-    weights, colours = [], []
-    for k in range(int(groups.max()) + 1):
+    count = int(groups.max()) + 1
+    weights, sums = np.empty((count, int(wanted.sum()))), np.empty((count, 3, int(wanted.sum())))
+    for k in range(count):
         own = (number == k).astype(np.float64)
-        weight, *sums = convolved([own, *(picture[..., c] * own for c in range(3))])
-        weights.append(np.maximum(weight, 1e-13))
-        colours.append(np.stack(sums, axis=-1) / weights[-1][..., None])
-    return np.stack(weights), np.stack(colours)
+        weights[k] = np.maximum(convolved(own), 1e-13)
+        for channel in range(3):
+            sums[k, channel] = convolved(picture[..., channel] * own)
+    return weights, sums
 
 
 def _competing(weights: FloatArray, means: FloatImage, depth: FloatImage) -> FloatArray:
-    """The weights of groups sharpened, so that the one with the most support wins, shape [k, h, w].
+    """The weights of groups sharpened, so that the one with the most support wins, shape [k, n].
 
     Args:
-        weights: of each group at each pixel, shape [k, h, w].
+        weights: of each group at each pixel, shape [k, n].
         means: mean colour of each group, shape [k, 3]; groups of like colours support each other.
-        depth: distance from the edge [px], shape [h, w].
+        depth: distance from the edge [px], shape [n].
     """
     apart = np.linalg.norm(means[:, None] - means[None], axis=-1)
     shares = weights / weights.sum(axis=0)

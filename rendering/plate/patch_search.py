@@ -137,9 +137,10 @@ class PatchSearch:
         return np.concatenate([(patches - self.mean) @ self.axes, smooth.reshape(-1, 3)[at] * weight], axis=1)
 
     def _cost(self, source: IndexArray) -> FloatImage:
-        difference = self.features[source] - self.wanted
-        row, column = np.divmod(source, self.shape[1])
-        away = (row - self.row) ** 2 + (column - self.column) ** 2
+        difference = self.features.take(source, axis=0)
+        difference -= self.wanted
+        row = source // self.shape[1]
+        away = (row - self.row) ** 2 + (source - row * self.shape[1] - self.column) ** 2
         return np.einsum("ij,ij->i", difference, difference) + np.float32(_NEARNESS) * away.astype(np.float32)
 
     def _neighbours(self) -> Iterator[IndexArray]:
@@ -163,7 +164,8 @@ class PatchSearch:
         """Try random sources around the present ones, ever closer."""
         radius = max(self.shape) / 2
         while radius >= 1:
-            row, column = np.divmod(self.source, self.shape[1])
+            row = self.source // self.shape[1]
+            column = self.source - row * self.shape[1]
             shift = np.rint(self.random.uniform(-radius, radius, (2, len(row)))).astype(np.int64)
             row = np.clip(row + shift[0], RADIUS, self.shape[0] - 1 - RADIUS)
             column = np.clip(column + shift[1], RADIUS, self.shape[1] - 1 - RADIUS)
@@ -181,10 +183,10 @@ class PatchSearch:
 
 def _patches(picture: FloatImage, at: IndexArray) -> FloatImage:
     """The patch around each pixel, one row each, shape [n, 3 * side^2]."""
-    width = picture.shape[1]
-    row, column = np.divmod(at, width)
+    height, width = picture.shape[:2]
     padded = cv2.copyMakeBorder(picture, *[RADIUS] * 4, cv2.BORDER_REFLECT_101)
-    first = row * (width + 2 * RADIUS) + column
-    flat = padded.reshape(-1, 3)
-    shifts = (down * (width + 2 * RADIUS) + right for down in range(_SIDE) for right in range(_SIDE))
-    return np.concatenate([flat[first + shift] for shift in shifts], axis=1)
+    # Each row of a patch lies in one piece.
+    down, right, channel = padded.strides
+    rows = np.ndarray((height, width, _SIDE, 3 * _SIDE), padded.dtype, padded, strides=(down, right, down, channel))
+    row = at // width
+    return rows[row, at - row * width].reshape(len(at), -1)

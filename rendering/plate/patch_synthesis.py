@@ -9,10 +9,16 @@ Sources: Barnes et al., "PatchMatch" (2009); Wexler et al., "Space-Time Completi
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterator
+from typing import Any
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.beside import side_by_side
+from ...physics.interruption import checkpoint
 from .patch_search import RADIUS, Finds, Level, PatchSearch, usable_sources
 
 __all__ = ["continue_texture"]
@@ -23,6 +29,8 @@ Mask = NDArray[np.bool_]
 # Matching and voting alternate so often at each scale.
 _ROUNDS = 6
 _LEAST_WEIGHT = 1e-12
+# Fewer pixels than this are not worth a thread.
+_PIECE = 4096
 
 
 def continue_texture(
@@ -63,6 +71,7 @@ def _matched(
     """Alternate between matching patches and voting for colours."""
     search = PatchSearch(level, finds, random)
     for _ in range(_ROUNDS):
+        checkpoint()
         found = search.round(current)
         current = _voted(level, current, found)
     return current, found
@@ -70,22 +79,33 @@ def _matched(
 
 def _voted(level: Level, current: FloatImage, finds: Finds) -> FloatImage:
     """The hole filled with the weighted mean of what all patches around each of its pixels propose."""
-    height, width = level.hole.shape
-    pixels = np.flatnonzero(level.hole)
-    row, column = np.divmod(pixels, width)
-    # Where no patch is to be trusted at all, a pixel stays as it is.
-    weights = np.full(len(pixels), _LEAST_WEIGHT, dtype=np.float32)
-    total = current[level.hole] * weights[:, None]
-    colours = level.picture.reshape(-1, 3)
-    for down in range(-RADIUS, RADIUS + 1):
-        for right in range(-RADIUS, RADIUS + 1):
-            y, x = row - down, column - right
-            within = (y >= 0) & (y < height) & (x >= 0) & (x < width)
-            y, x = np.where(within, y, 0), np.where(within, x, 0)
-            weight = finds.trust[y, x] * within
-            source = np.clip(finds.source[y, x] + down * width + right, 0, height * width - 1)
-            total += colours[source] * weight[:, None]
-            weights += weight
+    width = level.hole.shape[1] + 2 * RADIUS
+    # Around the picture there is room for patches of no trust, so that none has to be looked for.
+    trust, source = (
+        cv2.copyMakeBorder(each, *[RADIUS] * 4, cv2.BORDER_CONSTANT, value=0).ravel()
+        for each in (finds.trust, finds.source.astype(np.int32))
+    )
+    # The last channel sums the weights.
+    colours = np.column_stack([level.picture.reshape(-1, 3), np.ones(level.hole.size, np.float32)])
+
+    def vote(start: FloatImage, at: NDArray[np.int64]) -> FloatImage:
+        # Where no patch is to be trusted at all, a pixel stays as it is.
+        total = np.column_stack([start, np.ones(len(at), np.float32)]) * np.float32(_LEAST_WEIGHT)
+        for down in range(-RADIUS, RADIUS + 1):
+            for right in range(-RADIUS, RADIUS + 1):
+                patch = at - (down * width + right)
+                proposed = colours.take(source.take(patch) + (down * level.hole.shape[1] + right), axis=0, mode="clip")
+                proposed *= trust.take(patch)[:, None]
+                total += proposed
+        return total[:, :3] / total[:, 3:]
+
+    row, column = np.nonzero(level.hole)
+    pixels = (row + RADIUS) * width + column + RADIUS
     filled = current.copy()
-    filled[level.hole] = total / weights[:, None]
+    filled[level.hole] = np.concatenate(list(side_by_side(vote, *_divided(current[level.hole], pixels))))
     return filled
+
+
+def _divided(*arrays: NDArray[Any]) -> Iterator[list[NDArray[Any]]]:
+    """Arrays of one length in pieces, one for each core where there is enough for all."""
+    return (np.array_split(each, min(os.cpu_count() or 1, 1 + len(each) // _PIECE)) for each in arrays)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...physics.errors import InvalidInputError
+from ...physics.interruption import checkpoint
 from ...physics.mesh import coverage_of, fitted
 from ..matting import regular_mask, with_outline
 from ..pictures import as_dtype, as_float, as_picture, window_around
@@ -65,7 +66,9 @@ def clean_plate(image: NDArray[Any], mask: ArrayLike) -> NDArray[Any]:
         raise InvalidInputError("mask must leave some of the picture to fill the rest with. Got: all is white")
     picture = as_float(image)
     # An outline along the mask belongs to what is removed: it must not run on into the fill.
-    whole = hole | with_outline(picture, regular_mask(picture, coverage)) | with_outline(picture, coverage)
+    whole, regular = hole | with_outline(picture, coverage), regular_mask(picture, coverage)
+    if (regular != coverage).any():
+        whole |= with_outline(picture, regular)
     filled = fill_hole(picture, hole if whole.all() else whole)
     plate = image.copy()
     plate[hole] = as_dtype(filled[hole], image.dtype)
@@ -85,6 +88,7 @@ def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
     window = window_around(hole, margin=_CONTEXT)
     around, inside = picture[window], hole[window]
     lined, lines = continue_lines(around, inside)
+    checkpoint()
     smooth = smooth_fill(lined, inside & ~lines, continued=lines)
     # Fine scales take long in a large hole, and most of it stays hidden.
     finest = max(0, int(np.ceil(np.log2(inside.sum() / _MATCHED_PIXELS) / 2)))

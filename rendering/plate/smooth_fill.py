@@ -6,6 +6,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.beside import Beside
+from ..pictures import window_around
 from .colour_spreading import spread_sides
 
 __all__ = ["smooth_fill"]
@@ -75,11 +77,13 @@ def smooth_fill(picture: FloatImage, hole: Mask, *, continued: Mask | None = Non
     """
     trend, curved = _trend(picture, hole)
     sources = ~hole & ~_ink(picture, ~hole if continued is None else ~hole & ~continued)
-    near = np.where(hole[..., None], spread_sides(picture - trend, sources, hole, power=_FILL_POWER) + trend, picture)
+    # A plane is harmonic by itself, and where the hole meets the picture's border better left out.
+    flat = trend if curved else np.float32(0)
+    with Beside(lambda: _harmonic(picture - flat, hole) + flat) as solving:
+        near = spread_sides(picture - trend, sources, hole, power=_FILL_POWER) + trend
+    deep, near = solving.result(), np.where(hole[..., None], near, picture)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.minimum(depth / np.float32(_DEPTH), 1)[..., None]
-    # A plane is harmonic by itself, and where the hole meets the picture's border better left out.
-    deep = _harmonic(picture - trend, hole) + trend if curved else _harmonic(picture, hole)
     # Where it is far from what is beside, colours of another side shine through.
     share = share * np.exp(-((np.linalg.norm(deep - near, axis=-1, keepdims=True) / np.float32(_AGREEMENT)) ** 2))
     known = picture[~hole]
@@ -154,9 +158,12 @@ def _harmonic(picture: FloatImage, hole: Mask) -> FloatImage:
     coarse = _harmonic(total / np.maximum(known, 1e-6)[..., None], known < 0.5)
     guess = cv2.resize(coarse, hole.shape[::-1], interpolation=cv2.INTER_LINEAR)
     filled = np.where(hole[..., None], guess, picture)
+    window = window_around(hole, margin=1)
+    swept, where = filled[window].copy(), hole[window].astype(np.uint8)
     for _ in range(_SWEEPS):
-        mean = cv2.filter2D(filled, -1, _MEAN_OF_FOUR, borderType=cv2.BORDER_REPLICATE)
-        np.copyto(filled, mean, where=hole[..., None])
+        mean = cv2.filter2D(swept, -1, _MEAN_OF_FOUR, borderType=cv2.BORDER_REPLICATE)
+        swept = cv2.copyTo(mean, where, swept)
+    filled[window] = swept
     return filled
 
 

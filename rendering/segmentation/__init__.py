@@ -5,7 +5,7 @@ from __future__ import annotations
 from .cut_judgement import judge_cuts, judge_points
 from .grabcut import segment
 from .part_masks import segment_parts
-from .prompts import Prompt, checked_box, checked_points, prompts_of
+from .prompts import Prompt, checked_box, checked_points, prompts_of, require_object
 
 __all__ = [
     "Prompt",
@@ -14,6 +14,7 @@ __all__ = [
     "judge_cuts",
     "judge_points",
     "prompts_of",
+    "require_object",
     "segment",
     "segment_parts",
 ]

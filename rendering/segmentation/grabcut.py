@@ -13,13 +13,14 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...physics.errors import InvalidInputError, require
+from ...physics.errors import InvalidInputError
+from ...physics.interruption import checkpoint
 from ..pictures import as_picture, as_uint8
 from ..sketch import extract_sketch
 from .line_clicks import off_lines
 from .noise import noise_of, without_noise
 from .outline_cuts import cut_by_majority, grab_cut, window_of, without_foreign_lines
-from .prompts import Box, checked_box, checked_points
+from .prompts import Box, checked_box, checked_points, require_object
 from .trimap import trimap_from_points
 
 __all__ = ["segment"]
@@ -75,7 +76,7 @@ def segment(
     picture = _as_uint8(image)
     height, width = picture.shape[:2]
     seeds, positive = checked_points(points, labels, width, height)
-    require("points", f"{len(seeds)} points", bool(positive.any()) or box is not None, "at least one positive point")
+    require_object(positive, box)
     if (factor := _ENOUGH // max(width, height)) > 1:
         options = {"tolerance": tolerance, "iterations": iterations, "largest_hole": largest_hole}
         return _enlarged(picture, seeds, positive, box, factor, options)
@@ -96,6 +97,7 @@ def segment(
     trimap = trimap_from_points(lab, at, on_object, small_limit, tolerance, has_box=box is not None)
     # Noise stays: the colour models and the smoothness of the cut bear it better than the loss of thin strands.
     found = cut_by_majority(lab, trimap, iterations, at[on_object])
+    checkpoint()
     mask = cv2.resize(found.astype(np.float32), (width, height), interpolation=cv2.INTER_LINEAR) > 0.5
     mask = _sharpened(picture, mask, reach=max(2, round(2 / scale)))
     mask = _with_outline(picture, mask) & limit

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.interruption import checkpoint
 from .grabcut import segment
 from .mask_cleanup import clean_mask
 from .prompts import Prompt
@@ -68,6 +69,7 @@ def segment_parts(
 def _cut(image: NDArray[np.uint8], prompts: Sequence[Prompt]) -> list[Mask]:
     masks = []
     for number, prompt in enumerate(prompts):
+        checkpoint()
         others = [_on(other) for index, other in enumerate(prompts) if index != number]
         beside = np.concatenate([np.zeros((0, 2)), *others])
         points = np.concatenate([np.reshape(prompt.points, (-1, 2)), beside])

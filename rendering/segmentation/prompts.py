@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...physics.document import require_pixels
-from ...physics.errors import InvalidInputError, require
+from ...physics.errors import InvalidInputError, counted, require
 from ...physics.scene import QueryPoint
 
-__all__ = ["Box", "Prompt", "checked_box", "checked_points", "prompts_of"]
+__all__ = ["Box", "Prompt", "checked_box", "checked_points", "prompts_of", "require_object"]
 
 Box = tuple[float, float, float, float]
 """x0, y0, x1, y1 [px]."""
@@ -31,6 +31,20 @@ class Prompt:
     points: ArrayLike = field(default_factory=lambda: np.zeros((0, 2)))
     labels: ArrayLike = ()
     box: Box | None = None
+
+
+def require_object(positive: NDArray[np.bool_], box: Box | None) -> None:
+    """Refuse a prompt that says only what is beside the object.
+
+    Args:
+        positive: whether each point is on the object, shape [k].
+        box: around the object, where one was given.
+
+    Raises:
+        InvalidInputError: no point is on the object, and there is no box.
+    """
+    got = f"{counted(len(positive), 'point')}, all beside it" if len(positive) else "no points"
+    require("points", got, bool(positive.any()) or box is not None, "with one on the part at least, or with a box")
 
 
 def checked_points(

@@ -11,7 +11,7 @@ from typing import Any
 from torch import Tensor
 
 from ...physics.checks import check_whole, require_kind
-from ...physics.errors import InvalidInputError, require
+from ...physics.errors import InvalidInputError, counted, require
 from ..networks.checkpoints import CheckpointError, below, read_checkpoint
 from ..networks.image_encoder import ImageEncoderConfiguration
 from ..networks.image_encoder_names import from_open_clip
@@ -145,7 +145,7 @@ def _whole(config: Mapping[str, Any], name: str, most: int) -> int:
 
 
 def _channels(given: Any) -> tuple[int, ...]:
-    require("block_out_channels", f"{len(given)} levels", 1 <= len(given) <= _MOST_LEVELS, f"1 to {_MOST_LEVELS}")
+    require("block_out_channels", counted(len(given), "level"), 1 <= len(given) <= _MOST_LEVELS, f"1 to {_MOST_LEVELS}")
     for each in given:
         check_whole("block_out_channels", each, 1, _MOST_CHANNELS)
     return tuple(given)

@@ -16,7 +16,7 @@ from typing import Any
 from torch import nn
 
 from ...physics.checks import check_whole, require_kind
-from ...physics.errors import InvalidInputError, require
+from ...physics.errors import InvalidInputError, counted, require
 from ..networks.checkpoints import CheckpointError, build_without_storage
 from ..networks.image_encoder import ImageEncoder, ImageEncoderConfiguration
 from .autoencoder import DualReferenceAutoencoder
@@ -121,7 +121,7 @@ def _checked(name: str, usual: Any, value: Any) -> Any:
         require(name, value, isinstance(value, bool), "true or false")
     elif isinstance(usual, tuple):
         require_kind(name, value, list, "a list")
-        require(name, f"{len(value)} values", len(value) <= _MOST_LEVELS, f"at most {_MOST_LEVELS} values")
+        require(name, counted(len(value), "value"), len(value) <= _MOST_LEVELS, f"at most {_MOST_LEVELS} values")
         for each in value:
             check_whole(name, each, 0, most)
         return tuple(value)

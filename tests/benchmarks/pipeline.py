@@ -2,8 +2,9 @@
 
     python tests/benchmarks/pipeline.py --json
 
-Prints ``{"ms": {...}, "ratios": {...}, "simulation_of_real_time": _, "demo_cold_s": _, ...}``. A figure is the
-median over rounds in which every stage and the yardstick take turns, so that a slow moment hits all alike.
+Prints ``{"ms": {...}, "ratios": {...}, "simulation_of_real_time": _, "plate_in_remaps": _, "first_frame_cold_s": _,
+"demo_warm_s": _, "demo_stages_s": {...}, ...}``. A figure is the median over rounds in which every stage and the
+yardstick take turns, so that a slow moment hits all alike.
 """
 
 from __future__ import annotations
@@ -12,18 +13,15 @@ import argparse
 import json
 import platform
 import statistics
-import subprocess
-import sys
-import tempfile
 import time
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
 import source_tree  # noqa: F401  (loads this source tree as the package physanimator)
 from artwork_speed import layers_measured
+from demo_speed import demo_measured, plate_measured
 from meshes import SIDE2_OVER_AREA, mesh_of_about
 from physanimator.physics.assembly import plan
 from physanimator.physics.material import preset
@@ -35,7 +33,6 @@ from physanimator.rendering.composite import LayeredRenderer
 from physanimator.rendering.plate import clean_plate
 from physanimator.rendering.sketch import extract_sketch, warp_sketch
 
-ROOT = Path(__file__).resolve().parents[2]
 WIDTH, HEIGHT = 1280, 720
 TRIANGLES = 2000
 
@@ -57,15 +54,6 @@ def timed(function: Callable[[], Any]) -> float:
     start = time.perf_counter()
     function()
     return (time.perf_counter() - start) * 1000
-
-
-def demo_cold_seconds() -> float | None:
-    """Wall time of ``physanimator demo`` in a new process; None when the package is not installed here."""
-    with tempfile.TemporaryDirectory() as folder:
-        command = [sys.executable, "-m", "physanimator", "demo", "--quiet", "--output", str(Path(folder) / "demo.mp4")]
-        start = time.perf_counter()
-        done = subprocess.run(command, cwd=folder, capture_output=True, check=False)
-        return time.perf_counter() - start if done.returncode == 0 else None
 
 
 def measure(rounds: int) -> dict[str, Any]:
@@ -100,12 +88,15 @@ def measure(rounds: int) -> dict[str, Any]:
     for _ in range(5):
         times["simulate"].append(timed(lambda: simulate(scene, frames=frames)) / (frames - 1))
     ms = {name: statistics.median(values) for name, values in times.items()}
+    plates = plate_measured()
     return {
         "ms": {**ms, "mesh_once": meshing_ms, "clean_plate_once": plate_ms, "extract_sketch_once": sketch_ms},
         "ratios": {name: ms[name] / ms["remap"] for name in ("flow", "composite", "sketch_warp")},
         "simulation_of_real_time": ms["simulate"] * scene.frame_rate / 1000,
         "layers": layers_measured(),
-        "demo_cold_s": demo_cold_seconds(),
+        "plate_in_remaps": max(plates.values()),
+        "plates_in_remaps": plates,
+        **demo_measured(),
         "triangles": len(mesh.triangles),
         "body_share_of_frame": float(mask.mean()),
         "substeps_per_frame": plan(scene, frames=frames).substeps_per_frame,
@@ -132,6 +123,11 @@ def main() -> None:
     layers = result["layers"]
     print(f"{'a frame of layers':>22} {layers['frame_of_remap']:9.2f} x cv2.remap")
     print(f"{'first frame of layers':>22} {layers['first_frame_ratio']:9.2f} x with masks")
+    print(f"{'plate of one part':>22} {result['plate_in_remaps']:9.2f} x cv2.remap, at most")
+    for name in ("first_progress_cold_s", "first_frame_cold_s", "demo_warm_s"):
+        print(f"{name:>22} {result[name]:9.2f} s")
+    for name, value in result["demo_stages_s"].items():
+        print(f"{name:>22} {value:9.2f} s of it")
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,9 +22,14 @@ _ARGUMENTS = [
     "--enable-unsafe-swiftshader",
 ]
 # What the frontends complain about by themselves: files that the host lacks, routes that are newer than the host, the
-# outside world.
-_HOST_NOISE = ("Failed to load resource", "[Jobs API]", "Fetch API cannot load", "Connecting to")
+# outside world; and a page file that fails, which they name in a second message.
+_HOST_NOISE = ("Failed to load resource", "[Jobs API]", "Fetch API cannot load", "Connecting to", "[vite:preloadError]")
 _READY = "() => window.app?.graph && window.LiteGraph?.registered_node_types?.['PhysAnimator_Render']"
+
+
+def of_another_pack(told: str) -> bool:
+    """Whether an error comes from page files of other packs or of the host's own extensions, and of none of ours."""
+    return bool(re.search(r"/extensions/[^/\s]+/", told)) and "physanimator" not in told.lower()
 
 
 class Page:
@@ -38,12 +44,17 @@ class Page:
         self.page = page
         self.problems: list[str] = []
         page.on("console", self._on_console)
-        page.on("pageerror", lambda error: self.problems.append(f"uncaught: {error}"))
+        page.on("pageerror", self._on_uncaught)
 
     def _on_console(self, message: Any) -> None:
-        ours = "physanimator" in f"{message.text} {message.location['url']}".lower()
-        if message.type == "error" and (ours or not message.text.startswith(_HOST_NOISE)):
+        told = f"{message.text} {message.location['url']}"
+        noise = message.text.startswith(_HOST_NOISE) and "physanimator" not in told.lower()
+        if message.type == "error" and not noise and not of_another_pack(told):
             self.problems.append(message.text)
+
+    def _on_uncaught(self, error: Any) -> None:
+        if not of_another_pack(f"{error} {error.stack}"):
+            self.problems.append(f"uncaught: {error}")
 
     def run(self, script: str, argument: Any = None) -> Any:
         """The value of a JavaScript function, awaited."""

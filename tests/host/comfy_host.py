@@ -25,6 +25,21 @@ ROOT = Path(__file__).resolve().parents[2]
 PACK = "PhysAnimator"
 STAND_IN = Path(__file__).with_name("see_through_stand_in")
 """A pack with the nodes of ComfyUI-See-through, without its models."""
+BROKEN_PACKS = {
+    "fails_to_load": {"__init__.py": "raise RuntimeError('this pack cannot be loaded')\n"},
+    "fails_when_asked": {
+        "__init__.py": (
+            "class Broken:\n"
+            "    FUNCTION, RETURN_TYPES, CATEGORY = 'run', (), 'broken'\n"
+            "    @classmethod\n"
+            "    def INPUT_TYPES(cls): raise RuntimeError('this node cannot say what it takes')\n"
+            "NODE_CLASS_MAPPINGS = {'Broken': Broken}\n"
+            "WEB_DIRECTORY = './js'\n"
+        ),
+        "js/broken.js": "throw new Error('this page file cannot be run')\n",
+    },
+}
+"""Packs that stand beside ours in every test: what fails in them must not fail here."""
 _START_SECONDS = 180
 _RUN_SECONDS = 900
 
@@ -48,6 +63,10 @@ class Host:
         (folder / "custom_nodes").mkdir()
         (folder / "custom_nodes" / PACK).symlink_to(ROOT, target_is_directory=True)
         (folder / "custom_nodes" / STAND_IN.name).symlink_to(STAND_IN, target_is_directory=True)
+        for pack, files in BROKEN_PACKS.items():
+            for name, text in files.items():
+                (folder / "custom_nodes" / pack / name).parent.mkdir(parents=True, exist_ok=True)
+                (folder / "custom_nodes" / pack / name).write_text(text, encoding="utf-8")
         self._log = (folder / "server.log").open("wb")
         self._process = subprocess.Popen(
             [python, "main.py", "--cpu", "--port", str(self.port), "--disable-auto-launch", "--disable-api-nodes",

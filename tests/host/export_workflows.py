@@ -8,10 +8,8 @@ frontend itself builds and serialises them: the files are what it would save; th
 
 from __future__ import annotations
 
-import io
 import json
 import os
-import shutil
 import sys
 import tempfile
 import uuid
@@ -19,15 +17,16 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-import numpy as np
+import thumbnails
 from browser import Page, opened
 from comfy_host import ROOT, Host
 from frame_interpolation_graph import NAME, with_frame_interpolation
-from graphs import WORKFLOWS, Group, without_models
+from graphs import WORKFLOWS, Group
 from layer_graphs import LAYER_WORKFLOWS
 from paper_graphs import PAPER_WORKFLOWS
 from showcase_graphs import SHOWCASE_WORKFLOWS
-from video_model_graphs import VIDEO_MODEL_WORKFLOWS, without_video_model
+from stamps import stamped
+from video_model_graphs import VIDEO_MODEL_WORKFLOWS
 
 SCHEMAS = ROOT / "tests" / "nodes" / "node_schemas.json"
 _WORKFLOWS = WORKFLOWS | PAPER_WORKFLOWS | SHOWCASE_WORKFLOWS | LAYER_WORKFLOWS | VIDEO_MODEL_WORKFLOWS
@@ -101,7 +100,7 @@ def export(page: Page, name: str, groups: tuple[Group, ...]) -> tuple[dict[str, 
     ui, api = graphs["ui"], graphs["api"]
     ui["id"] = str(uuid.uuid5(uuid.NAMESPACE_URL, f"physanimator/{name}"))
     ui["extra"] = {"ds": _view(ui)}
-    return ui, api
+    return stamped(ui), api
 
 
 def _view(ui: dict[str, Any]) -> dict[str, Any]:
@@ -120,20 +119,6 @@ def _view(ui: dict[str, Any]) -> dict[str, Any]:
     return {"scale": scale, "offset": [round(120 / scale - left, 1), round(130 / scale - top, 1)]}
 
 
-def thumbnail(host: Host, api: dict[str, Any], path: Path) -> None:
-    """Run the workflow, and keep the frame in which most differs from its first one."""
-    import av
-
-    (save,) = [key for key, node in api.items() if node["class_type"] == "SaveVideo"]
-    video = host.view(host.run(api)[save]["images"][0])
-    with av.open(io.BytesIO(video)) as container:
-        frames = [frame.to_image() for frame in container.decode(video=0)]
-    first = np.asarray(frames[0], dtype=np.int16)
-    picture = max(frames, key=lambda frame: np.abs(np.asarray(frame) - first).mean())
-    picture.resize((640, round(640 * picture.height / picture.width))).save(path, quality=88)
-    print(path.relative_to(ROOT))
-
-
 def schemas(host: Host) -> dict[str, Any]:
     """What the host tells about the nodes of this pack."""
     info = host.get("/object_info")
@@ -147,12 +132,12 @@ def _write(path: Path, data: Any) -> None:
 
 
 def _write_for_newer_hosts() -> None:
-    """What is made of the quickstart; its thumbnail is that one's, whose frames it shows."""
+    """What is made of the quickstart."""
     folders = ROOT / "workflows", ROOT / "workflows" / "api"
     quickstart = [json.loads((folder / "quickstart.json").read_text(encoding="utf-8")) for folder in folders]
     for folder, graph in zip(folders, with_frame_interpolation(*quickstart), strict=True):
         _write(folder / f"{NAME}.json", graph)
-    shutil.copyfile(folders[0] / "quickstart.jpg", folders[0] / f"{NAME}.jpg")
+    thumbnails.write(NAME)
 
 
 def main() -> None:
@@ -169,7 +154,7 @@ def main() -> None:
                     ui, api = export(page, name, _WORKFLOWS[name]())
                     _write(ROOT / "workflows" / f"{name}.json", ui)
                     _write(ROOT / "workflows" / "api" / f"{name}.json", api)
-                    thumbnail(host, without_video_model(without_models(api)), ROOT / "workflows" / f"{name}.jpg")
+                    thumbnails.write(name)
             _write_for_newer_hosts()
         finally:
             host.stop()

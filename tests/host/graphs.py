@@ -73,9 +73,19 @@ painted in the mask editor, or from *Segment by Points*.
 
 **Softer or stiffer:** *preset* in *Body*, or connect a *Material*.
 
-**Draw the wind yourself:** see the workflow *every_step*.
+**Draw the wind yourself**, and see it move at once: the workflow *scene_editor*.
 
-Every node has a help page: select it and press **?**.
+Every node has a help page: select it and press the **info** button above it.
+"""
+
+ANIMATE_NOTE = """\
+## Click on what shall move
+
+**Your own picture:** drop it on the canvas of *Animate Illustration*, then click on what shall move.
+
+**Several parts:** *New part*, or Shift with the click. **Too much is cut:** Alt with the click.
+
+**Run** makes the frames and saves a video.
 """
 
 STEPS_NOTE = """\
@@ -252,6 +262,19 @@ _PAINTED = {
 }
 _INPAINTED: Renderer = (_PAINTED, {})
 
+PICKED = {
+    "version": 2,
+    "width": 1280,
+    "height": 720,
+    "query_points": [
+        *({"x": x, "y": y} for x, y in ((700, 300), (560, 215), (600, 330), (640, 250))),
+        *({"x": x, "y": y, "part": 1} for x, y in ((620, 60), (500, 80), (545, 100), (610, 110))),
+        *({"x": x, "y": y, "part": 2} for x, y in ((680, 540), (640, 480), (700, 590))),
+        *({"x": x, "y": y, "positive": False, "part": 2} for x, y in ((470, 420), (560, 400), (600, 480), (760, 640))),
+    ],
+    "bodies": [{"material": {"preset": name}} for name in ("hair", "ribbon", "cloth")],
+}
+
 CAPE_POINTS = """\
 [[680, 540, 1], [640, 480, 1], [700, 590, 1],
  [650, 612, 1], [790, 568, 1], [720, 610, 1],
@@ -268,6 +291,18 @@ def core(key: str, node_type: str, height: int = 0, /, title: str = "", values: 
 def ours(key: str, node_type: str, height: int = 0, /, title: str = "", values: Any = None, **inputs: str) -> Node:
     """A node of this pack."""
     return Node(key, f"PhysAnimator_{node_type}", title, height, values or {}, inputs)
+
+
+def animate_illustration() -> tuple[Group, ...]:
+    """Hair, bow and cape of the bundled illustration, picked by clicks in the one node that goes the whole way."""
+    picked = {"points": json.dumps(PICKED, separators=(",", ":"))}
+    nodes = (
+        ours("animate", "AnimateIllustration", 860, values=picked),
+        core("video", "CreateVideo", images="animate.frames", fps="animate.frame_rate"),
+        core("save", "SaveVideo", 0, "", {"filename_prefix": "PhysAnimator/animate"}, video="video.VIDEO"),
+    )
+    note = core("note", "MarkdownNote", 300, "Start here", {"": ANIMATE_NOTE})
+    return (Group("From a picture to a video", PURPLE, (Column(300, (note,)), Column(680, nodes))),)
 
 
 def quickstart() -> tuple[Group, ...]:
@@ -542,6 +577,7 @@ def _video(name: str, width: int, frames: str, *between: Node, renderer: Rendere
 
 
 WORKFLOWS = {
+    "animate_illustration": animate_illustration,
     "quickstart": quickstart,
     "every_step": every_step,
     "physanimator_paper": physanimator_paper,

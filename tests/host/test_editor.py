@@ -202,7 +202,7 @@ def test_delete_takes_the_item_and_never_the_node(editor: EditorPage) -> None:
     editor.click(550, 300)
     editor.press("delete")
     assert_drawn(editor, strokes=0)
-    editor.selector('[data-field="frame_rate"] input').click()
+    editor.selector('[data-field="frame_rate"] input[type="number"]').click()
     editor.keys("End", "Backspace", "Delete")
     assert editor.page.run("() => app.graph.nodes.length") == 4
 

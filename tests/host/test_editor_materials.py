@@ -42,7 +42,7 @@ def moved(editor: EditorPage) -> float:
 
 def test_stiffness_is_given_by_sway_by_young_or_by_lame_parameters(editor: EditorPage) -> None:
     before = moved(editor)
-    assert editor.selector('[data-field="sway_frequency"] input').input_value() == "0.7"
+    assert editor.selector('[data-field="sway_frequency"] input[type="number"]').input_value() == "0.7"
     choose(editor, "stiffness", "Lame")
     (body,) = editor.value()["bodies"]
     assert body["material"].keys() == {"preset", "mu", "lambda"}

@@ -146,6 +146,38 @@ def test_an_unknown_backend_is_refused_before_any_work(host: Any) -> None:
     assert "sam2" in json.dumps(answer)
 
 
+@pytest.mark.parametrize(
+    ("node", "named"),
+    [
+        (stroke(path="nonsense"), "path"),
+        (stroke(end=0.5, start=1.0, speed_keys="[[0, 0], [1, 2]]"), "speed_keys"),
+        (stroke(strength=float("nan")), "strength"),
+        (pin(position="nowhere"), "position"),
+        (ours("SegmentByPoints", image=["picture", 0], points="[[40, 10, 0]]"), "points"),
+        (ours("SegmentByPoints", image=["picture", 0], points="[[40, 10]]", box="[1, 2]"), "box"),
+    ],
+)
+def test_one_wrong_value_is_one_line(host: Any, node: dict[str, Any], named: str) -> None:
+    status, answer = host.post("/prompt", {"prompt": bar() | {"wrong": node} | seen("wrong", 0)})
+    assert status == 400
+    (line,) = answer["node_errors"]["wrong"]["errors"]
+    assert line["details"].startswith(f"{named} - {named}")
+    assert line["extra_info"]["input_name"] == named
+    assert answer["error"]["details"].count("\n") == 0
+
+
+def test_the_same_scene_in_another_spelling_is_not_run_again(host: Any) -> None:
+    document = {"version": 2, "width": 320, "height": 180, "strokes": [{"kind": "wind", "path": [[0, 90], [320, 90]]}]}
+    respelled = json.dumps(dict(reversed(document.items())) | {"width": 320.0}, indent=3)
+    ran = []
+    for text in (json.dumps(document), respelled):
+        edited = {"scene": ours("SceneEditor", bodies=["body", 0], scene=text)}
+        prompt = bar() | edited | {"motion": ours("Simulate", scene=["scene", 0], frames=3)} | seen("motion")
+        messages = dict(host.wait(host.queue(prompt))["status"]["messages"])
+        ran.append({"scene", "motion", "end"} - set(messages["execution_cached"]["nodes"]))
+    assert ran == [{"scene", "motion", "end"}, set()]
+
+
 def test_most_of_the_picture_from_one_point_is_told(host: Any) -> None:
     prompt = bar() | {"cut": ours("SegmentByPoints", image=["picture", 0], points="[[5, 5]]")} | seen("cut", 0)
     assert "of the picture from one point" in " ".join(host.run(prompt)["cut"]["advice"])

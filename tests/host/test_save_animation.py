@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 from small_graphs import core, moving_bar, ours
 
-TYPES = ["mp4", "webm", "gif", "webp", "apng", "png frames"]
+TYPES = ["mp4", "webm", "gif", "webp", "apng", "mov", "png frames"]
 
 
 def saved(frames: int = 4, **changes: Any) -> dict[str, Any]:
@@ -88,10 +88,10 @@ def test_parts_alone_are_transparent(host: Any) -> None:
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"background": "parts"}, "file_type must be one of webm, gif, webp, apng, png frames for transparency"),
+        ({"background": "parts"}, "file_type must be one of webm, gif, webp, apng, mov, png frames for transparency"),
         ({"background": "sky-high"}, "background must be one of picture, transparent, parts, colour"),
         ({"background": "colour", "background.colour": "sky-high"}, "background must be picture, transparent, parts"),
-        ({"file_type": "mov"}, "file_type must be one of mp4, webm"),
+        ({"file_type": "avi"}, "file_type must be one of mp4, webm"),
         ({"filename_prefix": "../outside"}, "filename_prefix must be a name in the output folder"),
         ({"filename_prefix": "/etc/outside"}, "filename_prefix must be a name in the output folder"),
         ({"filename_prefix": "film/" + "x" * 300}, "filename_prefix must be of names with at most 200 bytes each"),

@@ -74,6 +74,10 @@ test("points are read in every form that the node takes, and written as a scene 
 
 function graphOf(nodes, links) {
   const graph = { nodes, links, getNodeById: (id) => nodes.find((node) => node.id === id) };
+  for (const node of nodes) {
+    node.isInputConnected = (slot) => node.inputs[slot]?.to != null;
+    node.getInputLink = (slot) => links[node.inputs[slot]?.to] ?? null;
+  }
   for (const node of nodes) node.graph = graph;
   return graph;
 }
@@ -81,10 +85,10 @@ function graphOf(nodes, links) {
 const load = { id: 1, type: "LoadImage", widgets: [{ name: "image", value: "art/girl.png [output]" }], inputs: [] };
 
 test("the picture is found through other nodes and out of subgraphs", () => {
-  const scale = { id: 2, type: "ImageScale", inputs: [{ type: "IMAGE", link: 10 }] };
-  const inner = { id: 5, type: "PhysAnimator_SceneEditor", inputs: [{ type: "PHYSANIMATOR_BODIES", link: null }, { type: "IMAGE", link: 20 }] };
+  const scale = { id: 2, type: "ImageScale", inputs: [{ type: "IMAGE", to: 10 }] };
+  const inner = { id: 5, type: "PhysAnimator_SceneEditor", inputs: [{ type: "PHYSANIMATOR_BODIES", to: null }, { type: "IMAGE", to: 20 }] };
   const subgraph = graphOf([inner], { 20: { origin_id: -10, origin_slot: 0 } });
-  const holder = { id: 3, type: "sub", subgraph, inputs: [{ type: "IMAGE", link: 11 }] };
+  const holder = { id: 3, type: "sub", subgraph, inputs: [{ type: "IMAGE", to: 11 }] };
   const root = graphOf([load, scale, holder], { 10: { origin_id: 1 }, 11: { origin_id: 2 } });
   assert.equal(upstreamPicture(inner, root), "/view?filename=girl.png&subfolder=art&type=output");
   assert.equal(executionId(inner, root), "3:5");
@@ -93,7 +97,7 @@ test("the picture is found through other nodes and out of subgraphs", () => {
 
 test("a file from the input folder and the pack's own example are pictures, a bypassed node's is none", () => {
   const found = (source) => {
-    const editor = { id: 2, type: "PhysAnimator_SceneEditor", inputs: [{ type: "IMAGE", link: 10 }] };
+    const editor = { id: 2, type: "PhysAnimator_SceneEditor", inputs: [{ type: "IMAGE", to: 10 }] };
     return upstreamPicture(editor, graphOf([{ id: 1, inputs: [], ...source }, editor], { 10: { origin_id: 1 } }));
   };
   const widgets = [{ name: "image", value: "girl.png" }];
@@ -103,8 +107,8 @@ test("a file from the input folder and the pack's own example are pictures, a by
 });
 
 test("a ring of links ends, and a node without a picture has none", () => {
-  const first = { id: 1, type: "A", inputs: [{ type: "IMAGE", link: 1 }] };
-  const second = { id: 2, type: "B", inputs: [{ type: "IMAGE", link: 2 }] };
+  const first = { id: 1, type: "A", inputs: [{ type: "IMAGE", to: 1 }] };
+  const second = { id: 2, type: "B", inputs: [{ type: "IMAGE", to: 2 }] };
   const root = graphOf([first, second], { 1: { origin_id: 2 }, 2: { origin_id: 1 } });
   assert.equal(upstreamPicture(first, root), null);
 });

@@ -8,39 +8,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bar_graphs import core, moving_bar, ours
 from PIL import Image
 
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
 API = (Path(__file__).resolve().parents[2] / "workflows" / "api").glob("*.json")
 IN_WORKFLOWS = {node["class_type"] for path in API for node in json.loads(path.read_text(encoding="utf-8")).values()}
-RUN_HERE = {"FrameAsLayers", "LayersFromImageBatch", "SaveAnimation", "SaveLayers"}
+RUN_HERE = {"FrameAsLayers", "LayersFromImageBatch", "SaveAnimation", "SaveLayers", "SaveSpineOrGltf"}
 """Nodes that stand in no published workflow, all of which are run in test_running_workflows.py."""
 FILE_TYPES = SCHEMAS["PhysAnimator_SaveAnimation"]["input"]["required"]["file_type"][1]["options"]
-
-
-def core(node_type: str, /, **inputs: Any) -> dict[str, Any]:
-    return {"class_type": node_type, "inputs": inputs}
-
-
-def ours(node_type: str, /, **inputs: Any) -> dict[str, Any]:
-    return core(f"PhysAnimator_{node_type}", **inputs)
-
-
-def moving_bar(frames: int = 4) -> dict[str, Any]:
-    """A white bar that hangs at its top and is blown to the right, as a picture and its motion."""
-    return {
-        "black": core("SolidMask", value=0.0, width=160, height=96),
-        "white": core("SolidMask", value=1.0, width=24, height=64),
-        "mask": core("MaskComposite", destination=["black", 0], source=["white", 0], x=60, y=16, operation="add"),
-        "picture": core("MaskToImage", mask=["mask", 0]),
-        "mesh": ours("MaskToMesh", mask=["mask", 0], spacing=8.0, elements_across=2, mask_index=0),
-        "body": ours("Body", mesh=["mesh", 0], preset="ribbon", layer=0, attach="top"),
-        "scene": ours("AutomaticScene", bodies=["body", 0], wind_strength=3.0, wind_angle=0.0, sway_by_size=True,
-                      frame_rate=12.0),
-        "motion": ours("Simulate", scene=["scene", 0], frames=frames),
-        "render": ours("Render", image=["picture", 0], motion=["motion", 0]),
-        "seen": core("PreviewImage", images=["render", 0]),
-    }  # fmt: skip
 
 
 def pictures(standin: Any, outputs: dict[str, Any], key: str) -> np.ndarray:
@@ -66,6 +42,23 @@ def test_a_bar_moves_and_what_was_not_changed_is_not_computed_again(standin: Any
     assert {"scene", "motion", "render"} <= set(standin.executed)
 
 
+def test_the_same_scene_in_another_spelling_is_not_simulated_again(standin: Any) -> None:
+    document = {"version": 2, "width": 160, "height": 96, "frame_rate": 12,
+                "strokes": [{"kind": "wind", "path": [[10, 40], [150, 40]], "radius": 80, "speed": 300}]}  # fmt: skip
+    prompt = moving_bar(3)
+    prompt["scene"] = ours("SceneEditor", scene=json.dumps(document), bodies=["body", 0])
+    standin.run(prompt)
+    assert "motion" in standin.executed
+    document |= {"width": 160.0, "frame_rate": 12.0}
+    prompt["scene"]["inputs"]["scene"] = json.dumps(dict(reversed(document.items())), indent=2)
+    standin.run(prompt)
+    assert standin.executed == []
+    document["strokes"][0]["speed"] = 301
+    prompt["scene"]["inputs"]["scene"] = json.dumps(document)
+    standin.run(prompt)
+    assert {"scene", "motion"} <= set(standin.executed)
+
+
 def test_an_output_is_made_once_somebody_takes_it(standin: Any) -> None:
     prompt = moving_bar(3)
     standin.run(prompt)
@@ -86,6 +79,52 @@ def test_an_animation_is_saved_in_every_file_type(standin: Any, file_type: str) 
     assert len(files) == (3 if file_type == "png frames" else 1)
     assert all(file.stat().st_size > 100 for file in files)
     assert first["again"]["text"] == second["again"]["text"], "the second time it comes from the cache"
+
+
+def test_a_motion_is_saved_for_spine_and_gltf(standin: Any) -> None:
+    given = {"image": ["picture", 0], "motion": ["motion", 0], "filename_prefix": "game/bar", "tolerance": 0.25}
+    paths = []
+    for file_type in ("spine", "glb", "spine"):
+        prompt = moving_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type=file_type, **given)}
+        prompt |= {"path": core("PreviewAny", source=["saved", 0])}
+        if len(paths) == 2:
+            prompt["saved"]["inputs"]["tolerance"] = 0.5
+        outputs = standin.run(prompt)
+        paths.append(Path(outputs["path"]["text"][0]))
+        assert "px from the motion" in outputs["saved"]["text"][0]
+    first, scene, second = paths
+    assert sorted(file.name for file in first.iterdir() if not file.name.startswith(".")) == [
+        f"{first.name}.atlas", f"{first.name}.json", f"{first.name}.png", "images"
+    ]  # fmt: skip
+    assert scene.read_bytes()[:4] == b"glTF"
+    assert second != first
+    for name, value in (("tolerance", 0.001), ("filename_prefix", "../up")):
+        wrong = moving_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type="glb", **(given | {name: value}))}
+        errors, _ = standin.post(wrong)
+        assert f"{name} must be" in errors["saved"][0]["details"]
+
+
+@pytest.mark.parametrize(("node", "file_type"), [("SaveAnimation", "mov"), ("SaveSpineOrGltf", "spine")])
+def test_saving_tells_how_far_it_is_and_leaves_nothing_when_stopped(standin: Any, node: str, file_type: str) -> None:
+    import comfy.model_management
+
+    own = {"width": 0} if node == "SaveAnimation" else {"tolerance": 0.3}
+    given = {"image": ["picture", 0], "motion": ["motion", 0], "filename_prefix": f"stopped/{file_type}"}
+    prompt = moving_bar(6) | {"saved": ours(node, file_type=file_type, **given, **own)}
+    told, stopped = [], standin.progressed
+
+    def stop(done: float, total: float, preview: Any, node_id: str | None = None) -> None:
+        stopped(done, total, preview, node_id)
+        if node_id == "saved":
+            told.append((done, total))
+            comfy.model_management.interrupt_current_processing()
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("comfy.utils.PROGRESS_BAR_HOOK", stop)
+        with pytest.raises(comfy.model_management.InterruptProcessingException):
+            standin.run(prompt)
+    assert told == [(1, 6 if node == "SaveAnimation" else 2)]
+    assert list((standin.folder / "output" / "stopped").iterdir()) == []
 
 
 def test_layers_from_pictures_move_and_are_saved_frame_by_frame(standin: Any) -> None:

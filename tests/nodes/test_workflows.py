@@ -220,3 +220,12 @@ def test_the_workflow_for_layers_runs_at_once() -> None:
     file = SCHEMAS["PhysAnimator_LoadLayers"]["input"]["required"]["file"][1]
     assert load["inputs"]["file"] == file["default"]
     assert (ROOT / "workflows" / "example" / "illustration.psd").stat().st_size < 2**20
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_nodes_say_which_pack_and_version_they_are_of(name: str) -> None:
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    ours = [node["properties"] for node in ui_of(name)["nodes"] if node["type"].startswith("PhysAnimator_")]
+    assert ours
+    for properties in ours:
+        assert f'\nname = "{properties["cnr_id"]}"\nversion = "{properties["ver"]}"' in project

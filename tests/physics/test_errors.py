@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from physanimator.physics.document import check_document, read_json
-from physanimator.physics.errors import InvalidInputError, PhysAnimatorError, SceneError, require, shown
+from physanimator.physics.errors import InvalidInputError, PhysAnimatorError, SceneError, counted, require, shown
 
 
 @pytest.mark.parametrize(
@@ -31,6 +31,13 @@ def test_values_are_shown_short_and_printable(value: object, expected: str) -> N
     with pytest.raises(InvalidInputError) as caught:
         require("radius", value, False, "1 px")
     assert str(caught.value) == f"radius must be 1 px. Got: {expected}"
+
+
+@pytest.mark.parametrize(
+    ("number", "thing", "expected"), [(1, "point", "1 point"), (0, "point", "0 points"), (2, "entry", "2 entries")]
+)
+def test_one_thing_is_counted_in_the_singular(number: int, thing: str, expected: str) -> None:
+    assert counted(number, thing) == expected
 
 
 def test_a_number_that_python_does_not_write() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -10,9 +12,13 @@ import av
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError, PhysAnimatorError
+from physanimator.physics.interruption import checkpoint
 from physanimator.physics.material import PRESETS
+from physanimator.physics.scene import Scene
 from physanimator.rendering.animation import Animation, timed
+from physanimator.rendering.composite import LayeredRenderer
 from physanimator.rendering.options import AutomaticWind, Timing, Watch
+from physanimator.rendering.parts import Parts
 from physanimator.rendering.pipeline import animate
 from PIL import Image
 
@@ -154,7 +160,7 @@ def test_the_scene_is_shown_before_it_is_simulated() -> None:
         timing=Timing(frames=2),
         watch=Watch(on_scene=lambda scene: seen.append("scene"), progress=lambda *step: seen.append(step[0])),
     )
-    assert seen == ["scene", "simulate", "simulate"]
+    assert [each for each in seen if each != "prepare"] == ["mesh", "mesh", "scene", "simulate", "simulate"]
 
 
 def test_presets_one_for_each_part() -> None:
@@ -169,9 +175,37 @@ def test_stages_are_timed_and_reported() -> None:
         picture(), [strip()], timing=Timing(frames=3), watch=Watch(progress=lambda *step: seen.append(step))
     )
     list(animation.frames(progress=lambda *step: seen.append(step)))
-    assert seen == [(stage, done, 3) for stage in ("simulate", "render") for done in (1, 2, 3)]
+    frames = [(stage, done, 3) for stage in ("simulate", "render") for done in (1, 2, 3)]
+    assert [each for each in seen if each[0] != "prepare"] == [("mesh", 0, 1), ("mesh", 1, 1), *frames]
     assert list(animation.seconds) == ["segment", "mesh", "scene", "simulate", "prepare", "render"]
     assert all(value >= 0 for value in animation.seconds.values())
+
+
+def test_the_illustration_is_taken_apart_while_its_motion_is_simulated(monkeypatch: pytest.MonkeyPatch) -> None:
+    begun = threading.Event()
+    at_rest = Parts.drawn_at_rest
+
+    def drawn(self: Parts, scene: Scene) -> object:
+        begun.set()
+        return at_rest(self, scene)
+
+    def wait(stage: str, done: int, total: int) -> None:
+        assert stage != "simulate" or begun.wait(10)
+
+    monkeypatch.setattr(Parts, "drawn_at_rest", drawn)
+    animation = animate(picture(), [strip()], scene=document(), timing=Timing(frames=4), watch=Watch(progress=wait))
+    frames = list(animation.frames())
+    told = LayeredRenderer(picture(), [strip()], animation.motion)  # knows the motion when it is made
+    np.testing.assert_array_equal(frames, [told.frame(t) for t in range(4)])
+    assert np.abs(frames[3].astype(int) - frames[0]).max() > 50
+
+
+def test_what_cannot_be_taken_apart_ends_the_simulation() -> None:
+    done = []
+    everything, watch = np.ones_like(strip()), Watch(progress=lambda *step: done.append(step))
+    with pytest.raises(InvalidInputError, match="masks must leave some of the picture"):
+        animate(picture(), [everything], timing=Timing(frames=2000), spacing=20, watch=watch)
+    assert ("simulate", 2000, 2000) not in done
 
 
 def test_interruption_leaves_everything_usable(windy: Animation) -> None:
@@ -324,3 +358,19 @@ def test_a_picture_with_transparency_moves_on_it(tmp_path: Path) -> None:
 def test_in_betweens_cannot_be_transparent(windy: Animation) -> None:
     with pytest.raises(InvalidInputError, match="one by one"):
         windy.frames(transparent=True, every=2)
+
+
+def test_whoever_gives_up_while_the_illustration_is_taken_apart_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
+    def endless(self: Parts, scene: Scene) -> None:
+        while True:
+            checkpoint()
+            time.sleep(0.005)
+
+    def stop(stage: str, done: int, total: int) -> None:
+        if stage == "prepare":
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(Parts, "drawn_at_rest", endless)
+    with pytest.raises(KeyboardInterrupt):
+        animate(picture(), [strip()], timing=Timing(frames=2), watch=Watch(progress=stop))
+    assert not [each for each in threading.enumerate() if each.name.startswith("physanimator-beside")]

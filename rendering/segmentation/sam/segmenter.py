@@ -12,8 +12,8 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
-from ....physics.errors import InvalidInputError, require
-from .. import Prompt, checked_box, checked_points
+from ....physics.errors import require
+from .. import Prompt, checked_box, checked_points, require_object
 from .families import Family
 from .pictures import Square
 from .weights import load_network
@@ -87,10 +87,7 @@ class SamSegmenter:
         """One object's prompt as the network takes it. Each object is asked alone: filling up a batch with points that
         count for nothing would change the answers a little."""
         points, positive = checked_points(prompt.points, prompt.labels, square.width, square.height)
-        if not positive.any() and prompt.box is None:
-            raise InvalidInputError(
-                f"points must hold at least one positive point, or a box. Got: {len(points)} points"
-            )
+        require_object(positive, prompt.box)
         inputs: dict[str, Tensor] = {}
         dtype = next(self.network.parameters()).dtype
         if len(points):

@@ -18,9 +18,12 @@ from .informative_drawings import InformativeDrawings
 from .models import LineDrawer
 from .strips import draw_in_strips
 
-__all__ = ["STRIP_PIXELS", "draw_sketch"]
+__all__ = ["LEAST_SIDE", "STRIP_PIXELS", "draw_sketch"]
 
 FloatImage = NDArray[np.float32]
+
+LEAST_SIDE = 16
+"""The smallest longer side of a picture that a network looks at [px]."""
 
 STRIP_PIXELS = 2**20
 """Larger pictures are drawn in strips of about a quarter of so many pixels."""
@@ -55,7 +58,9 @@ def draw_sketch(
         InvalidInputError: the picture or a parameter is unusable.
     """
     picture = as_float(as_picture(image), exact=False)
-    require("working_size", working_size, working_size == 0 or 16 <= working_size <= 16384, "0, or 16 to 16384 px")
+    require(
+        "working_size", working_size, working_size == 0 or LEAST_SIDE <= working_size <= 16384, "0, or 16 to 16384 px"
+    )
     height, width = picture.shape[:2]
     given = _resized(picture, working_size / max(height, width) if working_size else 1.0)
     drawn = _drawn(drawer, given, strip_pixels)

@@ -1,7 +1,8 @@
 // Forces of triangles in vectors, one after the other into slots; then each vertex sums its slots.
+// WIDTH triangles are computed together (1, 4, 8 or 16); 0 for AVX-512 by hand, where the processor has it.
 #include <math.h>
 #include <stdint.h>
-#ifdef __AVX512F__
+#if WIDTH == 0
 #include <immintrin.h>
 #endif
 #ifdef _OPENMP
@@ -21,7 +22,7 @@ static inline void one(const pair *u, int i, int j, int k, float b0, float b1, f
     f[0].x = p00 * b0 + p01 * b1; f[0].y = p10 * b0 + p11 * b1;
     f[1].x = p00 * b2 + p01 * b3; f[1].y = p10 * b2 + p11 * b3;
 }
-#ifdef __AVX512F__
+#if WIDTH == 0
 static inline void load_corner(const pair *u, const int32_t *t, __m512 *x, __m512 *y) {
     __m512i v = _mm512_loadu_si512(t);
     __m512 lo = _mm512_castpd_ps(_mm512_i32gather_pd(_mm512_castsi512_si256(v), (const double *)u, 8));
@@ -46,7 +47,7 @@ static inline void store_pairs(pair *f, __m512 x, __m512 y) {
 #endif
 // n is a multiple of 16 (padded with b = 0); arrays of n entries one after the other: corners[3], b[4], s, l
 static void forces(int first, int end, int n, const int32_t *corner, const float *b, const pair *u, pair *f) {
-#ifdef __AVX512F__
+#if WIDTH == 0
     for (int t = first; t < end; t += 16) {
         __m512 x0, y0, x1, y1, x2, y2;
         load_corner(u, corner + t, &x0, &y0);
@@ -70,11 +71,19 @@ static void forces(int first, int end, int n, const int32_t *corner, const float
         store_pairs(f + 2 * n + t, f2x, f2y);
     }
 #else
-    for (int t = first; t < end; t++) {
-        pair h[2];
-        one(u, corner[t], corner[n + t], corner[2 * n + t], b[t], b[n + t], b[2 * n + t], b[3 * n + t], b[4 * n + t], b[5 * n + t], h);
-        f[t].x = -h[0].x - h[1].x; f[t].y = -h[0].y - h[1].y;
-        f[n + t] = h[0]; f[2 * n + t] = h[1];
+    for (int t = first; t < end; t += WIDTH) {
+        float x[3][WIDTH], y[3][WIDTH], p[3][WIDTH], q[3][WIDTH];
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < WIDTH; k++) { pair at = u[corner[c * n + t + k]]; x[c][k] = at.x; y[c][k] = at.y; }
+        for (int k = 0; k < WIDTH; k++) {
+            pair three[3] = {{x[0][k], y[0][k]}, {x[1][k], y[1][k]}, {x[2][k], y[2][k]}}, h[2];
+            const float *d = b + t + k;
+            one(three, 0, 1, 2, d[0], d[n], d[2 * n], d[3 * n], d[4 * n], d[5 * n], h);
+            p[0][k] = -h[0].x - h[1].x; q[0][k] = -h[0].y - h[1].y;
+            p[1][k] = h[0].x; q[1][k] = h[0].y; p[2][k] = h[1].x; q[2][k] = h[1].y;
+        }
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < WIDTH; k++) { f[c * n + t + k].x = p[c][k]; f[c * n + t + k].y = q[c][k]; }
     }
 #endif
 }

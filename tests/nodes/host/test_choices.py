@@ -8,10 +8,11 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from physanimator.nodes.host import checked, choices
+from physanimator.nodes.host import checked, choices, one_line
 from physanimator.nodes.host.choices import check_choices, check_values
 from physanimator.physics.errors import InvalidInputError
 
@@ -173,6 +174,10 @@ class Node:
     ran: tuple[str, ...] = ()
 
     @classmethod
+    def define_schema(cls) -> SimpleNamespace:
+        return SimpleNamespace(node_id="PhysAnimator_Material")
+
+    @classmethod
     def INPUT_TYPES(cls) -> dict[str, Any]:
         return SCHEMAS["PhysAnimator_Material"]["input"]
 
@@ -183,7 +188,8 @@ class Node:
 
 def test_every_way_into_a_node_is_guarded(monkeypatch: pytest.MonkeyPatch) -> None:
     sent: dict[str, Any] = {}
-    monkeypatch.setattr(choices, "sent_inputs", lambda: sent)
+    for module in (choices, one_line):
+        monkeypatch.setattr(module, "sent_inputs", lambda: sent)
     node = checked(type("Material", (Node,), {"execute": Node.__dict__["execute"]}))
     assert checked(node) is node
     good = {"preset": usual(Node.INPUT_TYPES())["preset"]}

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.physics.mesh import PixelBox, barycentric, bounding_box, interpolate, rasterise, triangle_ids
+from physanimator.physics.mesh import (
+    PixelBox,
+    affine_per_triangle,
+    barycentric,
+    bounding_box,
+    interpolate,
+    rasterise,
+    triangle_ids,
+)
 from scipy.spatial import Delaunay
 
 BOX = PixelBox(0, 0, 64, 48)
@@ -29,6 +37,29 @@ def test_every_pixel_of_a_mesh_is_covered_exactly_once(seed: int, on_grid: bool)
     points, triangles = random_mesh(seed, on_grid=on_grid)
     covered = np.bincount(rasterise(points, triangles, BOX).pixels(), minlength=64 * 48)
     assert (covered == 1).all()
+
+
+def test_pixels_come_triangle_by_triangle_and_row_by_row() -> None:
+    random = np.random.default_rng(4)
+    points, triangles = random.uniform((-8, -8), (72, 56), (60, 2)), random.integers(0, 60, (40, 3))
+    expected = [
+        (number, int(row), int(column))
+        for number in range(len(triangles))
+        for row, column in np.argwhere(triangle_ids(points, triangles[[number]], BOX) == 0)
+    ]
+    fragments = rasterise(points, triangles, BOX)
+    row, column = np.divmod(fragments.pixels(), BOX.width)
+    assert list(zip(fragments.triangles().tolist(), row.tolist(), column.tolist(), strict=True)) == expected
+    assert len(expected) > 5000
+
+
+def test_a_complex_value_is_spread_as_its_two_parts_are() -> None:
+    points, triangles = random_mesh(5, on_grid=False)
+    values = np.random.default_rng(5).normal(size=(len(points), 2)) * 100
+    fragments = rasterise(points, triangles, BOX)
+    both = fragments.spread(affine_per_triangle(points, triangles, values[:, 0] + 1j * values[:, 1]))
+    for part, column in ((both.real, values[:, 0]), (both.imag, values[:, 1])):
+        assert np.array_equal(part, fragments.spread(affine_per_triangle(points, triangles, column)))
 
 
 def test_ids_name_the_triangle_that_holds_the_pixel_centre() -> None:

@@ -99,6 +99,10 @@ def test_webm_is_transparent_unless_told_otherwise(folder: Path) -> None:
     arguments = ["animate", "girl.png", "--mask", "hair.png", "--frames", "2", "--quiet"]
     assert status(*arguments, "--output", "clear.webm") == 0
     assert status(*arguments, "--background", "picture", "--output", "full.webm") == 0
+    assert status(*arguments, "--output", "clear.mov") == 0
+    with av.open("clear.mov") as container:
+        first = next(container.decode(video=0)).to_ndarray(format="rgba")
+    assert (first[..., 3].min(), first[..., 3].max()) == (0, 255)
     for name, expected in (("clear.webm", True), ("full.webm", False)):
         with av.open(name) as container:
             assert ("1" in container.streams.video[0].metadata.values()) == expected

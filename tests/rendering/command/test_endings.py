@@ -217,7 +217,7 @@ def test_too_large_frames_are_refused_before_the_simulation(
     assert words in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("suffix", [".mp4", ".webm", ".gif", ".webp", ".apng"])
+@pytest.mark.parametrize("suffix", [".mp4", ".webm", ".mov", ".gif", ".webp", ".apng"])
 @pytest.mark.parametrize("rate", [0.01, 240])
 def test_the_slowest_and_the_fastest_rate_are_written(tmp_path: Path, suffix: str, rate: float) -> None:
     write_animation([np.full((16, 16, 3), 30 * t, np.uint8) for t in range(3)], tmp_path / f"a{suffix}", rate)

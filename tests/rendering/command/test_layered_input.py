@@ -118,6 +118,48 @@ def test_a_result_never_takes_the_place_of_a_layer(capsys: Output) -> None:
     assert "Traceback" not in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("transparent", [False, True])
+def test_each_part_of_a_flat_picture_is_written_as_a_sequence_of_its_own(transparent: bool, capsys: Output) -> None:
+    flat = flattened(artwork())
+    face = artwork().layers[2]
+    if transparent:
+        flat[:, :20, 3] = 0
+    save_image("flat.png", flat if transparent else flat[..., :3])
+    save_image("hair.png", artwork().layers[1].pixels[..., 3])
+    save_image("front.png", face.pixels[..., 3])
+    given = (
+        "animate",
+        "flat.png",
+        "--mask",
+        "hair.png",
+        "--in-front",
+        "front.png",
+        "--wind",
+        "3",
+        "-q",
+        "--frames",
+        "5",
+    )
+    assert status(*given, "-o", "out/", "--background", "layers") == 0
+    counts = {path.name: len(list(path.glob("frame_*.png"))) for path in Path("out").iterdir()}
+    assert counts == {"00 background": 1, "01 part 1": 5, "02 in front": 1}
+    assert status(*given, "-o", "whole/") == 0
+    for t in (0, 4):
+        numbers = {name: t if count > 1 else 0 for name, count in counts.items()}
+        shown = [np.asarray(Image.open(f"out/{name}/frame_{numbers[name]:04}.png")) for name in sorted(counts)]
+        layers = tuple(ArtLayer(name, pixels) for name, pixels in zip(sorted(counts), shown, strict=True))
+        whole = np.asarray(Image.open(f"whole/frame_{t:04}.png").convert("RGBA"))
+        apart = np.abs(flattened(Artwork(128, 96, layers)).astype(int) - whole)
+        assert apart.max() <= 3
+    moved = [Path(f"out/01 part 1/frame_{t:04}.png").read_bytes() for t in (0, 4)]
+    assert moved[0] != moved[1]
+    save_image("out/01 part 1/frame_0002.png", np.zeros((4, 4, 3), np.uint8))
+    assert status(*given, "-o", "out/", "--background", "layers") == 2
+    assert "01 part 1" in capsys.readouterr().err
+    assert status(*given[:4], "-o", "art/", "--background", "layers", "--pixel-art", "-q") == 2
+    assert "--pixel-art" in capsys.readouterr().err
+
+
 def test_each_layer_is_written_as_a_sequence_of_its_own(capsys: Output) -> None:
     given = ("animate", "girl.psd", "-o", "out/", "--background", "layers", "--wind", "3", "-q", "--frames")
     assert status(*given, "6") == 0

@@ -161,10 +161,8 @@ def test_tiles_show_what_the_picture_shows_there_at_one_place_a_pixel() -> None:
     tiles = np.array([[44, 60], [32, 72], [40, 68]])
     found = sheets_in_tiles(points, aproned.triangles, aproned.rest, tiles, box, side=4, scale=1)
     for number, (left, top) in enumerate(tiles):
-        for mine, its in ((found.x, whole.x), (found.y, whole.y)):
-            np.testing.assert_allclose(
-                mine[4 * number : 4 * number + 4], its[top : top + 4, left : left + 4], atol=1e-3
-            )
+        mine, its = found.shown[4 * number : 4 * number + 4], whole.shown[top : top + 4, left : left + 4]
+        np.testing.assert_allclose(mine, its, atol=1e-3)
     there = {tuple(tiles[k // 16] + (k % 4, k % 16 // 4)) for k in found.double}
     inside = {(x, y) for left, top in tiles for x in range(left, left + 4) for y in range(top, top + 4)}
     assert there == {(k % SIZE, k // SIZE) for k in whole.double.tolist()} & inside

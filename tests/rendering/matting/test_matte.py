@@ -35,6 +35,36 @@ def test_an_outline_outside_a_hard_mask_is_found() -> None:
     assert not support[RADIUS > 30.5].any()
 
 
+def test_an_outline_is_found_that_leaves_the_mask_for_a_stretch() -> None:
+    """A light rim lies between the mask and the line, which is found at either end of it."""
+    row, column = np.mgrid[:80, :120]
+    picture = np.full((80, 120, 3), 0.65, np.float32)
+    picture[40:] = RED
+    rim = (np.abs(column - 60) < 10) & (row >= 38)
+    line = np.where(np.abs(column - 60) < 10, (row >= 36) & (row < 38), (row >= 38) & (row < 40))
+    picture[rim & (row < 40)], picture[line] = (0.9, 0.85, 0.7), DARK
+    assert with_outline(picture, (row >= 40).astype(np.float32))[line].all()
+
+
+def test_faint_pixels_of_a_mask_behind_an_outline_are_the_parts() -> None:
+    """A slightly blurred mask has some that are hardly any of it: their dark would be left in the plate."""
+    picture, background = over(over(textured_background(), DARK, disc(29)), RED, disc(25)), textured_background()
+    mask = (disc(25) > 0.5).astype(np.float32)
+    rim = (mask == 0) & (RADIUS < 26.5) & ((np.arange(SIZE) % 3) == 0)
+    mask[rim] = 0.06
+    support = with_outline(picture, mask)
+    assert soft_alpha(picture, background, mask, support)[rim].min() > 0.8
+
+
+def test_a_line_that_only_passes_by_is_not_taken_along() -> None:
+    row, column = np.mgrid[:80, :120]
+    picture = np.full((80, 120, 3), 0.65, np.float32)
+    picture[40:] = RED
+    line = np.where(column < 30, (row >= 38) & (row < 40), (row >= 36) & (row < 38))
+    picture[line] = DARK
+    assert not with_outline(picture, (row >= 40).astype(np.float32))[line & (column > 50)].any()
+
+
 def test_nothing_is_added_where_there_is_no_outline() -> None:
     picture = over(textured_background(), RED, disc(25))
     support = with_outline(picture, disc(25))

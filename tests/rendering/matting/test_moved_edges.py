@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 from physanimator.rendering.matting import regular_mask
-from physanimator.rendering.matting.moved_edges import displacement, expected
+from physanimator.rendering.matting.moved_edges import displacement, expected, without_new_specks
 
 PAPER, RED = (0.9, 0.92, 0.95), (0.7, 0.2, 0.25)
 
@@ -70,3 +70,14 @@ def test_where_masks_miss_by_various_amounts_nothing_is_expected() -> None:
     left = np.arange(140) < 85
     given = np.where(left, resized(part, 5), resized(part, -5))
     assert (expected(picture, part, given) == part).all()
+
+
+def test_specks_that_moving_an_edge_has_made_go_and_those_of_the_mask_stay() -> None:
+    given = np.zeros((60, 60), bool)
+    given[20:50, 20:50] = True
+    given[5:7, 5:7], given[40:42, 40:42] = True, False
+    shape = given.copy()
+    shape[10:12, 30:32], shape[30:32, 30:32], shape[25:30, 42:50] = True, False, False
+    wanted = given.copy()
+    wanted[25:30, 42:50] = False
+    assert (without_new_specks(shape, given) == wanted).all()

@@ -43,7 +43,7 @@ def test_nothing_known_gives_nothing() -> None:
     assert np.allclose(one, 0.25)
 
 
-@pytest.mark.parametrize("suffix", [".webm", ".webp"])
+@pytest.mark.parametrize("suffix", [".webm", ".webp", ".mov"])
 def test_no_rim_after_lossy_compression(tmp_path: Path, suffix: str) -> None:
     frames = [disc(shift=number) for number in range(3)]
     path = tmp_path / f"disc{suffix}"
@@ -60,6 +60,8 @@ def _second(path: Path) -> np.ndarray:
             return np.array(picture.convert("RGBA"))
     with av.open(str(path)) as container:
         stream = container.streams.video[0]
+        if path.suffix == ".mov":
+            return list(container.decode(stream))[1].to_ndarray(format="rgba")
         decoder = av.CodecContext.create("libvpx-vp9", "r")
         decoder.extradata = stream.codec_context.extradata
         frames = [frame for packet in container.demux(stream) for frame in decoder.decode(packet)]

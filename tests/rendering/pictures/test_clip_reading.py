@@ -11,7 +11,7 @@ from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.pictures import clip_reading, load_image, load_mask, read_clip, save_image, write_animation
 from PIL import Image
 
-KINDS = (".gif", ".webp", ".apng", ".mp4", ".webm")
+KINDS = (".gif", ".webp", ".apng", ".mp4", ".webm", ".mov")
 
 
 def frames(count: int = 4) -> list[np.ndarray]:

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.pictures import check_output, frame_folder, load_image, save_image, write_animation
+from physanimator.rendering.files import recorded_folder
+from physanimator.rendering.pictures import check_output, load_image, save_image, write_animation
 
 RECORD = ".physanimator.json"
 
@@ -245,7 +246,7 @@ def test_after_a_power_cut_old_and_new_are_not_mixed_and_the_folder_is_known(
         return rename(self, target)
 
     monkeypatch.setattr(Path, "rename", until)
-    monkeypatch.setattr(frame_folder, "_put_back", lambda *_: None)
+    monkeypatch.setattr(recorded_folder, "_put_back", lambda *_: None)
     with pytest.raises(PowerCut):
         write_animation(clip(2, 50), f"{ours}/", 24)
     monkeypatch.undo()

@@ -153,6 +153,43 @@ def test_webm_keeps_alpha_and_odd_size(tmp_path: Path) -> None:
     assert alpha[2, 2] < 5
 
 
+def soft(width: int, height: int) -> np.ndarray:
+    """Colours that change across, and alpha that changes from one corner to the other."""
+    y, x = np.mgrid[0:height, 0:width]
+    planes = [x * 255 // width, y * 255 // height, np.full_like(x, 90), (x + y) * 255 // (width + height)]
+    return np.stack(planes, axis=2).astype(np.uint8)
+
+
+@pytest.mark.parametrize(("width", "height"), [(96, 64), (97, 63)])
+def test_mov_is_prores_4444_with_straight_alpha(tmp_path: Path, width: int, height: int) -> None:
+    drawn = soft(width, height)
+    write_animation([drawn] * 3, tmp_path / "clip.mov", 24)
+    with av.open(str(tmp_path / "clip.mov")) as container:
+        stream = container.streams.video[0]
+        frames = list(container.decode(stream))
+        found = stream.codec_context
+        assert (found.name, found.profile, str(found.pix_fmt)[:8]) == ("prores", "4444", "yuva444p")
+        tags = (found.colorspace, found.color_primaries, found.color_trc, found.color_range)
+        assert [int(each) for each in tags] == [1, 1, 1, 1]
+        assert stream.average_rate == 24
+    assert len(frames) == 3
+    assert (frames[0].width, frames[0].height) == (width, height)
+    read = frames[1].reformat(format="rgba64le", src_colorspace="ITU709").to_ndarray() / 257
+    apart = np.abs(read - drawn)
+    assert apart[..., 3].max() <= 0.5
+    # Premultiplied, a colour of alpha 64 would be a quarter of what was drawn.
+    assert apart[drawn[..., 3] > 0][:, :3].max() <= 2
+
+
+def test_mov_of_opaque_frames_keeps_all_of_its_colours(tmp_path: Path) -> None:
+    drawn = soft(96, 64)[..., :3].copy()
+    write_animation([drawn] * 2, tmp_path / "clip.mov", 23.976)
+    result = decoded(tmp_path / "clip.mov")
+    assert str(result.pixels).startswith("yuv444p")
+    assert result.rate == Fraction(24000, 1001)
+    assert np.abs(result.frames[0].to_ndarray(format="rgb24").astype(int) - drawn).max() <= 2
+
+
 def test_webm_of_opaque_frames_has_no_alpha(tmp_path: Path) -> None:
     write_animation(clip(), tmp_path / "clip.webm", 24)
     result = decoded(tmp_path / "clip.webm", "libvpx-vp9")
@@ -215,7 +252,7 @@ def test_folder_replaces_an_earlier_clip_and_nothing_else(tmp_path: Path) -> Non
     assert sorted(entry.name for entry in folder.glob("[!.]*")) == ["frame_0000.png", "frame_0001.png", "notes.txt"]
 
 
-@pytest.mark.parametrize("name", ["clip.mp4", "clip.webm", "clip.gif", "clip.webp", "clip.apng"])
+@pytest.mark.parametrize("name", ["clip.mp4", "clip.webm", "clip.gif", "clip.webp", "clip.apng", "clip.mov"])
 @pytest.mark.parametrize("stop", [KeyboardInterrupt, RuntimeError])
 def test_interrupted_run_leaves_the_earlier_file_alone(tmp_path: Path, name: str, stop: type[BaseException]) -> None:
     def broken() -> Iterator[np.ndarray]:

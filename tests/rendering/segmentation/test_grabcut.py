@@ -144,8 +144,8 @@ def test_a_large_picture_is_cut_at_its_own_resolution() -> None:
 @pytest.mark.parametrize(
     ("points", "labels", "options", "message"),
     [
-        ([(10, 10)], [0], {}, "at least one positive point"),
-        ([], [], {}, "at least one positive point"),
+        ([(10, 10)], [0], {}, "with one on the part at least"),
+        ([], [], {}, "with one on the part at least"),
         ([(10, 10), (300, 10)], [1, 1], {}, r"points\[1\] must lie inside the picture of 200 x 150 px"),
         ([(10, 10)], [1, 0], {}, r"labels must be one per point \(1\)"),
         ([(10.2, 10), (10.7, 10.4)], [1, 0], {}, "not both at one pixel"),

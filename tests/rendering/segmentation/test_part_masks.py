@@ -58,7 +58,7 @@ def test_neither_a_point_nor_a_box_is_refused() -> None:
 
 def test_a_part_with_points_beside_it_only_is_refused() -> None:
     prompts = prompts_of(parse_points("[[70, 60, 1], [10, 10, 0, 1]]", width=WIDTH, height=HEIGHT))
-    with pytest.raises(InvalidInputError, match="at least one positive point"):
+    with pytest.raises(InvalidInputError, match="with one on the part at least"):
         segment_parts(page()[0], prompts)
 
 

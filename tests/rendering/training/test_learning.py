@@ -39,14 +39,14 @@ def test_training_halves_the_loss_on_unseen_clips_and_needs_the_right_sketches(
         ema=0.0,
         held_out=0.0,
     )
-    unseen = write_data(tmp_path / "unseen", clips=16)
+    unseen = write_data(tmp_path / "unseen", clips=16, side=32)
     encode_for_svd(unseen, svd)
     samples = LVCDSamples(unseen, kept_clips(unseen)[12:], replace(settings, seed=1))
     untrained = lvcd_networks(svd)
     before = loss_of(untrained, samples)
     losses = {}
     for name in ("right", "shuffled"):
-        data = write_data(tmp_path / name, clips=12, shuffled=name == "shuffled")
+        data = write_data(tmp_path / name, clips=12, side=32, shuffled=name == "shuffled")
         encode_for_svd(data, svd)
         run = replace(settings, data=str(data), output=str(tmp_path / f"run_{name}"))
         (tmp_path / f"{name}.toml").write_text(as_toml(run))

@@ -18,6 +18,8 @@ export class Backdrop {
     this.picture = null;
     /** @type {string | null} */
     this.wanted = null;
+    /** Whether a run has been asked for here that has not come. */
+    this.waiting = false;
   }
 
   /** @param {string} url of a picture to draw on */
@@ -34,6 +36,8 @@ export class Backdrop {
   /** @param {Run} run */
   async setRun(run) {
     const { editor } = this;
+    this.waiting = false;
+    if (!editor.live.playback.moving) this.prepare();
     if (run.layers && !run.image) this.picture = null;
     const picture = run.image ? await loaded(run.image) : this.picture;
     if (run.image) this.wanted = null;
@@ -57,17 +61,45 @@ export class Backdrop {
     this.editor.redraw();
   }
 
+  /** The node has run, and the motion is on its way. */
+  prepare() {
+    const { notes, options } = this.editor;
+    if (options.moves) notes.show("run", say("Preparing the motion…"));
+  }
+
+  /** The node has been asked to run, and has not yet. */
+  wait() {
+    const { notes, options } = this.editor;
+    this.waiting = true;
+    if (options.moves) notes.show("run", say("This node is running…"));
+  }
+
+  /** A run has ended; what it has not brought is offered again. */
+  stopWaiting() {
+    if (!this.waiting) return;
+    this.waiting = false;
+    this.offerRun();
+  }
+
+  /** There is no picture any more. */
+  forgetPicture() {
+    this.picture = this.wanted = null;
+    this.editor.show();
+  }
+
   /** @param {string} reason why nothing moves */
   offerRun(reason = say("Nothing moves yet: the bodies are known once this node has run.")) {
     const { notes, options } = this.editor;
-    if (options.moves) notes.show("run", reason, { button: [say("Run this node"), options.onRun] });
+    if (options.moves && !options.picks && !this.waiting) notes.show("run", reason, { button: [say("Run this node"), options.onRun] });
   }
 
   /** @param {Error | null} error of the preview */
   trouble(error) {
     const gone = /** @type {any} */ (error)?.status === 404;
     this.editor.notes.show("motion", error && !gone ? error.message : "", { kind: "error" });
-    if (!gone) return;
+    if (error && !gone) this.editor.notes.show("run", "");
+    if (gone) this.editor.picking?.renew();
+    if (!gone || this.editor.picking) return;
     this.editor.live.setRun(null, null);
     this.offerRun(/** @type {Error} */ (error).message);
   }

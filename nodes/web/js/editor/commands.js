@@ -188,6 +188,7 @@ export class Commands {
   /** @param {number} frames of the preview */
   setLength(frames) {
     const { editor } = this;
+    editor.options.picks?.setLength(frames);
     editor.frames = frames;
     editor.show();
     editor.simulate();
@@ -223,6 +224,7 @@ export class Commands {
 
   #play() {
     const { live } = this.editor;
+    if (!live.playback.moving) return;
     live.playback.toggle();
     live.playback.moment = performance.now();
     this.editor.redraw();

@@ -10,14 +10,17 @@
  * @property {string[][]} groups  of buttons
  * @property {boolean} moves  whether there is time and motion
  * @property {string} [empty]  what to do while there are no points
+ * @property {string} [title]  of the large view
  * @property {import("../preview/client.js").Fetch} fetch
  * @property {(text: string) => void} onChange  a new value
  * @property {() => void} onKept  the same, a moment later where something is about to move
  * @property {() => void} onRun  the user wants this node to run
+ * @property {import("./picking.js").PickOptions | null} [picks]  where parts are picked
  */
 
 import { say } from "../host/words.js";
 import { ACTIONS } from "../panels/toolbar.js";
+import { canonical } from "../scene/canonical.js";
 import { emptyDocument, itemAt, withItem, withValue } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
 import { withFoundHolds, withLostHolds } from "../scene/holds.js";
@@ -31,8 +34,10 @@ import { listenTo } from "./input.js";
 import { layout } from "./layout.js";
 import { Live } from "./live.js";
 import { Notes } from "./notes.js";
+import { Picking } from "./picking.js";
 import { Store } from "./store.js";
 import { BRUSHES, toolsOf } from "./toolbox.js";
+import { Unheld } from "./unheld.js";
 
 /** Length of a preview [s], where the scene is no loop. */
 const PREVIEW = 3;
@@ -59,13 +64,17 @@ export class Editor {
     this.pointer = null;
     /** Name of the layer that is selected in the list, empty for none. */
     this.chosen = "";
-    this.shown = { mesh: false, items: true, panel: options.moves };
+    this.shown = { mesh: false, items: true, panel: options.moves && !options.picks };
+    /** @type {(() => void) | null} looks at the graph at once; from the host */
+    this.look = null;
+    this.picking = options.picks ? new Picking(this, options.picks) : null;
     this.store = new Store(emptyDocument(1280, 720), {
       show: () => this.show(),
       showSoon: () => this.showSoon(),
       keep: () => this.#keep(),
     });
     this.notes = new Notes();
+    this.unheld = new Unheld(this);
     this.scheduler = new Scheduler((now, asked) => this.#draw(now, asked));
     this.backdrop = new Backdrop(this);
     this.commands = new Commands(this);
@@ -81,10 +90,12 @@ export class Editor {
     this.layerList = parts.layerList;
     this.timeline = parts.timeline;
     this.status = parts.status;
+    this.picking?.mount();
     this.layers = new Layers(this.stage);
     this.live = new Live(this.stage.film, options.fetch, {
       redraw: () => this.redraw(),
       trouble: (error) => this.backdrop.trouble(error),
+      unheld: (bodies) => this.unheld.show(bodies),
       started: () => this.notes.show("run", ""),
       moved: () => setTimeout(() => this.tell()),
       ended: (end) => (this.inspector.material.moduli = end.stiffness ?? []),
@@ -101,6 +112,15 @@ export class Editor {
 
   get selection() {
     return this.store.selection;
+  }
+
+  /** Part to which points are added. */
+  get part() {
+    return this.picking?.part ?? 0;
+  }
+
+  newPart() {
+    this.picking?.more();
   }
 
   get pixel() {
@@ -176,6 +196,7 @@ export class Editor {
 
   /** @param {import("../scene/layers.js").Layer[]} layers  of which none moves by its name */
   refuseLayers(layers) {
+    this.backdrop.waiting = false;
     this.live.setRun(null, null);
     this.setLayers(layers);
     this.backdrop.offerRun(say("No layer moves by its name: switch on in the list what is to move, then run this node."));
@@ -228,7 +249,8 @@ export class Editor {
     try {
       const document = this.options.format.read(text);
       this.notes.show("value", "");
-      this.store.load(document);
+      // Spelled in another way it is the same scene, with the same steps to undo.
+      if (canonical(document) !== canonical(this.document)) this.store.load(document);
       this.resize(document);
     } catch (error) {
       const anew = () => this.commit(emptyDocument(this.document.width, this.document.height), null);
@@ -240,12 +262,15 @@ export class Editor {
   }
 
   simulate() {
+    if (this.picking) return this.picking.changed();
     if (!this.options.moves) return;
     if (this.live.run && !isAsRun(this.document, this.layerList.layers)) {
       this.live.hold();
       this.backdrop.offerRun(say("Other layers are to move: run this node to see them move."));
-    } else if (this.live.run) this.live.request(this.document, this.frameCount);
-    else this.backdrop.offerRun();
+    } else if (this.live.run) {
+      this.live.request(this.document, this.frameCount);
+      if (!this.live.playback.moving && this.live.asked) this.backdrop.prepare();
+    } else this.backdrop.offerRun();
   }
 
   get frameCount() {
@@ -255,9 +280,11 @@ export class Editor {
 
   release() {
     clearTimeout(this.untold);
+    this.picking?.release();
     this.root.dataset.released = "true";
     this.scheduler.stop();
     this.stage.release();
+    this.toolbar.release();
     this.live.release();
     if (this.dialog.open) this.dialog.close();
   }
@@ -316,10 +343,11 @@ export class Editor {
     this.stale = false;
     const { history, selection, document } = this.store;
     const { empty = "" } = this.options;
-    if (empty) this.notes.keep("empty", document.query_points?.length ? "" : empty);
+    if (empty && !this.picking) this.notes.keep("empty", document.query_points?.length ? "" : empty);
     const pressed = { ...this.shown, expand: this.dialog.open };
     for (const id of this.tools.keys()) Object.assign(pressed, { [id]: id === this.tool.id });
     const [past, future] = [history.past.length > 0, history.future.length > 0];
+    this.picking?.show();
     this.toolbar.show(pressed, { undo: !past, redo: !future, duplicate: !selection, delete: !selection });
     this.frame.dataset.panel = String(this.shown.panel);
     const paints = BRUSHES.includes(this.tool.id) && this.tool.id !== "erase";
@@ -342,8 +370,8 @@ export class Editor {
   #showStatus() {
     const { width, height } = this.document;
     const zoom = Math.round(this.stage.view.scale * 100);
-    const text = `${ACTIONS[this.tool.id].title} · ${zoom} % · ${width} × ${height} px`;
-    if (this.status.textContent !== text) this.status.textContent = text;
+    const said = [ACTIONS[this.tool.id].title, `${zoom} % · ${width} × ${height} px`];
+    [...this.status.children].forEach((part, i) => part.textContent !== said[i] && (part.textContent = said[i]));
   }
 
   /** Let the host hear of the last change at once, if it has not yet. */
@@ -373,10 +401,10 @@ export class Editor {
    */
   #draw(now, asked) {
     const { stage, live } = this;
-    const frame = live.playback.shown;
+    const { shown: frame, plays } = live.playback;
     // An editor out of sight rests; it is drawn again when it gets its size back.
     const more = live.playback.advance(now) && stage.across > 0;
-    if (!asked && frame === live.playback.shown) return more;
+    if (!asked && frame === live.playback.shown && plays === live.playback.plays) return more;
     if (this.stale) this.#showPanels();
     const { shows } = live;
     const meshShown = this.shown.mesh || !live.player.ready;
@@ -392,8 +420,10 @@ export class Editor {
       frame: live.playback.shown,
       unit: live.unit,
       draft: this.tool.draft,
+      cuts: this.shown.items ? (this.picking?.cuts ?? null) : null,
       brush: brushing ? { at: brushing, radius: this.brushRadius } : null,
       itemsShown: this.shown.items,
+      particlesShown: !this.picking,
       outline: this.chosenLayer ? live.outlineOf(this.chosenLayer.index) : live.outlineOfBody(this.#chosenBody),
     });
     live.draw(stage.view, stage.across, stage.down, this.shown.mesh);

@@ -9,15 +9,21 @@ import { itemAt } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
 import { moved } from "../scene/shapes.js";
 import { copied, pasted } from "./clipboard.js";
+import { isUsed } from "../panels/elements.js";
 import { actionOf, hostUndoes, isTyping, staysInside } from "./keys.js";
 import { mayHoldPicture, pictureIn } from "./pictures.js";
 
-const POINTER_EVENTS = ["pointerdown", "pointermove", "pointerup", "mousedown", "mousemove", "click", "dblclick", "contextmenu", "wheel"];
+const POINTER_EVENTS = ["pointerdown", "pointermove", "pointerup", "mousedown", "mousemove", "click", "dblclick", "contextmenu"];
 
 /** @param {Editor} editor */
 export function listenTo(editor) {
   const { root } = editor;
   for (const name of POINTER_EVENTS) root.addEventListener(name, (/** @type {Event} */ event) => event.stopPropagation());
+  // Over an editor that nobody works with the wheel belongs to the graph; older Vue canvases go by this mark alone.
+  const marked = () => (root.dataset.captureWheel = String(isUsed(root)));
+  // They ask before the wheel comes here.
+  for (const name of ["focusin", "focusout", "pointerenter"]) root.addEventListener(name, marked);
+  root.addEventListener("wheel", (/** @type {WheelEvent} */ event) => isUsed(root) && event.stopPropagation());
   root.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => onKeyDown(editor, event));
   root.addEventListener("keyup", (/** @type {KeyboardEvent} */ event) => onKeyUp(editor, event));
   root.addEventListener("focusout", () => (editor.stage.spaceHeld = false));
@@ -46,6 +52,8 @@ function take(event) {
  */
 function onKeyDown(editor, event) {
   if (staysInside(event)) event.stopPropagation();
+  // A slider has the keys that move it.
+  if (/** @type {any} */ (event.target)?.type === "range" && /^(Arrow|Home|End|Page)/.test(event.key)) return;
   const action = actionOf(event);
   const typing = isTyping(event.target);
   if ((action === "undo" || action === "redo") && hostUndoes(event.target)) return;
@@ -116,6 +124,7 @@ function onPaste(editor, event) {
 function usePicture(editor, file, event) {
   if (!file) return;
   take(event);
+  if (editor.options.picks?.takePicture) return editor.options.picks.takePicture(file);
   editor.backdrop.forgetRun();
   editor.backdrop.setPicture(URL.createObjectURL(file));
   editor.say(say("This picture is only drawn on. Connect a Load Image node to animate it."));

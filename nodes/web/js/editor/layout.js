@@ -20,8 +20,8 @@ export function layout(editor) {
   const place = element("div", { className: "physanimator-stage" });
   const stage = stageIn(editor, place);
   /** @type {HTMLElement} */
-  const status = element("div", { className: "physanimator-status" });
-  place.append(editor.notes.root, status);
+  const status = element("div", { className: "physanimator-status" }, [element("span"), element("span")]);
+  place.append(editor.notes.root);
   const inspector = new Inspector({
     change: (reference, changes, key) => editor.change(reference, changes, key),
     redrawRegion: (kind) => editor.commands.redrawRegion(kind),
@@ -45,12 +45,14 @@ export function layout(editor) {
     select: (reference) => editor.select(reference),
     retime: (reference, item, done) => editor.commands.retime(reference, item, done),
   });
-  const rows = [toolbar.root, place, side, ...(moves ? [timeline.root] : [])];
+  const title = element("h3", { className: "physanimator-title" }, [editor.options.title ?? ""]);
+  toolbar.root.prepend(title);
+  const rows = [toolbar.root, place, status, side, ...(moves ? [timeline.root] : [])];
   /** @type {HTMLElement} */
   const frame = element("div", { className: "physanimator-frame" }, rows);
   const onclose = () => editor.commands.shrink();
   /** @type {HTMLDialogElement} */
-  const dialog = element("dialog", { className: "physanimator-dialog", "aria-label": say("Scene editor"), onclose });
+  const dialog = element("dialog", { className: "physanimator-dialog", "aria-label": editor.options.title, onclose });
   const style = element("style", { textContent: STYLE });
   /** @type {HTMLElement} */
   const root = element("div", { className: "physanimator-editor", "data-capture-wheel": "true" }, [style, frame, dialog]);

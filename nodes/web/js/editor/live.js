@@ -22,6 +22,7 @@
  * @typedef {object} LiveListener
  * @property {() => void} redraw
  * @property {(error: Error | null) => void} trouble
+ * @property {(bodies: number[]) => void} unheld  numbers of the bodies that nothing holds
  * @property {() => void} started  the first frame has come
  * @property {(end: any) => void} ended  the last one has come, with what is known of the whole
  * @property {() => void} moved  the first frame in which something moves is on the screen
@@ -33,6 +34,7 @@ import { layerAt } from "../preview/layered_picture.js";
 import { MOVES, mark } from "../preview/marks.js";
 import { Playback } from "../preview/playback.js";
 import { Player } from "../preview/player.js";
+import { canonical } from "../scene/canonical.js";
 import { loaded } from "./pictures.js";
 
 export class Live {
@@ -53,6 +55,8 @@ export class Live {
     this.mesh = null;
     /** @type {{drawn: any, box: [number, number, number, number], mesh: Mesh | null, whole?: Mesh} | null} of one layer or body, made last */
     this.outlined = null;
+    /** The last request, in one spelling; empty where its answer does not count any more. */
+    this.asked = "";
     /** Displacements of a mesh at rest. */
     this.still = new Int16Array(0);
     /** What was measured of the last request, for the tests [ms, px]. */
@@ -64,11 +68,17 @@ export class Live {
    * @param {HTMLImageElement | null} picture
    */
   async setRun(run, picture) {
+    if (run && this.mesh && run.key === this.run?.key) {
+      this.run = run; // the very bodies that are here already
+      return;
+    }
     this.client.cancel();
+    this.asked = "";
     this.playback.clear();
     this.player.unload();
     this.mesh = null;
     this.run = run;
+    if (!run) this.listener.unheld([]);
     if (!run) return;
     try {
       const mesh = await this.client.mesh(run.key);
@@ -95,6 +105,7 @@ export class Live {
   /** Show the picture at rest: what moves is not known at this moment. */
   hold() {
     this.client.cancel();
+    this.asked = "";
     this.playback.clear();
     this.listener.redraw();
   }
@@ -166,6 +177,9 @@ export class Live {
    */
   request(document, frames) {
     if (!this.run || !this.mesh) return;
+    const asked = canonical([this.run.key, document, frames]);
+    if (asked === this.asked) return;
+    this.asked = asked;
     this.measured = { asked: performance.now(), firstFrame: 0, drawn: 0, frames: 0, largest: 0 };
     this.playback.waiting = true;
     this.client.request(this.run.key, document, frames);
@@ -176,6 +190,7 @@ export class Live {
     if (record.type === "header") {
       const fits = record.header.vertices * 2 === this.mesh?.positions.length;
       if (fits) this.playback.begin(record.header, performance.now());
+      this.listener.unheld(record.header.unheld ?? []);
       this.listener.trouble(fits ? null : new Error(say("The bodies have changed: run the node again.")));
     } else if (record.type === "frame" && this.playback.header) {
       this.playback.add(record.frame);
@@ -192,6 +207,7 @@ export class Live {
 
   /** @param {Error} error */
   #fail(error) {
+    this.asked = "";
     this.playback.clear();
     this.listener.trouble(error);
     this.listener.redraw();

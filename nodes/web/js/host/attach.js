@@ -8,9 +8,14 @@
  * @property {boolean} moves
  * @property {[number, number]} size  of a new node, at least
  * @property {string} [empty]  what to do while there are no points
+ * @property {string} [title]  of the large view
+ * @property {(app: any, api: any, node: any) => import("../editor/picking.js").PickOptions} [picks]  where parts are picked
+ * @property {(node: any, rootGraph: any, outputs?: any) => string | null} [picture]  path of the picture, where it is not that upstream
+ * @property {boolean} [result]  whether what the node shows of a run is shown here
  */
 
 import { Editor } from "../editor/editor.js";
+import { shareGestures } from "./gestures.js";
 import { executionId, runNode } from "./queueing.js";
 import { upstreamPicture } from "./upstream.js";
 import { chain, hide, tell } from "./widgets.js";
@@ -21,8 +26,12 @@ const SETTLED = 150;
 /** Time from one look at the graph to the next [ms]. */
 const LOOKS = 500;
 const OUTPUT = "physanimator_editor";
+/** What the host tells of a run that is over. */
+const ENDS = ["execution_error", "execution_interrupted", "execution_success"];
 /** What a node sends that refuses to go on because no layer moves; see nodes/layer_lists.py. */
 export const LAYERS = "physanimator.layers";
+/** What a node sends of a picture that other nodes have made; see nodes/animate_nodes.py. */
+const PICTURE = "physanimator.picture";
 
 /**
  * @param {any} app  the host's
@@ -35,10 +44,14 @@ export function attachEditor(app, api, node, kind) {
   if (!value) return null;
   const editor = new Editor({
     ...kind,
+    picks: kind.picks?.(app, api, node) ?? null,
     fetch: (path, options) => api.fetchApi(path, options),
     onChange: (text) => (value.value = text),
     onKept: () => tell(app, node, value),
-    onRun: () => runNode(app, node),
+    onRun: () => {
+      editor.backdrop.wait();
+      runNode(app, node).then((queued) => queued === false && editor.backdrop.stopWaiting(), () => editor.backdrop.stopWaiting());
+    },
   });
   hide(value);
   const widget = node.addDOMWidget("physanimator_editor", "physanimator_editor", editor.root, {
@@ -48,7 +61,8 @@ export function attachEditor(app, api, node, kind) {
   });
   // A widget that is only shown must not be saved: it would shift the values of all that come after it.
   widget.serialize = false;
-  follow(app, api, node, value, editor);
+  shareGestures(app, node, editor.root);
+  follow(app, api, node, value, editor, kind);
   grow(node, kind.size, editor.root);
   return editor;
 }
@@ -83,24 +97,34 @@ function grow(node, size, root) {
  * @param {any} node
  * @param {any} value
  * @param {Editor} editor
+ * @param {Kind} kind
  */
-function follow(app, api, node, value, editor) {
+function follow(app, api, node, value, editor, kind) {
   let picture = /** @type {string | null | undefined} */ (undefined);
   const look = () => {
     if (!node.graph) return;
     takePlace(node, editor.root);
     editor.load(String(value.value ?? ""));
-    const found = upstreamPicture(node, app.rootGraph ?? app.graph);
+    const found = (kind.picture ?? upstreamPicture)(node, app.rootGraph ?? app.graph, app.nodeOutputs);
+    editor.picking?.changed();
     if (found === picture) return;
     const first = picture === undefined;
     picture = found;
     if (!first) editor.backdrop.forgetRun();
-    if (found) editor.backdrop.setPicture(api.apiURL(found));
+    if (found) editor.backdrop.setPicture(api.apiURL(found)).then(() => editor.picking?.changed());
+    else if (editor.picking) editor.backdrop.forgetPicture();
   };
+  editor.look = look;
+  // The editor shows what the node shows: in the Vue canvas the host has a word for that, in the other it draws here.
+  if (kind.result) Object.assign(node, { hideOutputImages: true, onDrawBackground: () => {} });
   const ran = (/** @type {any} */ output) => {
     const [info] = output?.[OUTPUT] ?? [];
     editor.advise(output?.advice ?? []);
-    if (info) editor.backdrop.setRun(runOf(api, info)).catch((error) => editor.say(error.message));
+    const [shown] = (kind.result && output?.images) || [];
+    const [seen] = output?.physanimator_picture ?? [];
+    if (seen) node.physanimatorSeen = pathOf(seen);
+    if (shown) editor.picking?.takeResult(api.apiURL(pathOf(shown)), /\.mp4$/.test(shown.filename));
+    if (info) editor.backdrop.setRun(runOf(api, info)).catch((error) => editor.backdrop.trouble(error));
   };
   chain(node, "onConfigure", () => queueMicrotask(look));
   chain(node, "onConnectionsChange", () => queueMicrotask(look));
@@ -117,10 +141,20 @@ function follow(app, api, node, value, editor) {
   const refused = (/** @type {any} */ { detail }) => {
     if (node.graph && detail.node === executionId(node, app.rootGraph ?? app.graph)) editor.refuseLayers(detail.layers);
   };
+  const pictured = (/** @type {any} */ { detail: { node: id, ...saved } }) => {
+    if (!node.graph || !kind.picture || id !== executionId(node, app.rootGraph ?? app.graph)) return;
+    node.physanimatorSeen = pathOf(saved);
+    look();
+  };
   api.addEventListener(LAYERS, refused);
+  api.addEventListener(PICTURE, pictured);
+  const ended = () => editor.backdrop.stopWaiting();
+  for (const name of ENDS) api.addEventListener(name, ended);
   chain(node, "onRemoved", () => {
     clearInterval(remains);
+    for (const name of ENDS) api.removeEventListener(name, ended);
     api.removeEventListener(LAYERS, refused);
+    api.removeEventListener(PICTURE, pictured);
     editor.release();
   });
   queueMicrotask(() => {
@@ -140,6 +174,11 @@ function takePlace(node, root) {
   if (root.isConnected) return;
   const left = document.querySelector(`[data-node-id="${CSS.escape(String(node.id))}"] .physanimator-editor[data-released]`);
   left?.replaceWith(root);
+}
+
+/** @param {any} saved  as the host tells where a file is */
+function pathOf(saved) {
+  return `/view?${new URLSearchParams(saved)}`;
 }
 
 /**

@@ -10,6 +10,7 @@ import { emptyDocument, parseDocument, serialise } from "../scene/document.js";
 import { withAttach } from "../scene/holds.js";
 import { isAsRun, withMoves, withPlace, withPreset } from "../scene/layers.js";
 import { LAYERS } from "./attach.js";
+import { isConnected } from "./links.js";
 import { executionId, runNode } from "./queueing.js";
 import { chain, hide, tell } from "./widgets.js";
 import { say } from "./words.js";
@@ -105,8 +106,8 @@ export class NodeLayers {
   }
 
   get connected() {
-    const slot = this.node.inputs?.find((/** @type {any} */ one) => one.name === this.value.name);
-    return slot?.link != null;
+    const slot = (this.node.inputs ?? []).findIndex((/** @type {any} */ one) => one.name === this.value.name);
+    return isConnected(this.node, slot);
   }
 
   /** @param {{width: number, height: number, layers: import("../scene/layers.js").Layer[]}} told  by a run */

@@ -43,7 +43,7 @@ export function attachUpload(app, api, node, name) {
       for (const file of chosen.files) stored = await upload(api, file, chosen.subfolder);
       choose(app, node, name, chosen.subfolder || stored);
     } catch (error) {
-      warn(app, say("The file could not be uploaded: {reason}", { reason: error instanceof Error ? error.message : error }));
+      warn(app, say("The file could not be uploaded: {reason}", { reason: reasonOf(error) }));
     }
   };
   picker.addEventListener("change", () => {
@@ -64,12 +64,21 @@ export function attachUpload(app, api, node, name) {
 }
 
 /**
+ * @param {unknown} error
+ * @returns {string}
+ */
+function reasonOf(error) {
+  if (error instanceof TypeError) return say("the server does not answer");
+  return error instanceof Error ? error.message : String(error);
+}
+
+/**
  * @param {any} api
  * @param {File} file
  * @param {string} subfolder
  * @returns {Promise<string>} its path in the input folder
  */
-async function upload(api, file, subfolder) {
+export async function upload(api, file, subfolder) {
   const body = new FormData();
   body.append("image", file);
   if (subfolder) body.append("subfolder", subfolder);
@@ -86,7 +95,7 @@ async function upload(api, file, subfolder) {
  * @param {string} name
  * @param {string} value
  */
-function choose(app, node, name, value) {
+export function choose(app, node, name, value) {
   const widget = node.widgets.find((/** @type {any} */ one) => one.name === name);
   const values = widget.options?.values;
   if (Array.isArray(values) && !values.includes(value)) values.push(value);
@@ -98,7 +107,8 @@ function choose(app, node, name, value) {
 /**
  * @param {any} app
  * @param {string} sentence
+ * @param {string} [title]
  */
-function warn(app, sentence) {
-  app.extensionManager?.toast?.add({ severity: "warn", summary: say("Load Layers"), detail: sentence, life: 10_000 });
+export function warn(app, sentence, title = say("Load Layers")) {
+  app.extensionManager?.toast?.add({ severity: "warn", summary: title, detail: sentence, life: 10_000 });
 }

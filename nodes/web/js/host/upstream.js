@@ -4,13 +4,15 @@
  * @typedef {any} GraphNode  of LiteGraph
  */
 
+import { isConnected, linkInto } from "./links.js";
+
 /** Origin of a link that comes from outside of a subgraph. */
 const SUBGRAPH_INPUT = -10;
 const FARTHEST = 200;
 const BYPASSED = 4;
 
 /** Where the server has the illustration that comes with the pack. */
-const EXAMPLE = "/physanimator/example";
+export const EXAMPLE = "/physanimator/example";
 
 /**
  * The picture of the node nearest upstream that has one before it has run.
@@ -34,7 +36,7 @@ export function upstreamPicture(node, rootGraph) {
 
 /** @param {GraphNode} node whether a picture is connected to the node itself */
 function isPicture(node) {
-  return (node.inputs ?? []).some((/** @type {any} */ input) => input.type === "IMAGE" && input.link != null);
+  return (node.inputs ?? []).some((/** @type {any} */ input, /** @type {number} */ slot) => input.type === "IMAGE" && isConnected(node, slot));
 }
 
 /** @param {GraphNode} node */
@@ -44,7 +46,7 @@ function pictureOf(node) {
   if (type === "PhysAnimator_ExampleIllustration") return EXAMPLE;
   if (!/LoadImage/.test(type)) return null;
   const value = node.widgets?.find((/** @type {any} */ widget) => widget.name === "image")?.value;
-  return typeof value === "string" && value ? `/view?${viewQuery(value)}` : null;
+  return typeof value === "string" && value ? pathOfFile(value) : null;
 }
 
 /**
@@ -56,24 +58,23 @@ function pictureOf(node) {
  * @returns {GraphNode[]}
  */
 function sourcesOf(node, rootGraph, type) {
-  const inputs = (node.inputs ?? []).filter((/** @type {any} */ input) => input.link != null && (!type || input.type === type));
-  return inputs.map((/** @type {any} */ input) => sourceOf(node, input.link, rootGraph)).filter(Boolean);
+  const slots = (node.inputs ?? []).flatMap((/** @type {any} */ input, /** @type {number} */ slot) => (!type || input.type === type ? [slot] : []));
+  return slots.map((/** @type {number} */ slot) => sourceOf(node, slot, rootGraph)).filter(Boolean);
 }
 
 /**
  * @param {GraphNode} node
- * @param {number} linkId
+ * @param {number} slot  of an input
  * @param {any} rootGraph
  * @returns {GraphNode | null}
  */
-function sourceOf(node, linkId, rootGraph) {
+function sourceOf(node, slot, rootGraph) {
   const { graph } = node;
-  const link = graph?.getLink?.(linkId) ?? graph?.links?.get?.(linkId) ?? graph?.links?.[linkId];
-  if (!link) return null;
+  const link = linkInto(node, slot);
+  if (!link || !graph) return null;
   if (link.origin_id !== SUBGRAPH_INPUT) return graph.getNodeById(link.origin_id);
   const holder = holderOf(graph, rootGraph);
-  const outer = holder?.inputs?.[link.origin_slot]?.link;
-  return holder && outer != null ? sourceOf(holder, outer, rootGraph) : null;
+  return holder ? sourceOf(holder, link.origin_slot, rootGraph) : null;
 }
 
 /**
@@ -90,6 +91,14 @@ export function holderOf(subgraph, rootGraph) {
     if (holder) return holder;
   }
   return null;
+}
+
+/**
+ * @param {string} file  as a Load Image widget has it
+ * @returns {string} its path on the server
+ */
+export function pathOfFile(file) {
+  return `/view?${viewQuery(file)}`;
 }
 
 /**

@@ -22,6 +22,11 @@ export function say(text, values = {}) {
   return filled(translations[text] ?? text, values);
 }
 
+/** @returns {boolean} whether it says something else than English */
+export function translates() {
+  return Object.keys(translations).length > 0;
+}
+
 /**
  * Marks texts that are handed to `say` later, because what is written into a scene stays English.
  *
@@ -47,9 +52,9 @@ export function filled(text, values) {
 async function language() {
   try {
     const { api } = await import(new URL("../../../../scripts/api.js", import.meta.url).href);
-    return (await api.getSetting(SETTING)) || navigator.language.split("-")[0];
+    return (await api.getSetting(SETTING)) || navigator.language;
   } catch {
-    return "en";
+    return navigator.language;
   }
 }
 
@@ -58,9 +63,10 @@ async function language() {
  * @returns {Promise<Record<string, string>>}
  */
 async function translationsOf(chosen) {
-  if (!LANGUAGES.includes(chosen)) return {};
+  const name = LANGUAGES.find((one) => one === chosen) ?? LANGUAGES.find((one) => one === chosen.split("-")[0]);
+  if (!name) return {};
   try {
-    const answer = await fetch(new URL(`../../words/${chosen}.json`, import.meta.url), { cache: "no-cache" });
+    const answer = await fetch(new URL(`../../words/${name}.json`, import.meta.url), { cache: "no-cache" });
     return answer.ok ? await answer.json() : {};
   } catch {
     return {};

@@ -17,3 +17,11 @@ export function element(tag, properties = {}, children = []) {
   made.append(...children);
   return made;
 }
+
+/**
+ * @param {HTMLElement} root  of an editor
+ * @returns {boolean} whether somebody works with it: it has the focus, or fills the window
+ */
+export function isUsed(root) {
+  return root.contains(document.activeElement) || root.querySelector("dialog[open]") !== null;
+}

@@ -8,6 +8,7 @@
 import { say } from "../host/words.js";
 import { valueAt } from "../scene/document.js";
 import { element } from "./elements.js";
+import { slidersOf } from "./slider.js";
 
 /**
  * A label with its input, for one field of an item.
@@ -15,9 +16,10 @@ import { element } from "./elements.js";
  * @param {Field} field
  * @param {any} item
  * @param {Change} change
+ * @param {number} [side]  the longest of the picture [px]
  * @returns {HTMLElement}
  */
-export function fieldRow(field, item, change) {
+export function fieldRow(field, item, change, side = 1280) {
   if (field.kind === "keys") return keysRow(field, item, change);
   const value = valueAt(item, field.path) ?? field.default;
   const inputs = field.kind === "pair" ? pairInputs(field, value, change) : [singleInput(field, value, change)];
@@ -27,6 +29,7 @@ export function fieldRow(field, item, change) {
   return element("label", { className: "physanimator-field", title: field.hint, "data-field": field.path }, [
     caption,
     element("span", { className: "physanimator-inputs" }, [...inputs, ...unit]),
+    ...(inputs.length === 1 ? slidersOf(field, inputs[0], side) : []),
   ]);
 }
 

@@ -32,7 +32,12 @@ export class Inspector {
     );
     /** The body that is chosen, by its name or its number; -1 for none. */
     this.body = { name: "", number: -1 };
+    /** Whether a slider is being dragged. */
+    this.sliding = false;
+    this.side = 1280;
     this.root = element("div", { className: "physanimator-inspector", role: "group", "aria-label": say("Values") });
+    this.root.addEventListener("pointerdown", (/** @type {PointerEvent} */ event) => (this.sliding = /** @type {any} */ (event.target).type === "range"));
+    for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) this.root.addEventListener(name, () => (this.sliding = false));
   }
 
   /**
@@ -42,9 +47,10 @@ export class Inspector {
    */
   show(document, selection, brush) {
     this.material.document = document;
+    this.side = this.material.side = Math.max(document.width, document.height);
     const active = this.root.contains(globalThis.document.activeElement) && globalThis.document.activeElement;
     // The field in which somebody types is left alone: it shows what is typed, not what became of it.
-    const typing = active && active.type === "number" && this.subject === this.#subject(document, selection);
+    const typing = (this.sliding || (active && active.type === "number")) && this.subject === this.#subject(document, selection);
     if (typing) {
       this.values = [];
       return;
@@ -55,7 +61,9 @@ export class Inspector {
     if (values.length === this.values.length && values.every((value, i) => value === this.values[i])) return;
     this.values = values;
     const rows = selection && item ? this.#itemRows(selection, item) : this.#sceneRows(document);
+    const held = active && active.type === "range" && active.closest("[data-field]")?.dataset.field;
     this.root.replaceChildren(...(brush ? [this.#brushRow(brush)] : []), ...rows);
+    if (held) this.root.querySelector(`[data-field="${held}"] .physanimator-slide`)?.focus({ preventScroll: true });
   }
 
   /**
@@ -77,7 +85,7 @@ export class Inspector {
       const type = changes.find(([path]) => path === "motion.type")?.[1];
       this.listener.change(selection, type ? [["motion", newMotion(item, type)]] : changes, key && `${this.subject}.${key}`);
     };
-    const rows = fieldsOf(selection, item).map((field) => fieldRow(field, item, change));
+    const rows = fieldsOf(selection, item).map((field) => fieldRow(field, item, change, this.side));
     const region = selection.list === "rig_points" ? [this.#regionRow(item)] : [];
     return [this.#heading(titleOf(selection, item)), ...rows, ...region];
   }
@@ -91,7 +99,7 @@ export class Inspector {
     return [
       ...(chosen ? material : []),
       this.#heading(say("Scene")),
-      ...SCENE_FIELDS.map((field) => fieldRow(field, document, change)),
+      ...SCENE_FIELDS.map((field) => fieldRow(field, document, change, this.side)),
       ...this.#section(say("Wind everywhere"), "wind", document, WIND_FIELDS, change),
       ...this.#section(say("Contact"), "contact", document, CONTACT_FIELDS, change),
       ...(chosen ? [] : material),
@@ -116,7 +124,7 @@ export class Inspector {
       onchange: () => change([[name, there ? undefined : {}]], ""),
     });
     const head = element("label", { className: "physanimator-field physanimator-section", "data-field": name }, [box, title]);
-    return there ? [head, ...fields.map((field) => fieldRow(field, document, change))] : [head];
+    return there ? [head, ...fields.map((field) => fieldRow(field, document, change, this.side))] : [head];
   }
 
   /** @param {string} text */
@@ -147,7 +155,7 @@ export class Inspector {
     const field = /** @type {import("../scene/fields.js").Field} */ ({
       path: "radius", title: say("Brush radius"), unit: "px", kind: "number", min: 1, max: 5000, step: 1, hint: say("How broad the brush is; the keys [ and ] change it too."),
     });
-    return fieldRow(field, brush, (changes) => this.listener.brushSize(changes[0][1]));
+    return fieldRow(field, brush, (changes) => this.listener.brushSize(changes[0][1]), this.side);
   }
 }
 

@@ -28,6 +28,8 @@ export class MaterialPanel {
     this.document = {};
     /** Young's moduli that came of sways in the last preview, by body. @type {(number | null)[]} */
     this.moduli = [];
+    /** The longest of the picture [px]. */
+    this.side = 1280;
   }
 
   /**
@@ -47,7 +49,7 @@ export class MaterialPanel {
       this.change(made.bodies, key && `${target.label}.${key}`);
     };
     const fields = materialFields(this.materials, written);
-    return [...this.#heading(targets, target), ...fields.map((field) => fieldRow(field, whole, change))];
+    return [...this.#heading(targets, target), ...fields.map((field) => fieldRow(field, whole, change, this.side))];
   }
 
   /**

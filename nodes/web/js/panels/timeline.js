@@ -38,15 +38,19 @@ export class Timeline {
     this.length = element("input", { type: "number", min: "2", max: String(MOST_FRAMES), step: "1", title: say("Length of the preview [frames]"), "aria-label": say("Length of the preview [frames]"), className: "physanimator-length", onchange: () => this.#setLength() });
     this.lanes = element("div", { className: "physanimator-track" });
     this.now = element("div", { className: "physanimator-now" });
+    // As broad as the lanes, beside their names.
+    this.ruler = element("div", { className: "physanimator-ruler" }, [this.now]);
     const bar = element("div", { className: "physanimator-bar" }, [this.play, this.loop, this.slider, this.readout, this.length, element("span", { className: "physanimator-unit" }, [say("frames")])]);
     this.root = element("div", { className: "physanimator-timeline" }, [bar, element("div", { className: "physanimator-lanes" }, [this.lanes])]);
-    /** @type {Partial<Record<"playing" | "looping" | "frame" | "duration" | "frameRate", any>>} */
+    /** @type {Partial<Record<"plays" | "moving" | "looping" | "frame" | "duration" | "frameRate", any>>} */
     this.shown = {};
     this.duration = 1;
     /** @type {Lane[]} */
     this.rows = [];
     /** @type {{reference: Reference, item: Item, edge: import("../scene/timing.js").Edge, changed: Item} | null} */
     this.dragged = null;
+    /** @type {HTMLElement | null} lane to scroll to */
+    this.revealed = null;
     this.#listen();
   }
 
@@ -75,7 +79,7 @@ export class Timeline {
   #drag(event) {
     const { dragged } = this;
     if (!dragged) return;
-    const box = this.lanes.getBoundingClientRect();
+    const box = this.ruler.getBoundingClientRect();
     const time = ((event.clientX - box.left) / box.width) * this.duration;
     dragged.changed = withEdge(dragged.reference, dragged.item, dragged.edge, time, this.duration);
     this.listener.retime(dragged.reference, dragged.changed, false);
@@ -98,10 +102,11 @@ export class Timeline {
   /** @param {Playback} playback */
   showPosition(playback) {
     const frame = Math.floor(playback.position);
-    const { playing, looping, duration, frameRate } = playback;
+    const { plays, moving, looping, duration, frameRate } = playback;
     const before = this.shown;
-    this.shown = { playing, looping, frame, duration, frameRate };
-    if (playing !== before.playing) this.#showPlaying(playing);
+    this.shown = { plays, moving, looping, frame, duration, frameRate };
+    if (plays !== before.plays) this.#showPlaying(plays);
+    if (moving !== before.moving) this.play.disabled = this.slider.disabled = !moving;
     if (looping !== before.looping) this.loop.setAttribute("aria-pressed", String(looping));
     if (duration !== before.duration) {
       this.slider.max = String(duration - 1);
@@ -135,14 +140,29 @@ export class Timeline {
       return lane && isOf(lane, reference, item, duration) ? lane : this.#lane(reference, item, duration);
     });
     for (const { reference, root } of this.rows) {
-      root.dataset.selected = String(selection?.list === reference.list && selection.index === reference.index);
+      const chosen = selection?.list === reference.list && selection.index === reference.index;
+      if (chosen && root.dataset.selected !== "true") this.revealed = root;
+      root.dataset.selected = String(chosen);
     }
     if (this.rows.length && this.rows.length === before.length) {
       this.rows.forEach(({ root }, number) => root !== before[number].root && before[number].root.replaceWith(root));
+      this.#reveal();
       return;
     }
     const empty = element("div", { className: "physanimator-empty" }, [say("What you draw appears here, with the times at which it acts.")]);
-    this.lanes.replaceChildren(...(this.rows.length ? this.rows.map(({ root }) => root) : [empty]), this.now);
+    this.lanes.replaceChildren(...(this.rows.length ? this.rows.map(({ root }) => root) : [empty]), ...(this.rows.length ? [this.ruler] : []));
+    this.#reveal();
+  }
+
+  /** Scroll to the lane of what has just been selected, and nothing else on the page. */
+  #reveal() {
+    const { revealed } = this;
+    this.revealed = null;
+    const view = this.lanes.parentElement;
+    if (!revealed || !view || this.dragged) return;
+    const [above, below] = [revealed.offsetTop, revealed.offsetTop + revealed.offsetHeight];
+    if (above < view.scrollTop) view.scrollTop = above;
+    else if (below > view.scrollTop + view.clientHeight) view.scrollTop = below - view.clientHeight;
   }
 
   /**
@@ -152,7 +172,10 @@ export class Timeline {
    * @returns {Lane}
    */
   #lane(reference, item, duration) {
-    const root = element("div", { className: "physanimator-lane", title: titleOf(reference, item), onclick: () => this.listener.select(reference) });
+    const title = titleOf(reference, item);
+    const name = element("span", { className: "physanimator-lane-name" }, [title]);
+    const lane = element("div", { className: "physanimator-lane" });
+    const root = element("div", { className: "physanimator-row", title, onclick: () => this.listener.select(reference) }, [name, lane]);
     root.style.setProperty("--physanimator-colour", colourOf(reference.list, item));
     const spans = spansOf(reference, item, duration).map(([from, to]) => this.#piece("physanimator-span", from, to, duration));
     const ticks = reference.list === "strokes" ? departures(item, duration).slice(0, 200) : [];
@@ -164,7 +187,7 @@ export class Timeline {
       grip.addEventListener("pointerdown", (/** @type {PointerEvent} */ event) => this.#grasp(event, reference, item, edge));
       return grip;
     });
-    root.append(...spans, ...ticks.map((time) => this.#piece("physanimator-tick", time, time, duration)), ...edges);
+    lane.append(...spans, ...ticks.map((time) => this.#piece("physanimator-tick", time, time, duration)), ...edges);
     return { reference, item, duration, root };
   }
 

@@ -81,8 +81,7 @@ export class PreviewClient {
    * @returns {Promise<Mesh>}
    */
   async mesh(key) {
-    const answer = await this.fetch(`/physanimator/mesh/${key}`);
-    if (!answer.ok) throw await refusal(answer);
+    const answer = await this.#get(`/physanimator/mesh/${key}`);
     return meshOf(await answer.arrayBuffer());
   }
 
@@ -94,9 +93,18 @@ export class PreviewClient {
    * @returns {Promise<import("../scene/holds.js").Hold[]>}
    */
   async holds(key, attach) {
-    const answer = await this.fetch(`/physanimator/holds/${key}/${attach}`);
-    if (!answer.ok) throw await refusal(answer);
+    const answer = await this.#get(`/physanimator/holds/${key}/${attach}`);
     return answer.json();
+  }
+
+  /**
+   * @param {string} path
+   * @returns {Promise<Response>}
+   */
+  async #get(path) {
+    const answer = await this.fetch(path).catch(failed);
+    if (!answer.ok) throw await refusal(answer);
+    return answer;
   }
 
   /**
@@ -113,7 +121,7 @@ export class PreviewClient {
         headers: { "Content-Type": "application/json" },
         body: JSON.stringify({ editor: this.editor, key, scene, frames }),
         signal: controller.signal,
-      });
+      }).catch(failed);
       if (!answer.ok) throw await refusal(answer);
       await this.#read(/** @type {ReadableStream<Uint8Array>} */ (answer.body), controller);
     } catch (error) {
@@ -129,7 +137,7 @@ export class PreviewClient {
     const reader = body.getReader();
     const records = new RecordReader();
     for (;;) {
-      const { done, value } = await reader.read();
+      const { done, value } = await reader.read().catch(failed);
       if (done || this.running !== controller) return;
       for (const record of records.push(value)) {
         if (record.type === "error" && record.error === SUPERSEDED) return;
@@ -146,4 +154,14 @@ export class PreviewClient {
 async function refusal(answer) {
   const said = await answer.json().catch(() => null);
   return new Refusal(said?.error ?? say("The server answered {status}.", { status: `${answer.status} ${answer.statusText}` }), answer.status);
+}
+
+/**
+ * What a browser says of a server that is gone, each in words of its own, in ours.
+ *
+ * @param {Error} error
+ * @returns {never}
+ */
+function failed(error) {
+  throw error instanceof TypeError ? new Error(say("The server does not answer. Is ComfyUI still running?")) : error;
 }

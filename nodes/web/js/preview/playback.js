@@ -62,6 +62,16 @@ export class Playback {
     return this.position / this.frameRate;
   }
 
+  /** Whether there is a motion that can be played. */
+  get moving() {
+    return this.header !== null && this.frames.length + (this.last ? 1 : 0) > 1;
+  }
+
+  /** Whether it plays, or goes on as soon as a new motion has come. */
+  get plays() {
+    return this.playing && this.moving;
+  }
+
   /** Whether the position goes on by itself. */
   get moves() {
     return this.playing && this.frames.length > 1 && !this.waiting;

@@ -23,6 +23,7 @@
  * @property {number[]} [points]  number of each in the document, -1 for none; the same where left out
  * @property {number} unit  [px]
  * @property {boolean} loop
+ * @property {number[]} [unheld]  numbers of the bodies that nothing holds
  *
  * @typedef {{type: "header", header: Header} | {type: "frame", frame: Frame} | {type: "end", end: any} | {type: "error", error: string}} PreviewRecord
  */

@@ -13,13 +13,21 @@ export const COLOURS = /** @type {Record<string, string>} */ ({
   edge: "rgba(10, 12, 16, 0.75)",
 });
 
+/** Of the parts that are picked, one after the other. */
+const PARTS = [COLOURS.positive, "#4db5ff", "#ffb02e", "#c48bff", "#ff5c8a", "#2dd4cf", "#d6e04a", "#ff8a3d"];
+
+/** @param {number} part  its number, from 0 */
+export function partColour(part) {
+  return PARTS[part % PARTS.length];
+}
+
 /**
  * @param {string} list
  * @param {Record<string, any>} item
  */
 export function colourOf(list, item) {
   if (list === "strokes") return COLOURS[item.kind ?? "wind"];
-  if (list === "query_points") return item.positive === false ? COLOURS.negative : COLOURS.positive;
+  if (list === "query_points") return item.positive === false ? COLOURS.negative : partColour(item.part ?? 0);
   if (list === "rig_points") return (item.motion?.type ?? "pinned") === "pinned" ? COLOURS.pin : COLOURS.path;
   return COLOURS[list];
 }

@@ -92,8 +92,11 @@ export class LeadTool extends Freehand {
 
 /** Places something that can still be moved until the pointer is released. */
 class Placing extends Tool {
-  /** @param {Point} point */
-  down(point) {
+  /**
+   * @param {Point} point
+   * @param {PointerEvent} _event
+   */
+  down(point, _event) {
     this.origin = this.desk.document;
     this.start = point;
     this.#show(point);
@@ -148,6 +151,16 @@ export class WaveTool extends Placing {
 }
 
 export class QueryTool extends Placing {
+  /**
+   * @param {Point} point
+   * @param {PointerEvent} event
+   */
+  down(point, event) {
+    this.beside = this.id === "query-negative" || event.altKey;
+    if (event.shiftKey && !this.beside) this.desk.newPart();
+    super.down(point, event);
+  }
+
   list() {
     return "query_points";
   }
@@ -158,7 +171,8 @@ export class QueryTool extends Placing {
     /** @type {Point} */
     const inside = [Math.min(Math.max(point[0], 0), width), Math.min(Math.max(point[1], 0), height)];
     const [x, y] = rounded(inside);
-    return { x, y, positive: this.id === "query-positive" };
+    const { part } = this.desk;
+    return { x, y, positive: !this.beside, ...(part ? { part } : {}) };
   }
 }
 

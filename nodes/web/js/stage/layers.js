@@ -13,7 +13,7 @@ import { allItems } from "../scene/document.js";
 import { drawOverlay, drawStill } from "./overlay.js";
 
 /** What the still layer depends on besides the items. */
-const STATE = /** @type {const} */ (["view", "background", "restingMesh", "itemsShown", "selection"]);
+const STATE = /** @type {const} */ (["view", "background", "restingMesh", "itemsShown", "selection", "cuts"]);
 
 export class Layers {
   /** @param {import("./stage.js").Stage} stage */

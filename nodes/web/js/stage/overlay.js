@@ -20,7 +20,9 @@
  * @property {number} unit  of the frame [px]
  * @property {import("./tool.js").Draft | null} draft
  * @property {{at: Point, radius: number} | null} brush
+ * @property {import("../editor/picking.js").Cut[] | null} cuts  parts that are picked
  * @property {boolean} itemsShown
+ * @property {boolean} particlesShown
  * @property {{box: [number, number, number, number], mesh: Mesh | null} | null} outline  of the selected layer
  */
 
@@ -44,6 +46,7 @@ export function drawStill(context, shown, still) {
   const { document, view, selection } = shown;
   const items = new ItemPainter(context, view, document);
   if (shown.background) items.stretched(shown.background, 1);
+  for (const cut of shown.cuts ?? []) items.stretched(shown.background ? cut.fill : cut.edge, shown.background ? 0.5 : 0.9);
   frame(context, shown);
   if (shown.restingMesh) wireframe(context, view, shown.restingMesh, null, 1);
   if (!shown.itemsShown) return;
@@ -67,7 +70,7 @@ export function drawOverlay(context, shown, changing) {
     for (const one of changing) items.draw(one.reference, one.item, isChosen(one, selection));
     anchors(items, shown);
   }
-  if (shown.frame) particles(items, shown);
+  if (shown.frame && shown.particlesShown) particles(items, shown);
   if (shown.draft) draft(items, shown);
   if (shown.brush) {
     items.painter.circle(items.at(shown.brush.at), shown.brush.radius * view.scale, "#fff", { width: 1 });

@@ -6,6 +6,7 @@
  */
 
 import { say } from "../host/words.js";
+import { isUsed } from "../panels/elements.js";
 import { mark, PEN_UP } from "../preview/marks.js";
 import { fittingView, toPicture, zoomed } from "../scene/geometry.js";
 
@@ -239,6 +240,8 @@ export class Stage {
 
   /** @param {WheelEvent} event */
   #wheel(event) {
+    const editor = /** @type {HTMLElement | null} */ (this.root.closest(".physanimator-editor"));
+    if (editor && !isUsed(editor)) return;
     event.preventDefault();
     event.stopPropagation();
     const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;

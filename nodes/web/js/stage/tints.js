@@ -36,6 +36,27 @@ export function draftMask(bitmap, colour) {
   return filled(sheet, bitmap, colour);
 }
 
+/**
+ * The rim of a mask, a few pixels wide.
+ *
+ * @param {any} region  a mask
+ * @param {string} colour  as #rrggbb
+ */
+export function regionEdge(region, colour) {
+  const { width, height, bits } = bitmapOf(region);
+  const rim = { width, height, bits: new Uint8Array(bits.length) };
+  const reach = Math.max(1, Math.round(Math.max(width, height) / 640));
+  for (let y = 0, i = 0; y < height; y++) {
+    for (let x = 0; x < width; x++, i++) {
+      if (!bits[i]) continue;
+      const inside = x < reach || bits[i - reach];
+      const whole = inside && (x >= width - reach || bits[i + reach]) && (y < reach || bits[i - reach * width]) && (y >= height - reach || bits[i + reach * width]);
+      if (!whole) rim.bits[i] = 1;
+    }
+  }
+  return filled(sheetFor(rim), rim, colour);
+}
+
 /** @param {Bitmap} bitmap @returns {Sheet} */
 function sheetFor({ width, height }) {
   const canvas = Object.assign(globalThis.document.createElement("canvas"), { width, height });

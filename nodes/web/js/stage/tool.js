@@ -18,6 +18,8 @@
  * @property {Reference | null} selection
  * @property {number} pixel  size of a pixel of the screen [px of the picture]
  * @property {number} brushRadius  [px]
+ * @property {number} part  to which a point belongs that is picked
+ * @property {() => void} newPart  the next point begins another part
  * @property {Reference | null} replacing  rig point whose region is to be drawn anew
  * @property {(document: SceneDocument, selection?: Reference | null, key?: string) => void} commit
  * @property {(document: SceneDocument) => void} propose  show without making it a step to undo

@@ -165,8 +165,8 @@ def test_a_file_that_holds_something_else(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("prompt", "words"),
     [
-        (Prompt(), "at least one positive point, or a box"),
-        (Prompt([(5, 5)], [0]), "at least one positive point, or a box"),
+        (Prompt(), "with one on the part at least, or with a box"),
+        (Prompt([(5, 5)], [0]), "with one on the part at least, or with a box"),
         (Prompt([(95, 5)], [1]), "inside the picture of 90 x 50 px"),
         (Prompt(box=(95, 0, 99, 5)), "box must be"),
     ],

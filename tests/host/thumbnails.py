@@ -1,0 +1,382 @@
+"""Writes the thumbnails of the workflows: NAME.webp moves, NAME.jpg is for hosts that take stills alone.
+
+    python tests/host/thumbnails.py [workflow ...]
+
+Needs no host: each is drawn from the bundled example by the library, and shows what its workflow has of its own.
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+import sys
+from collections.abc import Callable, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT.parent))
+
+from physanimator.physics.motion import tracks  # noqa: E402
+from physanimator.physics.scene import Contact  # noqa: E402
+from physanimator.rendering.animation import Animation  # noqa: E402
+from physanimator.rendering.artwork import Artwork, load_artwork  # noqa: E402
+from physanimator.rendering.control import ModelFormat, line_frames, warped_frames  # noqa: E402
+from physanimator.rendering.options import AutomaticWind, Timing, Touching  # noqa: E402
+from physanimator.rendering.overlays import draw_tracks, preview  # noqa: E402
+from physanimator.rendering.pictures import load_image, load_mask  # noqa: E402
+from physanimator.rendering.pipeline import animate  # noqa: E402
+from physanimator.rendering.sketch import extract_sketch  # noqa: E402
+
+Picture = NDArray[np.uint8]
+Clip = list[Picture]
+
+EXAMPLE = ROOT / "workflows" / "example"
+SIZE, SMALL = (640, 360), (352, 198)
+COUNT, RATE = 24, 12
+"""Frames of a thumbnail, and of its second."""
+PARTS = ("hair", "cape", "ribbon", "plant")
+_INK, _LIGHT = (32, 32, 38), (250, 250, 250)
+
+
+def _illustration() -> Picture:
+    return load_image(EXAMPLE / "illustration.png")[..., :3]
+
+
+def _mask(part: str) -> NDArray[Any]:
+    return load_mask(EXAMPLE / f"mask_{part}.png", width=1280, height=720)
+
+
+def _scene(**changes: Any) -> dict[str, Any]:
+    return {**json.loads((EXAMPLE / "scene.json").read_text(encoding="utf-8")), **changes}
+
+
+def _hair(**material: Any) -> dict[str, Any]:
+    """The example's scene with nothing but its hair, under one gust."""
+    scene = _scene()
+    gust = {**scene["strokes"][0], "path": [[430, 250], [1000, 250]], "strength": 5.0, "interval": 0.3, "end": 0.7}
+    body = {"name": "hair", "material": {**scene["bodies"][0]["material"], **material}}
+    return {**scene, "bodies": [body], "rig_points": scene["rig_points"][:1], "strokes": [gust]}
+
+
+@cache
+def _example() -> Animation:
+    """The example's own scene, as a loop."""
+    masks = [_mask(part) for part in PARTS]
+    return animate(_illustration(), masks, scene=_scene(loop=COUNT / RATE))
+
+
+@cache
+def _layers() -> Animation:
+    return animate(load_artwork(EXAMPLE / "illustration.psd"), timing=Timing(loop=COUNT / RATE))
+
+
+def _sized(picture: NDArray[Any], size: tuple[int, int] = SIZE) -> Picture:
+    """Any picture as RGB of a size, whatever stands over cut off at both sides."""
+    if picture.dtype != np.uint8:
+        picture = (np.clip(picture, 0, 1) * 255).astype(np.uint8)
+    if picture.ndim == 2:
+        picture = np.repeat(picture[..., None], 3, axis=2)
+    scale = max(size[0] / picture.shape[1], size[1] / picture.shape[0])
+    width, height = round(picture.shape[1] * scale), round(picture.shape[0] * scale)
+    grown = cv2.resize(np.ascontiguousarray(picture[..., :3]), (width, height), interpolation=cv2.INTER_AREA)
+    left, top = (width - size[0]) // 2, (height - size[1]) // 2
+    return grown[top : top + size[1], left : left + size[0]]
+
+
+def _every(pictures: Any) -> Clip:
+    """So many of them, at even distances."""
+    found = list(pictures)
+    return [_sized(found[round(k * len(found) / COUNT)]) for k in range(COUNT)]
+
+
+@cache
+def _frames() -> Clip:
+    return _every(_example().frames())
+
+
+@cache
+def _sketches() -> Clip:
+    return _every(_example().sketches())
+
+
+def _over(**shown: bool) -> Clip:
+    """The frames with what is asked for of meshes, rig points and strokes."""
+    example = _example()
+    drawn = enumerate(example.frames())
+    said = {"wireframe": False, "rig": False, "strokes": False, **shown}
+    return _every(preview(frame, example.motion, example.scene, t, **said) for t, frame in drawn)
+
+
+def _beside(*clips: Clip, same: bool = False) -> Clip:
+    """Slanted strips, one of each clip, with a light line between them; the same part of each, or as they lie."""
+    across, slant = SIZE[0] / len(clips), 60
+    if same:
+        hair = 0.55 * SIZE[0]
+        clips = tuple(
+            [np.roll(picture, round((number + 0.5) * across - hair), axis=1) for picture in clip]
+            for number, clip in enumerate(clips)
+        )
+    shown = [picture.copy() for picture in clips[0]]
+    for number, clip in enumerate(clips[1:], start=1):
+        top, foot = round(number * across + slant / 2), round(number * across - slant / 2)
+        corners = np.array([(top, 0), (SIZE[0], 0), (SIZE[0], SIZE[1]), (foot, SIZE[1])], dtype=np.int32)
+        where = np.zeros(SIZE[::-1], dtype=np.uint8)
+        cv2.fillPoly(where, [corners], 255)
+        for picture, other in zip(shown, clip, strict=True):
+            picture[where > 0] = other[where > 0]
+            cv2.line(picture, (top, 0), (foot, SIZE[1]), _LIGHT, 4, cv2.LINE_AA)
+    return shown
+
+
+def _grid(clips: Sequence[Clip]) -> Clip:
+    """Four clips, two beside two."""
+    small = [[_sized(picture, (SIZE[0] // 2 - 2, SIZE[1] // 2 - 2)) for picture in clip] for clip in clips]
+    shown = []
+    for pictures in zip(*small, strict=True):
+        sheet = np.full((SIZE[1], SIZE[0], 3), 255, dtype=np.uint8)
+        for number, picture in enumerate(pictures):
+            x, y = (number % 2) * (SIZE[0] // 2 + 1), (number // 2) * (SIZE[1] // 2 + 1)
+            sheet[y : y + picture.shape[0], x : x + picture.shape[1]] = picture
+        shown.append(sheet)
+    return shown
+
+
+def _cut(clip: Clip, x: float, y: float, part: float) -> Clip:
+    """A closer look: so large a part of the pictures, from a corner of its own."""
+    width, height = round(SIZE[0] * part), round(SIZE[1] * part)
+    left, top = round(SIZE[0] * x), round(SIZE[1] * y)
+    return [_sized(picture[top : top + height, left : left + width]) for picture in clip]
+
+
+def _gust(scene: dict[str, Any]) -> Clip:
+    """The hair in a gust of its own, there and back."""
+    moved = animate(_illustration(), [_mask("hair")], scene=scene, timing=Timing(frames=2 * COUNT))
+    return _every(picture[:560, 300:1296] for picture in moved.frames())
+
+
+def _strokes() -> Clip:
+    left, up = [[1000, 250], [430, 250]], [[800, 640], [800, 20]]
+    clips = []
+    for path in (left, up):
+        for strength in (1.5, 5.0):
+            scene = copy.deepcopy(_hair())
+            scene["strokes"][0].update(path=path, strength=strength, radius=260)
+            clips.append(_gust(scene))
+    return _grid(clips)
+
+
+def _contact() -> Clip:
+    """The flower bends into the hair."""
+    wind, touching = AutomaticWind(strength=2.5, angle=180.0), Touching(contact=Contact())
+    masks = [_mask("hair"), _mask("plant")]
+    moved = animate(
+        _illustration(), masks, preset=("hair", "leaf"), wind=wind, touching=touching, timing=Timing(frames=2 * COUNT)
+    )
+    return _cut(_every(moved.frames()), 0.42, 0.0, 0.58)
+
+
+def _painted() -> Clip:
+    """The hair in the colours of its stiffness."""
+    picture, mask = _illustration().astype(np.float32), _mask("hair").astype(np.float32)[..., None]
+    mask = mask / max(1.0, float(mask.max()))
+    along = np.clip((np.arange(1280, dtype=np.float32) - 460) / 560, 0, 1)[None, :, None]
+    colours = (1 - along) * np.float32([235, 64, 52]) + along * np.float32([66, 135, 245])
+    tinted = picture * (1 - 0.6 * mask) + colours * 0.6 * mask
+    scene = _hair(root_stiffness=60)
+    moved = animate(tinted.astype(np.uint8), [_mask("hair")], scene=scene, timing=Timing(frames=2 * COUNT))
+    return _cut(_every(moved.frames()), 0.25, 0.0, 0.7)
+
+
+def _holes() -> tuple[Clip, Clip]:
+    """What a video model gets: frames with grey holes; and the same with the holes in colour."""
+    example = _example()
+    form = ModelFormat(frames=COUNT + 1, width=832, height=464)
+    grey, pink = [], []
+    for frame, hole in list(warped_frames(example.image, example.masks, example.motion, form, grow=8))[:COUNT]:
+        grey.append(_sized(frame))
+        pink.append(_sized(np.where(hole[..., None] > 0, np.float32([1.0, 0.2, 0.6]), frame)))
+    return grey, pink
+
+
+def _lines() -> Clip:
+    example = _example()
+    form = ModelFormat(frames=COUNT + 1, width=832, height=464)
+    return [_sized(lines) for lines in line_frames(extract_sketch(example.image), example.motion, form)][:COUNT]
+
+
+def _tracks() -> Clip:
+    example = _example()
+    followed = tracks(example.motion, points=90, static_points=12)
+    return _every(draw_tracks(frame, followed, t) for t, frame in enumerate(example.frames()))
+
+
+def _loop() -> Clip:
+    """The ribbon, with an arrow that goes round once in the time of the loop."""
+    shown = _cut(_frames(), 0.2, 0.0, 0.5)
+    for number, picture in enumerate(shown):
+        centre, angle = (SIZE[0] - 62, SIZE[1] - 62), 360 * number / COUNT - 90
+        cv2.circle(picture, centre, 44, _INK, -1, cv2.LINE_AA)
+        cv2.ellipse(picture, centre, (28, 28), 0, angle, angle + 290, _LIGHT, 7, cv2.LINE_AA)
+        tip = np.deg2rad(angle + 290)
+        at = np.array(centre) + 28 * np.array([np.cos(tip), np.sin(tip)])
+        ahead, aside = np.array([-np.sin(tip), np.cos(tip)]), np.array([np.cos(tip), np.sin(tip)])
+        head = np.array([at + 18 * ahead, at + 13 * aside, at - 13 * aside])
+        cv2.fillPoly(picture, [np.rint(head).astype(np.int32)], _LIGHT, cv2.LINE_AA)
+    return shown
+
+
+def _ends() -> Clip:
+    """First frame, what is between, last frame."""
+    first, last = [_frames()[0]] * COUNT, [_frames()[COUNT // 2]] * COUNT
+    between = [cv2.GaussianBlur(picture, (0, 0), 5) for picture in _frames()]
+    return _beside(_cut(first, 0.15, 0, 0.8), between, last)
+
+
+def _film() -> Clip:
+    """Three frames on end, of which the middle one is new."""
+    clip, shown = _cut(_frames(), 0.25, 0.0, 0.62), []
+    for number in range(COUNT):
+        sheet = np.full((SIZE[1], SIZE[0], 3), _INK, dtype=np.uint8)
+        for place in range(3):
+            picture = _sized(clip[(number + place) % COUNT][:, 120:520], (196, 250))
+            x, new = 13 + place * 209, (number + place) % 2 == 1
+            cv2.rectangle(sheet, (x - 5, 50), (x + 200, 309), (255, 176, 32) if new else _INK, -1)
+            sheet[55:305, x : x + 196] = picture
+            for hole in range(7):
+                for y in (18, 324):
+                    cv2.rectangle(sheet, (x + hole * 29, y), (x + hole * 29 + 14, y + 18), _LIGHT, -1)
+        shown.append(sheet)
+    return shown
+
+
+def _tiles() -> Clip:
+    """The parts of the character, each alone on a chequered ground."""
+    own = [layer for layer in _layers().layers(0).layers if layer.name != "background"]
+    ys, xs = np.indices((SIZE[1], SIZE[0]))
+    chequers = np.where(((ys // 10 + xs // 10) % 2)[..., None] > 0, np.uint8(245), np.uint8(222)).repeat(3, axis=2)
+    moving, shown = [_layers().layers(round(t * len(_layers()) / COUNT)) for t in range(COUNT)], []
+    for artwork in moving:
+        sheet = chequers.copy()
+        names = [layer.name for layer in own][:8]
+        for number, name in enumerate(names):
+            layer = next(each for each in artwork.layers if each.name == name)
+            _put(sheet, layer.pixels, (number % 4) * 160 + 8, (number // 4) * 180 + 8, 144, 164)
+        shown.append(sheet)
+    return shown
+
+
+def _put(sheet: Picture, pixels: NDArray[Any], x: int, y: int, width: int, height: int) -> None:
+    """A picture with transparency in a box, as large as goes in."""
+    pixels = (pixels // 257).astype(np.uint8) if pixels.dtype == np.uint16 else pixels
+    scale = min(width / pixels.shape[1], height / pixels.shape[0])
+    size = max(1, round(pixels.shape[1] * scale)), max(1, round(pixels.shape[0] * scale))
+    small = cv2.resize(pixels, size, interpolation=cv2.INTER_AREA).astype(np.float32)
+    left, top = x + (width - size[0]) // 2, y + (height - size[1]) // 2
+    place = sheet[top : top + size[1], left : left + size[0]]
+    alpha = small[..., 3:] / 255
+    place[:] = np.rint(place * (1 - alpha) + small[..., :3] * alpha)
+
+
+def _stack() -> Clip:
+    """The layers behind one another, as sheets seen from the side."""
+    shown = []
+    for t in range(COUNT):
+        artwork = _layers().layers(round(t * len(_layers()) / COUNT))
+        shown.append(_sheets(artwork))
+    return shown
+
+
+def _sheets(artwork: Artwork) -> Picture:
+    names = ["background", "back hair", "cape", "skirt", "front hair", "ribbon"]
+    layers = [each for each in artwork.layers if each.name in names]
+    sheet = np.full((SIZE[1], SIZE[0], 3), 44, dtype=np.uint8)
+    for number, layer in enumerate(layers):
+        whole = np.zeros((artwork.height, artwork.width, 4), dtype=np.uint8)
+        pixels = (layer.pixels // 257).astype(np.uint8) if layer.pixels.dtype == np.uint16 else layer.pixels
+        top, left = max(layer.top, 0), max(layer.left, 0)
+        inside = pixels[top - layer.top :, left - layer.left :][: artwork.height - top, : artwork.width - left]
+        whole[top : top + inside.shape[0], left : left + inside.shape[1]] = inside
+        x = 10 + number * 74
+        corners = np.float32([(x, 60), (x + 250, 16), (x + 250, 316), (x, 340)])
+        source = np.float32([(0, 0), (artwork.width, 0), (artwork.width, artwork.height), (0, artwork.height)])
+        bent = cv2.warpPerspective(whole, cv2.getPerspectiveTransform(source, corners), SIZE, flags=cv2.INTER_AREA)
+        pane = np.zeros(SIZE[::-1], dtype=np.uint8)
+        cv2.fillPoly(pane, [np.rint(corners).astype(np.int32)], 255, cv2.LINE_AA)
+        tint = 0.16 * (pane[..., None] / 255)
+        sheet[:] = np.rint(sheet * (1 - tint) + 255 * tint)
+        alpha = bent[..., 3:].astype(np.float32) / 255
+        sheet[:] = np.rint(sheet * (1 - alpha) + bent[..., :3] * alpha)
+        cv2.polylines(sheet, [np.rint(corners).astype(np.int32)], True, (235, 235, 235), 1, cv2.LINE_AA)
+    return sheet
+
+
+def _picked() -> Clip:
+    """What is clicked on, in colours; and how it moves."""
+    still = _illustration().astype(np.float32)
+    for part, colour in zip(PARTS, ((235, 64, 52), (66, 135, 245), (250, 190, 40), (60, 200, 110)), strict=True):
+        mask = _mask(part).astype(np.float32)[..., None]
+        still += (np.float32(colour) - still) * 0.55 * mask / max(1.0, float(mask.max()))
+    picture = _sized(still.astype(np.uint8))
+    for at in ((390, 130), (330, 230), (300, 55), (545, 125)):
+        cv2.circle(picture, at, 11, _LIGHT, -1, cv2.LINE_AA)
+        cv2.circle(picture, at, 7, _INK, -1, cv2.LINE_AA)
+    return _beside([picture] * COUNT, _frames(), same=True)
+
+
+THUMBNAILS: dict[str, Callable[[], Clip]] = {
+    "quickstart": _frames,
+    "animate_illustration": _picked,
+    "scene_editor": lambda: _over(rig=True, strokes=True),
+    "wind_and_pins": lambda: _cut(_over(rig=True, wireframe=True), 0.28, 0.0, 0.5),
+    "seamless_loop": _loop,
+    "contact": _contact,
+    "paint_and_measure": _painted,
+    "figure_strokes": _strokes,
+    "figure_stiffness": lambda: _grid([_gust(_hair(sway_frequency=rate)) for rate in (0.4, 0.8, 1.6, 3.2)]),
+    "every_step": lambda: _beside(_over(wireframe=True), _sketches(), _every(_example().flows()), _frames(), same=True),
+    "soft_inpaint": lambda: _cut(_beside(_frames(), _holes()[1]), 0.25, 0.0, 0.7),
+    "layers": _stack,
+    "see_through": _tiles,
+    "frame_interpolation": _film,
+    "wan_vace": lambda: _cut(_holes()[0], 0.25, 0.0, 0.7),
+    "wan_tracks": _tracks,
+    "wan_lines": _lines,
+    "wan_first_last_frame": _ends,
+    "physanimator_paper": lambda: _beside(_sketches(), _frames()),
+    "paper_strict": lambda: _beside(_over(wireframe=True), _every(_example().flows()), _sketches(), same=True),
+}
+
+
+def write(name: str) -> None:
+    """Both thumbnails of a workflow; one that has none of its own shows the example in motion."""
+    clip = [Image.fromarray(picture) for picture in THUMBNAILS.get(name, _frames)()]
+    place = ROOT / "workflows" / name
+    still = max(clip, key=lambda one: np.abs(np.asarray(one, dtype=np.int16) - np.asarray(clip[0])).mean())
+    still.save(place.with_suffix(".jpg"), quality=85)
+    first, *rest = [one.resize(SMALL, Image.Resampling.LANCZOS) for one in clip]
+    first.save(
+        place.with_suffix(".webp"),
+        save_all=True,
+        append_images=rest,
+        duration=round(1000 / RATE),
+        loop=0,
+        quality=50,
+        method=6,
+    )
+    print(place.with_suffix(".webp").relative_to(ROOT), place.with_suffix(".webp").stat().st_size // 1000, "kB")
+
+
+def main() -> None:
+    for name in sys.argv[1:] or sorted(path.stem for path in (ROOT / "workflows").glob("*.json")):
+        write(name)
+
+
+if __name__ == "__main__":
+    main()

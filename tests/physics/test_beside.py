@@ -1,0 +1,90 @@
+"""What another thread makes meanwhile: its result, its errors, and that it ends with the block."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+
+import pytest
+from physanimator.physics.beside import Beside, side_by_side
+from physanimator.physics.interruption import checkpoint, interruptible
+
+
+@pytest.fixture(autouse=True)
+def nothing_goes_on() -> Iterator[None]:
+    yield
+    assert not [each for each in threading.enumerate() if each.name.startswith("physanimator-beside")]
+
+
+def endless() -> None:
+    while True:
+        checkpoint()
+        time.sleep(0.005)
+
+
+def test_the_result_is_made_in_another_thread() -> None:
+    with Beside(threading.get_ident) as making:
+        assert making.result() != threading.get_ident()
+    assert making.ended
+
+
+def test_an_error_is_raised_where_the_result_is_wanted() -> None:
+    def fail() -> None:
+        raise ValueError("made badly")
+
+    with Beside(fail) as making:
+        while not making.ended:
+            time.sleep(0.005)
+        with pytest.raises(ValueError, match="made badly"):
+            making.check()
+    with pytest.raises(ValueError, match="made badly"):
+        making.result()
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, ValueError])
+def test_whoever_leaves_by_an_error_gives_it_up(error: type[BaseException]) -> None:
+    with pytest.raises(error), Beside(endless):
+        raise error
+
+
+def test_it_can_be_given_up_while_it_is_waited_for() -> None:
+    def stop() -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt), Beside(endless) as making:
+        making.result(meanwhile=stop)
+
+
+def test_what_the_caller_asks_at_checkpoints_is_asked_there_too() -> None:
+    asked = []
+
+    def check() -> None:
+        asked.append(threading.get_ident())
+        if len(asked) > 2:
+            raise InterruptedError
+
+    with interruptible(check), pytest.raises(InterruptedError), Beside(endless) as making:
+        making.result()
+    assert threading.get_ident() not in asked
+
+
+def test_results_side_by_side_keep_their_order() -> None:
+    def slow_first(number: int) -> int:
+        time.sleep(0.05 if number == 0 else 0)
+        return number * number
+
+    assert list(side_by_side(slow_first, range(6))) == [0, 1, 4, 9, 16, 25]
+
+
+def test_the_first_error_side_by_side_leaves_out_the_rest() -> None:
+    begun = []
+
+    def fail(number: int) -> int:
+        begun.append(number)
+        time.sleep(0.02)
+        raise ValueError(f"number {number}")
+
+    with pytest.raises(ValueError, match="number 0"):
+        list(side_by_side(fail, range(200)))
+    assert len(begun) < 100
