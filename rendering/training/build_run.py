@@ -20,6 +20,7 @@ from .building import BuildOptions, clips_of, file_names
 from .data_folder import ClipRecord
 from .data_journal import DataJournal, check_data_folder
 from .score_column import ScoredSpan
+from .shots import check_cuts_are_found
 from .sketching import sketcher_of
 from .source_videos import facts_of, identity_of
 
@@ -84,6 +85,7 @@ def build(
         InvalidInputError: the folder is not ours or was made with other options, or a file is unusable.
     """
     check_whole("workers", workers, 1, _MOST_WORKERS)
+    check_cuts_are_found()
     journal = DataJournal(work.data) if work.data is not None else None
     name, _ = sketcher_of(work.lines, work.device)  # before any work: it may be no such file
     if journal is not None:

@@ -108,7 +108,7 @@ def clips_of(
             "licence": licence,
         }
         wide, high = size
-        return ClipRecord(f"{names}_{number:04d}", str(source), width=wide, height=high, **(usual | told))
+        return ClipRecord(f"{names}_{number:04d}", str(source.absolute()), width=wide, height=high, **(usual | told))
 
     try:
         facts = facts_of(source)

@@ -16,7 +16,7 @@ from .dynamics import SCORED_WIDTH, dynamics_score
 from .exposures import exposed_frames, thinned
 from .source_videos import TimedFrame, VideoFacts, decoded
 
-__all__ = ["Shot", "shots_of"]
+__all__ = ["Shot", "check_cuts_are_found", "shots_of"]
 
 Tick = Callable[[], None]
 
@@ -42,6 +42,20 @@ class Shot:
     fps: float
     box: Box
     score: float
+
+
+def check_cuts_are_found() -> None:
+    """Refuse to begin where PySceneDetect is missing.
+
+    Raises:
+        InvalidInputError: it is.
+    """
+    try:
+        import scenedetect  # noqa: F401
+    except ImportError:
+        raise InvalidInputError(
+            'videos are cut by PySceneDetect: pip install "physanimator[train]". Got: no module scenedetect'
+        ) from None
 
 
 def shots_of(

@@ -104,6 +104,14 @@ def test_folders_of_others_are_left_alone(videos: Path, tmp_path: Path, capsys: 
     assert status("dataset", "simulate", "--clips", "1", "--output", str(tmp_path)) == 2
 
 
+def test_without_pyscenedetect_a_sentence_tells_what_to_install(
+    videos: Path, monkeypatch: pytest.MonkeyPatch, capsys: Output
+) -> None:
+    monkeypatch.setitem(sys.modules, "scenedetect", None)
+    assert status("dataset", "build", str(videos), "--dry-run", *SMALL) == 2
+    assert "physanimator[train]" in capsys.readouterr().err
+
+
 def test_a_dry_run_counts_and_writes_nothing(videos: Path, tmp_path: Path, capsys: Output) -> None:
     arguments = ["dataset", "build", str(videos), "--dry-run", *SMALL]
     assert status(*arguments) == 0
