@@ -145,7 +145,7 @@ def is_empty(text: str) -> bool:
     """Whether nothing is picked: no text, or a document without points."""
     try:
         data = json.loads(text) if text.strip() else None
-    except ValueError:
+    except (ValueError, RecursionError):
         return False
     points = data.get("query_points", []) if isinstance(data, Mapping) and "version" in data else data
     return points is None or points == []

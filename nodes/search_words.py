@@ -15,7 +15,18 @@ _PUPPET = ("puppet", "live2d", "spine", "rig", "bone", "cutout animation", "リ�
 _SWAY = ("wiggle", "sway", "swing", "jiggle", "bounce", "secondary motion", "揺れ", "摇摆", "搖擺", "흔들림")
 _LAYERS = ("psd", "layered", "parts", "live2d", "photoshop", "krita", "レイヤー", "图层", "圖層", "레이어")
 _CUT = ("cut out", "segment", "segmentation", "mask", "select", "lasso", "切り抜き", "抠图", "去背", "누끼")
-_ANIMATE = ("animate", "animation", "image to video", "still to video", "アニメーション", "动画", "動畫", "애니메이션")
+_ANIMATE = (
+    "animate",
+    "animation",
+    "animate picture",
+    "animate image",
+    "image to video",
+    "still to video",
+    "アニメーション",
+    "动画",
+    "動畫",
+    "애니메이션",
+)
 _LINES = ("line art", "lineart", "sketch", "線画", "线稿", "線稿", "선화")
 _WAN = ("wan", "video model", "image to video", "control video")
 

@@ -108,7 +108,7 @@ def nothing_moves(names: Sequence[str]) -> str:
     more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
     example = printable(names[-1][:60]) if names else "NAME"
     return (
-        "no layer moves by its name: switch on those that do in the node's list of layers, or type their names into the"
-        f' node\'s input move, one on each line, or give them on the command line as --move "{example}". Got the'
-        f" layers, from back to front: {listed}{more}"
+        "no layer moves by its name: switch on those that do in the list of layers of the node Artwork to Bodies or"
+        " Scene Editor, or type their names into the input move of Artwork to Bodies, one on each line, or give them on"
+        f' the command line as --move "{example}". Got the layers, from back to front: {listed}{more}'
     )

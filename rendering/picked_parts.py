@@ -97,7 +97,7 @@ def _presets_in(points: str | Mapping[str, Any]) -> dict[int, str]:
     if isinstance(points, str):
         try:
             points = json.loads(points)
-        except ValueError:
+        except (ValueError, RecursionError):
             return {}
     bodies = points.get("bodies") if isinstance(points, Mapping) else None
     found = {}

@@ -35,7 +35,11 @@ def place_of(name: str) -> Path:
     place = Path(os.path.abspath(root / bare)) if "\0" not in bare else root
     if place == root or root not in place.parents:
         raise InvalidInputError(f"file must be a layered file in the host's input folder. Got: {name[:60]!r}")
-    if not place.exists():
+    try:
+        found = place.exists()
+    except OSError:  # a name longer than any file's
+        found = False
+    if not found:
         raise InvalidInputError(f"file must be one of the layered files in the input folder. Got: {name[:60]!r}")
     return place
 

@@ -78,7 +78,7 @@ def numbers_of(text: str, *, name: str, like: str) -> tuple[float, ...]:
     try:
         values = json.loads(f"[{bare}]")
         return tuple(float(value) for value in values)
-    except (TypeError, ValueError, OverflowError):
+    except (TypeError, ValueError, OverflowError, RecursionError):
         raise InvalidInputError(f"{name} must be a list of {like}. Got: {text[:60]}") from None
 
 
@@ -113,7 +113,7 @@ def boxes_of(text: str, *, name: str) -> tuple[tuple[float, float, float, float]
         value = json.loads(text)
         boxes = value if isinstance(value[0], list) else [value]
         x_y = [tuple(float(number) for number in box) for box in boxes]
-    except (TypeError, ValueError, KeyError, IndexError, OverflowError):
+    except (TypeError, ValueError, KeyError, IndexError, OverflowError, RecursionError):
         x_y = [()]
     if not all(len(box) == 4 and box[0] < box[2] and box[1] < box[3] for box in x_y):
         raise InvalidInputError(f"{name} must be [x0, y0, x1, y1] in pixels, or a list of such. Got: {text[:60]}")
@@ -134,7 +134,7 @@ def keys_of(text: str, *, name: str) -> tuple[tuple[float, float], ...]:
         return ()
     try:
         return tuple((float(part), float(factor)) for part, factor in json.loads(text))
-    except (TypeError, ValueError, OverflowError):
+    except (TypeError, ValueError, OverflowError, RecursionError):
         raise InvalidInputError(
             f"{name} must be a list of pairs [part of the path from 0 to 1, factor] such as [[0, 1], [1, 0.5]]."
             f" Got: {text[:60]}"

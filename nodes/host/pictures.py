@@ -47,7 +47,11 @@ def picture_place(name: str) -> Path:
             bare, kind = name.removesuffix(f" [{folder}]"), folder
     root = _folder(kind)
     place = Path(os.path.abspath(root / bare.replace("\\", "/"))) if "\0" not in bare else root
-    if root not in place.parents or not place.is_file():
+    try:
+        found = root in place.parents and place.is_file()
+    except OSError:  # a name longer than any file's
+        found = False
+    if not found:
         raise InvalidInputError(f"picture must be a file of the host's {kind} folder. Got: {name[:60]!r}")
     return place
 
@@ -85,7 +89,8 @@ def require_small(place: Path, most: int) -> None:
     with _reading(place), Image.open(place) as opened:
         width, height = opened.size
     fits = width * height <= most
-    require("picture", f"{width} x {height} px", fits, f"of at most {most:,} pixels to be cut while you click")
+    expected = f"of at most {most:,} pixels to be cut while you click; run the node to cut a larger one"
+    require("picture", f"{width} x {height} px", fits, expected)
 
 
 @contextmanager

@@ -163,7 +163,13 @@ def _is_spline(item: Any) -> bool:
 
 
 def _listed(items: Any, name: str) -> list[QueryPoint]:
-    return [_query_point(item, f"{name}[{index}]") for index, item in enumerate(_one_spline(items, name))]
+    return [_query_point(item, f"{name}[{index}]") for index, item in enumerate(_few(_one_spline(items, name), name))]
+
+
+def _few(items: Sequence[Any], name: str) -> Sequence[Any]:
+    """The items, counted before any is looked at: hundreds of thousands would take seconds."""
+    require(name, counted(len(items), "point"), len(items) <= MAX_QUERY_POINTS, f"at most {MAX_QUERY_POINTS}")
+    return items
 
 
 def _from_object(data: Mapping[str, Any], width: int, height: int) -> list[QueryPoint]:
@@ -182,7 +188,7 @@ def _from_object(data: Mapping[str, Any], width: int, height: int) -> list[Query
 def _of_group(data: Mapping[str, Any], names: Sequence[str], positive: bool) -> list[QueryPoint]:
     found = []
     for group in (name for name in names if not _is_nothing(data.get(name))):
-        for index, item in enumerate(_one_spline(decoded(data[group], group), group)):
+        for index, item in enumerate(_few(_one_spline(decoded(data[group], group), group), group)):
             name = f"{group}[{index}]"
             x, y = _coordinates(item, name)
             found.append(QueryPoint(x, y, positive, _part(item, name)))

@@ -58,8 +58,10 @@ def sharpness_of(lab: Lab) -> float:
     """
     light = np.ascontiguousarray(lab[..., 0])
     steps = np.zeros_like(light)
-    steps[:, 1:] = cv2.absdiff(light[:, 1:], light[:, :-1])
-    steps[1:] = np.maximum(steps[1:], cv2.absdiff(light[1:], light[:-1]))
+    if light.shape[1] > 1:  # OpenCV gives nothing back for nothing
+        steps[:, 1:] = cv2.absdiff(light[:, 1:], light[:, :-1])
+    if len(light) > 1:
+        steps[1:] = np.maximum(steps[1:], cv2.absdiff(light[1:], light[:-1]))
     window = np.ones((_REACH, _REACH), np.uint8)
     contrast = cv2.subtract(cv2.dilate(light, window), cv2.erode(light, window))
     clear = contrast >= _CLEAR

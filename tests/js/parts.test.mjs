@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { partCount, pointsOn, presetOf, withoutPart, withPartPreset } from "../../nodes/web/js/scene/parts.js";
-import { sourceOf } from "../../nodes/web/js/host/attach_picks.js";
+import { picksOfAnimation, sourceOf } from "../../nodes/web/js/host/attach_picks.js";
 
 const POINTS = [{ x: 1, y: 1, positive: true }, { x: 2, y: 2, positive: false, part: 1 }, { x: 3, y: 3, positive: true, part: 2 }];
 const DOCUMENT = { version: 2, width: 9, height: 9, query_points: POINTS, bodies: [{}, { material: { preset: "cloth" } }, { material: { preset: "leaf" } }] };
@@ -33,4 +33,15 @@ test("the server is told which file a picture is", () => {
   assert.deepEqual(sourceOf("/physanimator/example", true), { picture: null, alpha: false });
   assert.equal(sourceOf("blob:x", false), null);
   assert.equal(sourceOf(null, false), null);
+});
+
+test("a file that the server cannot read as a picture is not uploaded, whatever the browser calls it", async () => {
+  const told = [];
+  const app = { extensionManager: { toast: { add: (toast) => told.push(toast.detail) } } };
+  const api = { fetchApi: () => assert.fail("nothing is sent") };
+  globalThis.document = { createElement: () => new EventTarget() };
+  picksOfAnimation(app, api, { widgets: [] }).takePicture({ name: "girl.svg", type: "image/svg+xml" });
+  await Promise.resolve();
+  delete globalThis.document;
+  assert.deepEqual(told, ["Choose a picture, or a .psd, .psb or .ora file."]);
 });

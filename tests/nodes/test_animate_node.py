@@ -103,6 +103,8 @@ def test_nothing_picked_is_said_before_anything_runs(standin: Any, bars: str) ->
     [
         ({"picture": "../bars.png"}, "picture must be a file of the host's input folder"),
         ({"picture": "none.png"}, "picture must be a file of the host's input folder"),
+        ({"picture": "a" * 5000}, "picture must be a file of the host's input folder"),
+        ({"points": "[" * 100_000}, "points must not be nested deeper"),
         ({"points": "[[1, 2, 3, 4, 5]]"}, "points"),
         ({"points": '{"version": 2, "query_points": [{"x": 60, "y": 40}], "width": 200, "height": 120,'
                     ' "bodies": [{"material": {"preset": "stone"}}]}'}, "bodies[0].material.preset: must be one of"),

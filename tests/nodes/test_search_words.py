@@ -11,6 +11,7 @@ from physanimator.nodes.search_words import SEARCH_WORDS, findable
 SOUGHT = (
     "physics", "cloth", "hair", "jelly", "puppet", "soft body", "live2d", "wiggle", "sway", "cut out", "wind",
     "gravity", "animate", "psd", "pin", "collision", "rig", "skirt", "breeze", "mp4", "髪", "頭髮", "头发", "머리카락",
+    "animate picture", "animate image",
 )  # fmt: skip
 """What somebody types who does not know the names."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from physanimator.nodes.host import chosen, default_of, keys_of, refusal, times_of, whole_numbers_of
+from physanimator.nodes.host import boxes_of, chosen, default_of, keys_of, refusal, times_of, whole_numbers_of
 from physanimator.physics.errors import InvalidInputError, require
 
 
@@ -26,7 +26,7 @@ def test_bad_times_are_refused_by_name(text: str) -> None:
 def test_frame_numbers() -> None:
     assert whole_numbers_of("0, 12,15", name="keyframes_at") == (0, 12, 15)
     assert whole_numbers_of(" ", name="keyframes_at") == ()
-    for text in ("0, 1.5", "soon"):
+    for text in ("0, 1.5", "soon", "[" * 100_000):
         with pytest.raises(InvalidInputError, match=r"^keyframes_at must be"):
             whole_numbers_of(text, name="keyframes_at")
 
@@ -36,10 +36,18 @@ def test_keys_along_a_path() -> None:
     assert keys_of(" ", name="speed_keys") == keys_of("[]", name="speed_keys") == ()
 
 
-@pytest.mark.parametrize("text", ["late", "3", "[0, 1]", "[[0, 1, 2]]", '[[0, "a"]]', "[[0, null]]", "{}x", "[[0, 1]"])
+@pytest.mark.parametrize(
+    "text", ["late", "3", "[0, 1]", "[[0, 1, 2]]", '[[0, "a"]]', "[[0, null]]", "{}x", "[[0, 1]", "[" * 100_000]
+)
 def test_bad_keys_are_refused_by_name(text: str) -> None:
     with pytest.raises(InvalidInputError, match=r"^speed_keys must be a list of pairs \[part of the path from 0 to 1"):
         keys_of(text, name="speed_keys")
+
+
+@pytest.mark.parametrize("text", ["[1, 2, 3]", "[3, 3, 1, 1]", "{}", "[" * 100_000])
+def test_bad_boxes_are_refused_by_name(text: str) -> None:
+    with pytest.raises(InvalidInputError, match=r"^box must be \[x0, y0, x1, y1\]"):
+        boxes_of(text, name="box")
 
 
 def test_the_choice_and_what_it_brings() -> None:

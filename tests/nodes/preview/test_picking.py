@@ -113,7 +113,15 @@ def test_the_example_needs_no_file_and_nothing_else_can_be_named(standin: Any, b
         points = document([{"x": 620, "y": 60}]) | size
         status, found = await pick(server, asked(None, []) | {"points": points})
         assert (status, found["width"]) == (200, 1280)
-        for name in ("../outside.png", "gone.png", "", "a\0b", str(standin.folder / "outside.png"), "bars.png [temp]"):
+        for name in (
+            "../outside.png",
+            "gone.png",
+            "",
+            "a\0b",
+            "a" * 5000,
+            str(standin.folder / "outside.png"),
+            "bars.png [temp]",
+        ):
             status, found = await pick(server, asked(name, POINTS))
             assert status == 422, name
             assert "picture must be a file of the host's" in found["error"]

@@ -192,6 +192,8 @@ def test_a_normalised_path_is_asked_about_but_not_an_offset() -> None:
         ('{"points": [[1, 2]], "labels": [1, 0]}', "labels must be one for each of 1 points. Got: 2"),
         ('{"points": 5}', "points must be a list of points"),
         ("1,2\n" * 5000, "at most 1000. Got: 5000 points"),
+        ([[1, 2]] * 5000 + ["no point"], "at most 1000. Got: 5001 points"),
+        ({"positive": [[1, 2]] * 5000 + ["no point"]}, "positive must be at most 1000. Got: 5001 points"),
         ("[[3, 4, -1]]", "label must be 1"),
         (None, "points must be a list"),
         (b"1,2", "points must be a list"),

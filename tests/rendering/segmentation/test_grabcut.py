@@ -273,6 +273,8 @@ def test_sharpness_is_that_of_the_edges_whatever_their_number() -> None:
     assert sharpness_of(picture) == 1
     assert 0.15 < sharpness_of(cv2.GaussianBlur(picture, (0, 0), 2.5)) < 0.3
     assert sharpness_of(np.full((20, 20, 3), 90, np.uint8)) == 1
+    row = np.where(np.arange(20) < 10, 40, 200).astype(np.uint8)[None, :, None].repeat(3, axis=2)
+    assert sharpness_of(row) == sharpness_of(row.transpose(1, 0, 2).copy()) == 1
 
 
 def test_strokes_of_a_brush_are_no_regions() -> None:

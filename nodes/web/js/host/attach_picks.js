@@ -158,7 +158,7 @@ function hintOf(node, picture) {
 async function takeFiles(app, api, node, files) {
   const title = say("Animate Illustration");
   const layered = uploadOf(files, "")?.files[0];
-  const file = layered && LAYERED.test(layered.name) ? layered : files.find((one) => PICTURE.test(one.name) || one.type.startsWith("image/"));
+  const file = layered && LAYERED.test(layered.name) ? layered : files.find((one) => PICTURE.test(one.name));
   if (!file) return warn(app, say("Choose a picture, or a .psd, .psb or .ora file."), title);
   try {
     const stored = await upload(api, file, "");
