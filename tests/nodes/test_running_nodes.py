@@ -194,7 +194,7 @@ def test_lists_are_gone_through_one_by_one(standin: Any) -> None:
         ("mesh", {"mask": None}, "mask"),
     ],
 )
-def test_what_a_node_does_not_take_is_refused_before_anything_runs(
+def test_what_a_node_does_not_take_is_refused_before_it_runs(
     standin: Any, key: str, inputs: dict[str, Any], told: str
 ) -> None:
     prompt = moving_bar(3)
@@ -228,7 +228,7 @@ def test_what_a_node_tells_reaches_the_page_and_the_history(standin: Any) -> Non
     assert "looks like pixel art" in sentence
     assert standin.server.messages[-1] == (
         "physanimator.advice",
-        {"node": "render", "title": "Render", "sentences": [sentence]},
+        {"node": "render", "title": "Render (PhysAnimator)", "sentences": [sentence]},
     )
 
 

@@ -135,7 +135,7 @@ def test_the_file_of_the_part_that_cannot_move_is_named(capsys: Output) -> None:
     assert capsys.readouterr().err.startswith("physanimator: --mask tiny.png: mask must have a white part of at least")
     Path("beside.txt").write_text("20,20,0", encoding="utf-8")
     assert animate("--points", "beside.txt") == 2
-    assert capsys.readouterr().err.startswith("physanimator: --points beside.txt: points must be at least one positive")
+    assert capsys.readouterr().err.startswith("physanimator: --points beside.txt: points must be with one on the part")
 
 
 @pytest.mark.usefixtures("unsimulated")

@@ -99,7 +99,7 @@ def test_first_and_last_frame_come_in_the_wanted_size() -> None:
 def test_every_layer_is_drawn_once_a_frame_and_once_at_rest(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn: list[int] = []
     whole = Layer.drawn
-    monkeypatch.setattr(Layer, "drawn", lambda *given: (drawn.append(1), whole(*given))[1])
+    monkeypatch.setattr(Layer, "drawn", lambda *given, **more: (drawn.append(1), whole(*given, **more))[1])
     assert len(list(warped_frames(image(), [MASK], motion(), FORM))) == 5
     assert len(drawn) == 5 + 1
 
