@@ -16,7 +16,7 @@ _NEARLY_ALL = 99  # percent of the blocks,
 _MOSTLY = 3.0  # which differ by fewer levels where the drawing is the same;
 _ANYWHERE = 12.0  # no block does by as many: what H.264 makes anew in B-frames differs by up to 9 here and there
 _OF_COMPRESSION = 6.0  # levels by which most blocks may differ beside a change that is much larger,
-_MUCH = 4  # namely so many times,
+_MUCH = 3  # namely so many times,
 _NEAR = 3  # at most so many frames away: strong compression improves a drawing while it stands
 _LONGEST_EXPOSURE = 3  # frames; what stands longer is held on purpose
 

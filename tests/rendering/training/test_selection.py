@@ -107,7 +107,7 @@ def test_bars_must_be_alike_and_black_in_every_frame() -> None:
     frame = np.full((90, 160, 3), 200, np.uint8)
     barred = frame.copy()
     barred[:10] = barred[80:] = 17
-    assert picture_box([barred]) == (0, pytest.approx(1 / 9), 1, pytest.approx(8 / 9))
+    assert picture_box([barred]) == (0, pytest.approx(11 / 90), 1, pytest.approx(79 / 90))
     assert picture_box([barred, frame]) == (0, 0, 1, 1)
     night = frame.copy()
     night[:30] = night[87:] = 10
