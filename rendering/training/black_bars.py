@@ -27,7 +27,7 @@ def picture_box(frames: Sequence[NDArray[np.uint8]]) -> Box:
         >>> import numpy as np
         >>> from physanimator.rendering.training.black_bars import picture_box
         >>> frame = np.zeros((90, 160, 3), np.uint8)
-        >>> frame[:, 20:140] = 200
+        >>> frame[:, 19:141] = 200
         >>> picture_box([frame])
         (0.125, 0.0, 0.875, 1.0)
     """
@@ -47,4 +47,5 @@ def _between(brightest: NDArray[np.uint8]) -> tuple[float, float]:
     before, after = int(bright[0]), length - 1 - int(bright[-1])
     if not before or not after or abs(before - after) > 1 + _ALIKE * length or max(before, after) > _MOST * length:
         return 0.0, 1.0
-    return before / length, 1 - after / length
+    # One more than is black: in a small copy, the row beside the bar is bar in part, and would be drawn as a line.
+    return (before + 1) / length, 1 - (after + 1) / length

@@ -15,6 +15,9 @@ _BLOCK = 4  # pixels on a side: noise averages out within, a mouth that opens do
 _NEARLY_ALL = 99  # percent of the blocks,
 _MOSTLY = 3.0  # which differ by fewer levels where the drawing is the same;
 _ANYWHERE = 12.0  # no block does by as many: what H.264 makes anew in B-frames differs by up to 9 here and there
+_OF_COMPRESSION = 6.0  # levels by which most blocks may differ beside a change that is much larger,
+_MUCH = 3  # namely so many times,
+_NEAR = 3  # at most so many frames away: strong compression improves a drawing while it stands
 _LONGEST_EXPOSURE = 3  # frames; what stands longer is held on purpose
 
 
@@ -24,11 +27,23 @@ def are_same_drawing(first: NDArray[np.uint8], second: NDArray[np.uint8]) -> boo
     Args:
         first, second: RGB, uint8, of one size, best small, shape [h, w, 3].
     """
+    mostly, most = _change(first, second)
+    return most < _ANYWHERE and mostly < _MOSTLY
+
+
+def _change(first: NDArray[np.uint8], second: NDArray[np.uint8]) -> tuple[float, float]:
+    """By how many levels nearly all blocks, and all, differ at most."""
     difference = cv2.subtract(first.astype(np.float32), second.astype(np.float32))
     height, width = (max(1, side // _BLOCK) for side in first.shape[:2])
-    blocks = cv2.resize(difference, (width, height), interpolation=cv2.INTER_AREA)
-    blocks = np.abs(blocks).max(axis=2)
-    return float(blocks.max()) < _ANYWHERE and float(np.percentile(blocks, _NEARLY_ALL)) < _MOSTLY
+    blocks = np.abs(cv2.resize(difference, (width, height), interpolation=cv2.INTER_AREA)).max(axis=2)
+    return float(np.percentile(blocks, _NEARLY_ALL)), float(blocks.max())
+
+
+def _stands_beside_motion(changes: Sequence[tuple[float, float]], number: int) -> bool:
+    """Whether a change is little beside another one near it, as it is on twos and threes, and not in a slow pan."""
+    mostly, most = changes[number]
+    near = max(each for each, _ in changes[max(0, number - _NEAR) : number + _NEAR + 1])
+    return most < _ANYWHERE and mostly < _OF_COMPRESSION and _MUCH * mostly <= near
 
 
 def exposed_frames(frames: Sequence[NDArray[np.uint8]]) -> list[int]:
@@ -47,11 +62,13 @@ def exposed_frames(frames: Sequence[NDArray[np.uint8]]) -> list[int]:
         >>> exposed_frames(drawings)
         [0, 2, 4]
     """
+    changes = [_change(first, second) for first, second in pairwise(frames)]
     drawing, drawings = 0, [0] * len(frames)
     # Compared with the first frame of a drawing: what fades slowly does become another drawing.
     begin = 0
     for number in range(1, len(frames)):
-        if not are_same_drawing(frames[begin], frames[number]):
+        stands = _stands_beside_motion(changes, number - 1)
+        if not stands and not are_same_drawing(frames[begin], frames[number]):
             drawing, begin = drawing + 1, number
         drawings[number] = drawing
     runs = [[number for number, _ in group] for _, group in groupby(enumerate(drawings), key=lambda each: each[1])]

@@ -34,7 +34,7 @@ def videos(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Two videos: shots on ones, on twos and a short one; and, between bars, a shot on threes and one that stands."""
     folder = tmp_path_factory.mktemp("videos")
     write_video(folder / "one.mp4", panned(1, 26, 0.8), panned(2, 52, 1.2, hold=2), panned(3, 23, 0.8))
-    write_video(folder / "two.mp4", panned(4, 72, 0.8, hold=3), panned(5, 1, 0) * 30, bars=32)
+    write_video(folder / "two.mp4", panned(4, 72, 1.2, hold=3), panned(5, 1, 0) * 30, bars=32)
     return folder
 
 
@@ -70,7 +70,7 @@ def test_clips_are_cut_judged_and_written(data: Path) -> None:
 def test_bars_are_cut_and_frames_are_those_of_the_video(data: Path) -> None:
     """Frames differ from what was drawn by H.264 alone: 30 dB at least after two compressions."""
     threes = next(each for each in kept_clips(data) if each.frames == 24)
-    drawn = panned(4, 72, 0.8, hold=3)[::3]
+    drawn = panned(4, 72, 1.2, hold=3)[::3]
     for frame, truth in zip(read_clip(clip_file(data, threes.name)), drawn, strict=True):
         assert frame[:, :3].mean() > 20
         error = float(np.mean((frame[:, 4:-4].astype(float) - truth[:, 4:-4]) ** 2))
@@ -268,13 +268,13 @@ def test_an_export_replaces_its_own_files_alone(data: Path, tmp_path: Path, caps
 
 
 def test_colours_of_thin_lines_are_kept(tmp_path: Path) -> None:
-    """4:2:0, which most videos are, gives 21 dB here."""
+    """4:2:0, which most videos are, gives 18 dB here, and this 33."""
     frame = np.full((64, 128, 3), (230, 220, 210), np.uint8)
     frame[:, ::6] = (200, 20, 40)
     frame[::8] = (20, 40, 190)
     write_clip([frame] * 3, tmp_path / "lines.mp4", 12)
     (back, *_) = read_clip(tmp_path / "lines.mp4")
-    assert 10 * np.log10(255**2 / float(np.mean((back.astype(float) - frame) ** 2))) > 33
+    assert 10 * np.log10(255**2 / float(np.mean((back.astype(float) - frame) ** 2))) > 30
     write_animation([frame] * 3, tmp_path / "usual.mp4", 12)
     (usual, *_) = read_clip(tmp_path / "usual.mp4")
     assert 10 * np.log10(255**2 / float(np.mean((usual.astype(float) - frame) ** 2))) < 25
