@@ -104,8 +104,8 @@ MAY_IMPORT = {
     ),
     "nodes/preview": (
         "nodes/host physics physics/assembly physics/document physics/forces physics/mesh physics/motion physics/rig "
-        "physics/runtime physics/scene physics/simulation rendering rendering/composite rendering/pictures "
-        "rendering/plate rendering/segmentation"
+        "physics/runtime physics/scene physics/simulation rendering rendering/artwork rendering/composite "
+        "rendering/pictures rendering/plate rendering/segmentation"
     ),
     "nodes/models": (
         "nodes/host physics rendering/composite rendering/inbetweens rendering/inpainting rendering/networks "

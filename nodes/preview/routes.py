@@ -1,7 +1,8 @@
 """Routes of the host's server for the scene editor: meshes, and live previews by the real solver.
 
 Requests come from whoever reaches the server: only the host's own pages may use the routes, no request names a file but
-a picture of the host's own folders, everything has a limit, and nothing is cut or simulated on the thread that answers.
+a picture of the host's own folders or a layered file of its input folder, everything has a limit, and nothing is cut or
+simulated on the thread that answers.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from aiohttp import web
 
 from ...physics.errors import Cancelled, SimulationError
 from ...physics.interruption import interruptible
+from .artworks import flattened_png
 from .guard import BUSY, KEEP_NOTHING, Guard, body_of, hung_up, refused
 from .holds import found_holds
 from .limits import MAX_EDITORS, MAX_REQUEST_BYTES
@@ -65,6 +67,7 @@ class PreviewRoutes:
         self._order = itertools.count()
         self._plates = Plates()
         self._picker, self._turns = Picker(store, _EXAMPLE), Turns()
+        self._one_artwork = asyncio.Lock()
         # One thread for each editor's simulation and one for the one that it supersedes, and two for checking.
         self.threads = ThreadPoolExecutor(2 * MAX_EDITORS + 2, thread_name_prefix="physanimator-preview")
 
@@ -76,6 +79,7 @@ class PreviewRoutes:
         routes.get("/physanimator/holds/{key}/{attach}")(self._guard(self.holds))
         routes.post("/physanimator/preview")(self._guard(self.preview))
         routes.get("/physanimator/example")(self._guard(self.example))
+        routes.get("/physanimator/artwork")(self._guard(self.artwork))
         routes.post("/physanimator/pick")(self._guard(self.pick))
         routes.post("/physanimator/warm-up")(self._guard(self.warm_up))
 
@@ -87,6 +91,12 @@ class PreviewRoutes:
     async def example(self, _request: web.Request) -> web.StreamResponse:
         """The illustration that comes with the pack, to draw on before its node has run."""
         return web.FileResponse(_EXAMPLE)
+
+    async def artwork(self, request: web.Request) -> web.StreamResponse:
+        """A layered file of the input folder as a picture, PNG; only one is read at a time, as they may be large."""
+        async with self._one_artwork:
+            body = await self._on_a_thread(_Patience(request), flattened_png, request.query.get("file", ""))
+        return web.Response(body=body, content_type="image/png", headers=KEEP_NOTHING)
 
     async def warm_up(self, _request: web.Request) -> web.StreamResponse:
         """Get the solver ready: an editor has been opened, and its first preview shall not wait for that."""

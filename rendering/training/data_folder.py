@@ -43,7 +43,8 @@ class ClipRecord:
         start, end: of it in the source [s].
         frames: number of frames.
         fps: frames a second.
-        width, height: of the frames [px].
+        width: of the frames [px].
+        height: of the frames [px].
         score: dynamics score.
         kept: whether it is part of the data.
         why: it is kept or dropped.

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { partCount, pointsOn, presetOf, withoutPart, withPartPreset } from "../../nodes/web/js/scene/parts.js";
-import { picksOfAnimation, sourceOf } from "../../nodes/web/js/host/attach_picks.js";
+import { animatedPicture, picksOfAnimation, sourceOf } from "../../nodes/web/js/host/attach_picks.js";
 
 const POINTS = [{ x: 1, y: 1, positive: true }, { x: 2, y: 2, positive: false, part: 1 }, { x: 3, y: 3, positive: true, part: 2 }];
 const DOCUMENT = { version: 2, width: 9, height: 9, query_points: POINTS, bodies: [{}, { material: { preset: "cloth" } }, { material: { preset: "leaf" } }] };
@@ -44,4 +44,10 @@ test("a file that the server cannot read as a picture is not uploaded, whatever 
   await Promise.resolve();
   delete globalThis.document;
   assert.deepEqual(told, ["Choose a picture, or a .psd, .psb or .ora file."]);
+});
+
+test("a layered file is shown flat, and nothing is cut out of it", () => {
+  const path = animatedPicture({ inputs: [], widgets: [{ name: "picture", value: "a b/girl.psd" }] }, {});
+  assert.equal(path, "/physanimator/artwork?file=a+b%2Fgirl.psd");
+  assert.equal(sourceOf(path, true), null);
 });

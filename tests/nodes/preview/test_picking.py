@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import io
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,6 +14,7 @@ import pytest
 from physanimator.nodes.preview.limits import MAX_PICKED_POINTS
 from physanimator.nodes.preview.turns import Turns
 from physanimator.physics.errors import Cancelled
+from physanimator.rendering.artwork import ArtLayer, Artwork, save_psd
 from PIL import Image
 from served_previews import Served, in_a_server
 
@@ -130,6 +132,28 @@ def test_the_example_needs_no_file_and_nothing_else_can_be_named(standin: Any, b
             assert (status, "4200 x 4000 px" in found["error"]) == (422, True)
         status, found = await pick(server, asked("text.png", POINTS))
         assert (status, "can be read" in found["error"]) == (422, True)
+
+    in_a_server(test)
+
+
+def test_a_layered_file_is_shown_before_its_node_has_run(standin: Any) -> None:
+    clear, red, blue = np.zeros((3, 20, 30, 4), np.uint8)
+    red[:, :15], blue[:, 10:] = (*RED, 255), (*BLUE, 255)
+    layers = ArtLayer("paper", red), ArtLayer("hair", blue), ArtLayer("notes", red + 1, visible=False)
+    save_psd(Artwork(30, 20, layers, ()), standin.folder / "input" / "girl.psd")
+    (standin.folder / "input" / "words.txt").write_text("no layers")
+    (standin.folder / "secret.psd").write_bytes((standin.folder / "input" / "girl.psd").read_bytes())
+
+    async def test(server: Served) -> None:
+        answer = await server.client.get("/physanimator/artwork", params={"file": "girl.psd"})
+        assert (answer.status, answer.content_type) == (200, "image/png")
+        with Image.open(io.BytesIO(await answer.read())) as shown:
+            pixels = np.asarray(shown.convert("RGBA"))
+        assert pixels.shape == clear.shape
+        assert (pixels[5, 3].tolist(), pixels[5, 12].tolist()) == ([*RED, 255], [*BLUE, 255])
+        for name in ("../secret.psd", "words.txt", "gone.psd", "", ".", "a" * 5000):
+            answer = await server.client.get("/physanimator/artwork", params={"file": name})
+            assert (answer.status, len((await answer.json())["error"]) > 20) == (422, True), name
 
     in_a_server(test)
 

@@ -37,6 +37,7 @@ def test_a_host_gets_the_routes_once(monkeypatch: pytest.MonkeyPatch) -> None:
         ("GET", "/physanimator/holds/{key}/{attach}"),
         ("POST", "/physanimator/preview"),
         ("GET", "/physanimator/example"),
+        ("GET", "/physanimator/artwork"),
         ("POST", "/physanimator/pick"),
         ("POST", "/physanimator/warm-up"),
     ]

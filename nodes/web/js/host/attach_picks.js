@@ -63,7 +63,8 @@ export function animatedPicture(node, rootGraph, outputs) {
   if (isLinked(node, "image")) return upstreamPicture(node, rootGraph) ?? node.physanimatorSeen ?? shownPicture(node, outputs);
   const file = String(valueOf(node, "picture") ?? "");
   if (file === EXAMPLE_FILE) return EXAMPLE;
-  return PICTURE.test(file.replace(/ \[\w+\]$/, "")) ? pathOfFile(file) : null;
+  if (PICTURE.test(file.replace(/ \[\w+\]$/, ""))) return pathOfFile(file);
+  return file ? `/physanimator/artwork?${new URLSearchParams({ file })}` : null;
 }
 
 /**
