@@ -142,9 +142,12 @@ def test_a_run_shows_its_frames_in_the_editor_and_a_click_goes_back(page: Any, c
     editor.wait(
         "!editor.picking.result.hidden && editor.picking.result.querySelector('video')?.readyState > 1", 120_000
     )
+    transport = editor.selector(".physanimator-bar .physanimator-slider")
+    assert not transport.is_visible(), "it plays the preview, which is not seen now"
     shown = editor.selector(".physanimator-result").bounding_box()
     page.page.mouse.click(shown["x"] + shown["width"] / 2, shown["y"] + shown["height"] / 2)
     assert editor.ask("editor.picking.result.hidden") is True
+    assert transport.is_visible()
     assert len(json.loads(value_of(editor, "points"))["query_points"]) == 1
     editor.press("view-result")
     assert editor.ask("editor.picking.result.hidden") is False

@@ -43,6 +43,7 @@ const STYLE = `
 .physanimator-dialog .physanimator-parts { grid-area: parts; padding: 6px 8px; }
 .physanimator-dialog .physanimator-parts-corner { grid-area: parts; justify-self: end; align-self: center; }
 .physanimator-editor[data-picks="true"] .physanimator-lanes { display: none; }
+.physanimator-frame[data-viewed="result"] .physanimator-bar :is(button, .physanimator-slider, .physanimator-readout) { visibility: hidden; }
 .physanimator-editor[data-picks="true"] { min-height: max(330px, var(--node-height, 0px) - 420px); }
 `;
 
@@ -152,6 +153,8 @@ export class Picking {
   view(result) {
     this.viewed = result && this.result.childElementCount > 0;
     this.result.hidden = !this.viewed;
+    // The bar below plays the preview, which is not what is seen then.
+    this.editor.frame.dataset.viewed = this.viewed ? "result" : "picking";
     const film = /** @type {any} */ (this.result.firstElementChild);
     if (this.viewed) film?.play?.()?.catch?.(() => null);
     else film?.pause?.();
