@@ -132,6 +132,8 @@ def test_a_node_takes_what_its_input_offers(standin: Any, node: str, name: str, 
         return
     if name == "time_step" and "swing ever farther" in said:  # depends on the mesh, as its tooltip says
         return
+    if name == "repeat" and "where the stroke has no end" in said:  # depends on another input
+        return
     short = re.escape(name.rpartition(".")[2])
     assert not re.search(rf"\b{short} must", said), said
 
