@@ -12,6 +12,8 @@ import uuid
 from pathlib import Path
 from typing import Any
 
+from stamps import stamped
+
 __all__ = ["BLUEPRINT", "blueprint"]
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -86,16 +88,18 @@ def blueprint() -> dict[str, Any]:
         "description": _ABOUT,
     }
     holder = len(inner) + 1
-    return {
-        "revision": 0,
-        "last_node_id": holder,
-        "last_link_id": 0,
-        "nodes": [_holder(holder, identity, ends, outs)],
-        "links": [],
-        "version": 0.4,
-        "definitions": {"subgraphs": [graph]},
-        "extra": {},
-    }
+    return stamped(
+        {
+            "revision": 0,
+            "last_node_id": holder,
+            "last_link_id": 0,
+            "nodes": [_holder(holder, identity, ends, outs)],
+            "links": [],
+            "version": 0.4,
+            "definitions": {"subgraphs": [graph]},
+            "extra": {},
+        }
+    )
 
 
 def _node(number: int, name: str, place: tuple[int, int], size: tuple[int, int]) -> dict[str, Any]:
@@ -220,5 +224,5 @@ def _identity(end: str, name: str) -> str:
 
 if __name__ == "__main__":
     BLUEPRINT.parent.mkdir(exist_ok=True)
-    BLUEPRINT.write_text(json.dumps(blueprint(), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    BLUEPRINT.write_text(json.dumps(blueprint(), indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
     print(BLUEPRINT.relative_to(ROOT))
