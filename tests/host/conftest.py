@@ -33,6 +33,7 @@ def _sibling(name: str) -> ModuleType:
 comfy_host = _sibling("comfy_host")
 browser = _sibling("browser")
 editor_page = _sibling("editor_page")
+_sibling("stamps")
 _sibling("blueprints")
 _sibling("frame_interpolation_graph")
 _sibling("graphs")
