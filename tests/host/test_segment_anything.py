@@ -36,14 +36,16 @@ def test_a_box_may_replace_the_points(host: Any) -> None:
 @pytest.mark.parametrize("box", ["[1, 2, 3]", "[[5, 5, 1, 1]]", "here"])
 def test_a_bad_box_is_refused_before_any_work(host: Any, box: str) -> None:
     status, answer = host.post("/prompt", {"prompt": prompt(box=box)})
-    assert status == 400
+    # What needs nothing of the refused node, such as a preview of a mesh, runs: then it is 200.
+    assert status == 400 or answer["node_errors"], answer
     assert "box must be [x0, y0, x1, y1]" in answer["node_errors"]["cut"]["errors"][0]["details"]
 
 
 def test_missing_weights_are_named_before_any_work(host: Any) -> None:
     choice = {"backend": SAM, "backend.sam_model": "sam_vit_b_01ec64.pth", "backend.precision": "fp32"}
     status, answer = host.post("/prompt", {"prompt": prompt(**choice)})
-    assert status == 400
+    # What needs nothing of the refused node, such as a preview of a mesh, runs: then it is 200.
+    assert status == 400 or answer["node_errors"], answer
     told = answer["node_errors"]["cut"]["errors"][0]["details"]
     for part in ("sam_vit_b_01ec64.pth is missing", "models/sams", "https://", "Apache-2.0", "config.json"):
         assert part in told
