@@ -170,7 +170,8 @@ def test_one_wrong_value_is_one_line(host: Any, node: dict[str, Any], named: str
     (line,) = answer["node_errors"]["wrong"]["errors"]
     assert line["details"].startswith(f"{named} - {named}")
     assert line["extra_info"]["input_name"] == named
-    assert answer["error"]["details"].count("\n") == 0
+    if status == 400:
+        assert answer["error"]["details"].count("\n") == 0
 
 
 def test_the_same_scene_in_another_spelling_is_not_run_again(host: Any) -> None:
