@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from .data_folder import kept_clips
 from .held_out import split
+from .needed import is_ready
 from .settings import TrainingSettings
 
 if TYPE_CHECKING:
@@ -41,6 +42,8 @@ def task_of(settings: TrainingSettings) -> Task:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run; see :func:`~physanimator.rendering.training.entry.run`."""
+    if not is_ready():
+        return 2
     from .entry import run
 
     return run("lvcd", task_of, arguments)

@@ -284,3 +284,12 @@ def test_moments_of_eight_bits_need_cuda(
         pytest.skip("there is a CUDA device")
     assert run(replace(settings, eight_bit=True), tmp_path) == 2
     assert "eight_bit must be false where there is no CUDA device" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("main", [lvcd.main, tooncrafter.main])
+def test_without_accelerate_it_says_what_to_install(
+    main: Callable[[list[str]], int], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "accelerate", None)
+    assert main(["--config", "config.toml"]) == 2
+    assert "pip install 'physanimator[train]'" in capsys.readouterr().err
