@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -53,6 +53,8 @@ class Animation:
         own: each part alone, straight RGBA as large as the illustration; empty where it is known from masks alone.
         seconds: how long each stage took [s], by its name, in the order of the work.
         networks: which networks draw frames, in-betweens and lines.
+        wait_for: returns when a frame of the motion is known; where the motion is still simulated, nothing but frames
+            can be asked for.
     """
 
     image: Image
@@ -64,6 +66,7 @@ class Animation:
     seconds: dict[str, float] = field(default_factory=dict)
     own: Sequence[Image] = ()
     networks: NetworkOptions = _NO_NETWORKS
+    wait_for: Callable[[int], None] | None = None
 
     def __len__(self) -> int:
         """Number of frames that are shown."""
@@ -377,7 +380,8 @@ class Animation:
 
     @property
     def _drawing(self) -> FrameDrawing:
-        return FrameDrawing(self.image, self.masks, self.own, self.motion, self.renderer, self.first, self.networks)
+        drawn = self.image, self.masks, self.own, self.motion, self.renderer, self.first, self.networks
+        return FrameDrawing(*drawn, self.wait_for)
 
     def _measured(self, stage: str, pictures: Iterable[T], progress: StageProgress | None) -> Iterator[T]:
         iterator = iter(pictures)

@@ -34,6 +34,7 @@ class FrameDrawing:
         renderer: draws frames from the illustration's own pixels.
         first: number of the motion's first frame that is shown.
         networks: who draws what.
+        wait_for: returns when a frame of the motion is known, where that is still simulated.
     """
 
     image: Image
@@ -43,6 +44,7 @@ class FrameDrawing:
     renderer: LayeredRenderer | PixelArtRenderer
     first: int
     networks: NetworkOptions
+    wait_for: Callable[[int], None] | None = None
 
     @property
     def shown(self) -> range:
@@ -95,7 +97,7 @@ class FrameDrawing:
     ) -> Iterator[Image]:
         """Frames of the illustration's own pixels, with holes painted where that is chosen."""
         if not self.networks.draws_opaque:
-            return (shown_frame(self.renderer, t, background) for t in numbers)
+            return (shown_frame(self.renderer, t, background) for t in self._known(numbers))
         from .neural.soft_inpainting import changes_of_holes, load_inpainting, painted_frames
 
         layers: Any = self.renderer
@@ -110,6 +112,13 @@ class FrameDrawing:
             numbers=numbers,
             progress=stage_of("inpainting", progress),
         )
+
+    def _known(self, numbers: Sequence[int]) -> Iterator[int]:
+        """Numbers of frames, each when it is known."""
+        for t in numbers:
+            if self.wait_for is not None:
+                self.wait_for(t)
+            yield t
 
     def _between(
         self, keyframes: list[Image], at: Sequence[int], guides: list[Image], progress: StageProgress | None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -14,7 +15,16 @@ from ..physics.simulation import loop_frames
 from .drawing_checks import check_count
 from .stages import StageProgress
 
-__all__ = ["DEFAULT_FRAMES", "DEFAULT_FRAME_RATE", "AutomaticWind", "LayerChoice", "Timing", "Touching", "Watch"]
+__all__ = [
+    "DEFAULT_FRAMES",
+    "DEFAULT_FRAME_RATE",
+    "AutomaticWind",
+    "LayerChoice",
+    "Saving",
+    "Timing",
+    "Touching",
+    "Watch",
+]
 
 DEFAULT_FRAMES = 72
 """Three seconds at the default frame rate."""
@@ -101,6 +111,21 @@ class LayerChoice:
 
     move: Sequence[str] = ()
     still: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Saving:
+    """Where an animation is written as it comes; see :meth:`~physanimator.rendering.animation.Animation.save`.
+
+    Attributes:
+        path: a name in .mp4, .webm, .mov, .gif, .webp or .apng, or a folder ending in ``/``.
+        background: what is there where nothing moves; None keeps the picture's transparency if the file can hold it.
+        width: width of the written frames [px]; that of the illustration when None.
+    """
+
+    path: str | os.PathLike[str]
+    background: str | None = None
+    width: int | None = None
 
 
 @dataclass(frozen=True, eq=False)

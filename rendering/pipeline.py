@@ -9,8 +9,9 @@ In short::
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
@@ -29,10 +30,11 @@ from .flat_pictures import FlatPicture
 from .movement import Movement
 from .neural import NetworkOptions
 from .neural.checking import check_networks
-from .options import AutomaticWind, LayerChoice, Timing, Touching, Watch
+from .options import AutomaticWind, LayerChoice, Saving, Timing, Touching, Watch
 from .parts import Parts, coverage, parts_of_artwork
 from .physics_options import PhysicsOptions
-from .stages import stage_of
+from .pictures import check_output
+from .stages import StageProgress, stage_of
 
 if TYPE_CHECKING:
     from ..physics.motion import Motion
@@ -71,6 +73,7 @@ def animate(
     physics: PhysicsOptions = _USUAL_PHYSICS,
     watch: Watch = _NOBODY,
     networks: NetworkOptions = _NO_NETWORKS,
+    save: Saving | None = None,
 ) -> Animation:
     """Set parts of an illustration in motion.
 
@@ -107,6 +110,8 @@ def animate(
         watch: who hears of the work while it is done.
         networks: which networks cut parts out, draw lines, frames and in-betweens. Their files are opened before any
             work; the animation reads those of its frames when they are asked for.
+        save: where to write the animation before it is returned; frames are drawn and written while later ones are
+            still simulated, if they neither loop nor need a network.
 
     Raises:
         InvalidInputError: an input is unusable; the message names it.
@@ -125,6 +130,8 @@ def animate(
     from .artwork import Artwork
 
     seconds: dict[str, float] = {}
+    if save is not None:
+        check_output(save.path)
     work_of_minutes(max_minutes)
     if scene is not None and not isinstance(scene, Scene):
         check_document(scene)
@@ -163,8 +170,15 @@ def animate(
         whole = _touching(whole, touching.contact, _colliders(touching.colliders, parts.image, parts.layer_mask))
     if watch.on_scene is not None:
         watch.on_scene(whole)
+    animated = partial(Animation, parts.image, parts.masks, whole, own=parts.own, networks=networks, first=timing.skip)
+    if save is not None and whole.loop is None and not (parts.needs_motion or networks.draws_opaque):
+        motion, renderer = _simulated_and_saved(parts, whole, timing, max_minutes, watch, seconds, save, animated)
+        return animated(motion=motion, renderer=renderer, seconds=seconds)
     motion, renderer = _simulated(parts, whole, timing, max_minutes, watch, seconds)
-    return Animation(parts.image, parts.masks, whole, motion, renderer, timing.skip, seconds, parts.own, networks)
+    animation = animated(motion=motion, renderer=renderer, seconds=seconds)
+    if save is not None:
+        animation.save(save.path, background=save.background, width=save.width, progress=watch.progress)
+    return animation
 
 
 def _simulated(
@@ -197,6 +211,41 @@ def _simulated(
             if waited and watch.progress is not None:
                 watch.progress("prepare", 1, 1)
             return motion, renderer.showing(motion)  # type: ignore[union-attr]
+
+
+def _simulated_and_saved(
+    parts: Parts,
+    scene: Scene,
+    timing: Timing,
+    max_minutes: float,
+    watch: Watch,
+    seconds: dict[str, float],
+    save: Saving,
+    animated: Callable[..., Animation],
+) -> tuple[Motion, LayeredRenderer]:
+    """The motion, and what draws it; all frames are saved, most of them while others are still simulated."""
+    from .saved_meanwhile import ComingFrames, SavedMeanwhile
+
+    assert timing.frames is not None
+    coming, hears = ComingFrames(scene, timing.frames), stage_of("simulate", watch.progress)
+
+    def write(renderer: LayeredRenderer, progress: StageProgress) -> None:
+        drawn = animated(motion=coming.motion, renderer=renderer.showing(coming.motion), wait_for=coming.wait_for)
+        drawn.save(save.path, background=save.background, width=save.width, progress=progress)
+
+    def advance(done: int, total: int) -> None:
+        saving.check()
+        if hears is not None:
+            hears(done, total)
+
+    saving = SavedMeanwhile(lambda: parts.drawn_at_rest(scene), write)
+    with simulated_beside(), saving:
+        with timed(seconds, "simulate"):
+            motion = simulate(
+                scene, frames=timing.frames, progress=advance, max_minutes=max_minutes, on_frame=coming.take
+            )
+        with timed(seconds, "render"):
+            return motion, saving.finish(watch.progress).showing(motion)
 
 
 def _check_length(timing: Timing, scene: Scene, networks: NetworkOptions) -> None:

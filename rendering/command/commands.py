@@ -173,7 +173,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     from .inputs import read_plate
     from .messages import say, warn
     from .networks import networks_of, timing_of
-    from .outputs import background_for, report, write_outputs
+    from .outputs import background_for, report, saving_of, write_outputs
     from .watching import progress_of, watch_of
 
     plate = read_plate(options)
@@ -181,6 +181,7 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
     if not (options.pixel_art or options.quiet):
         for sentence in pixel_art_hint(_picture(image), option="--pixel-art"):
             warn(f"physanimator: hint: {sentence}")
+    save = saving_of(options, _picture(image))
     with ExitStack() as bars:
         progress = progress_of(options, bars)
         animation = animate(
@@ -191,11 +192,12 @@ def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
             max_minutes=options.max_minutes,
             watch=watch_of(options, progress, inputs.get("points", ())),
             networks=networks_of(options),
+            save=save,
             **inputs,
         )
         for sentence in stillness(animation.motion):
             warn(f"physanimator: warning: {sentence}")
-        write_outputs(options, animation, progress)
+        write_outputs(options, animation, progress, saved=save is not None)
     if options.verbose:
         report(animation)
     if not options.quiet:

@@ -17,9 +17,19 @@ if TYPE_CHECKING:
 
     from ...physics.assembly import SimulationPlan
     from ..animation import Animation
+    from ..options import Saving
     from ..stages import StageProgress
 
-__all__ = ["background_for", "check_layers", "check_outputs", "check_sizes", "draws_opaque", "report", "write_outputs"]
+__all__ = [
+    "background_for",
+    "check_layers",
+    "check_outputs",
+    "check_sizes",
+    "draws_opaque",
+    "report",
+    "saving_of",
+    "write_outputs",
+]
 
 _TRACKED = ("--track-points", "--track-static", "--track-frames")
 _TEXTS = {
@@ -185,13 +195,39 @@ def _check_editable(options: argparse.Namespace) -> None:
             check_spine_output(path, coming=coming_folders(options))
 
 
-def write_outputs(options: argparse.Namespace, animation: Animation, progress: StageProgress | None) -> None:
-    """Write the animation, and all that was asked for beside it."""
+def saving_of(options: argparse.Namespace, image: NDArray[Any]) -> Saving | None:
+    """How the animation is written while it is simulated; None where it is written after that, by ``write_outputs``.
+
+    Args:
+        options: of the command.
+        image: the illustration, shape [h, w, 3 or 4].
+    """
+    from ..options import Saving
+
+    filled_in = options.interpolate > 1 or keyframes_of(options)
+    if filled_in or in_layers(options) or writing_order(options)[0] != "output":
+        return None
+    return Saving(options.output, background_for(options, image), options.width)
+
+
+def write_outputs(
+    options: argparse.Namespace, animation: Animation, progress: StageProgress | None, *, saved: bool = False
+) -> None:
+    """Write the animation, and all that was asked for beside it.
+
+    Args:
+        options: of the command.
+        animation: what is written.
+        progress: called with the steps.
+        saved: whether the animation itself is written already.
+    """
     drawn = {"save_sketch": animation.sketches, "save_flow": animation.flows, "preview": animation.previews}
     for name in writing_order(options):
         path = getattr(options, name)
         if name == "save_spine":
             _tell(options, path, animation.save_spine(path, **_tolerance(options), progress=progress))
+        elif name == "output" and saved:
+            continue
         elif name == "output" and in_layers(options):
             animation.save_layers(path, width=options.width, progress=progress)
         elif name == "output":

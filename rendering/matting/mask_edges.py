@@ -44,6 +44,7 @@ _HARD = 0.75
 # An edge is looked at over about this length [px].
 _SIGMA = 5.0
 _ALONG = 4.0
+_AXES = ((1, 0), (0, 1))
 # Up to the first difference a soft edge is trusted, from the second on the picture is.
 _TRUST = 0.1
 _DISBELIEF = 0.4
@@ -72,14 +73,18 @@ def edge_strength(image: FloatImage, shape: Mask) -> FloatImage:
     The change is averaged along the edge with its sign, so that texture cancels.
     """
     soft = cv2.GaussianBlur(shape.astype(np.float32), (0, 0), 1.0)
-    right, down = cv2.Sobel(soft, -1, 1, 0), cv2.Sobel(soft, -1, 0, 1)
+    line = grown(shape, CROSS) & grown(~shape, CROSS)
+    on_line = np.flatnonzero(line)
+    right, down = (cv2.Sobel(soft, -1, *axes).ravel()[on_line] for axes in _AXES)
     length = np.maximum(np.sqrt(right * right + down * down), np.float32(1e-6))
-    line = (grown(shape, CROSS) & grown(~shape, CROSS)).astype(np.float32)
-    across = cv2.Sobel(image, -1, 1, 0, scale=1 / 8) * (right / length)[..., None]
-    across += cv2.Sobel(image, -1, 0, 1, scale=1 / 8) * (down / length)[..., None]
-    total = np.maximum(cv2.GaussianBlur(line, (0, 0), _ALONG), np.float32(1e-4))
-    mean = cv2.GaussianBlur(across * line[..., None], (0, 0), _ALONG)
-    return np.asarray(np.linalg.norm(mean, axis=2) / total, dtype=np.float32)
+    along_x, along_y = (cv2.Sobel(image, -1, *axes, scale=1 / 8).reshape(-1, image.shape[2])[on_line] for axes in _AXES)
+    across = np.zeros_like(image)
+    across.reshape(-1, image.shape[2])[on_line] = (
+        along_x * (right / length)[:, None] + along_y * (down / length)[:, None]
+    )
+    total = np.maximum(cv2.GaussianBlur(line.astype(np.float32), (0, 0), _ALONG), np.float32(1e-4))
+    squares = [mean * mean for mean in cv2.split(cv2.GaussianBlur(across, (0, 0), _ALONG))]
+    return np.asarray(np.sqrt(sum(squares[1:], start=squares[0])) / total, dtype=np.float32)
 
 
 def inner_colour(image: FloatImage, support: Mask) -> FloatImage:
@@ -87,7 +92,7 @@ def inner_colour(image: FloatImage, support: Mask) -> FloatImage:
     depth = cv2.distanceTransform(support.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     ridge = cv2.dilate(depth, SQUARE) == depth
     core = support & ((depth >= 2) | ridge)
-    return image.reshape(-1, 3)[nearest_pixels(core)[1]]
+    return image.reshape(-1, 3).take(nearest_pixels(core)[1], axis=0)
 
 
 def trusted(given: NDArray[np.float32], share: NDArray[np.float32]) -> NDArray[np.float32]:
