@@ -30,7 +30,6 @@ def array_types(ti: Any) -> SimpleNamespace:
         vectors4=array(dtype=vector(4, ti.f32), ndim=1),
         pairs=array(dtype=vector(2, ti.i32), ndim=1),
         quads=array(dtype=vector(4, ti.i32), ndim=1),
-        index_blocks=array(dtype=vector(LANES, ti.i32), ndim=2),
         blocks=array(dtype=vector(LANES, ti.f32), ndim=2),
         pair_blocks=array(dtype=vector(2 * LANES, ti.f32), ndim=2),
     )
@@ -51,7 +50,7 @@ def argument_packs(ti: Any) -> SimpleNamespace:
             step_limits=types.scalars,
             handles=types.integers,
             grips=types.scalars,
-            corners=types.index_blocks,
+            corners=types.integers,
             elements=types.blocks,
             first_slots=types.integers,
             slots=types.integers,
@@ -83,8 +82,8 @@ def argument_packs(ti: Any) -> SimpleNamespace:
 
 
 def solid_group(solid: Solid) -> dict[str, Any]:
-    """A solid's arrays by their names in its pack."""
-    return solid._asdict()
+    """A solid's arrays by their names in its pack, the corners one after the other."""
+    return {**solid._asdict(), "corners": solid.corners.ravel()}
 
 
 def state_group(state: State) -> dict[str, Any]:

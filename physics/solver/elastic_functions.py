@@ -10,7 +10,7 @@ gathers its slots. That has no two lanes write to one place, and runs as fast as
 import taichi as ti
 
 from ..runtime import LANES
-from .kernel_types import any_value, lanes, lanes_of_indices
+from .kernel_types import any_value, lanes
 from .stepping import MOST_REFINEMENT, SAFETY, TICK
 
 __all__ = ["BLOCK_MASK", "add_forces", "highest_frequency", "planned_steps", "steps_for"]
@@ -23,16 +23,22 @@ _LATE_SAFETY = (1 + SAFETY) / 2
 
 
 @ti.func
-def displacement_gradient(
-    u: any_value, i: lanes_of_indices, j: lanes_of_indices, k: lanes_of_indices, elements: any_value, n: ti.i32
-):
+def gathered(u: any_value, corners: any_value, first: ti.i32, axis: ti.template()):
+    """One axis of the displacement at one corner of each triangle of a block.
+
+    Indices are read one by one: to take them out of a vector costs more.
+    """
+    return ti.Vector([u[corners[first + lane]][axis] for lane in range(LANES)])
+
+
+@ti.func
+def displacement_gradient(u: any_value, corners: any_value, elements: any_value, n: ti.i32):
     """The four entries of grad u = [u1 - u0, u2 - u0] [X1 - X0, X2 - X0]^-1, row by row."""
-    x = ti.Vector([u[i[lane]][0] for lane in range(LANES)])
-    y = ti.Vector([u[i[lane]][1] for lane in range(LANES)])
-    x1 = ti.Vector([u[j[lane]][0] for lane in range(LANES)]) - x
-    y1 = ti.Vector([u[j[lane]][1] for lane in range(LANES)]) - y
-    x2 = ti.Vector([u[k[lane]][0] for lane in range(LANES)]) - x
-    y2 = ti.Vector([u[k[lane]][1] for lane in range(LANES)]) - y
+    i = 3 * LANES * n
+    j, k = i + LANES, i + 2 * LANES
+    x, y = gathered(u, corners, i, 0), gathered(u, corners, i, 1)
+    x1, y1 = gathered(u, corners, j, 0) - x, gathered(u, corners, j, 1) - y
+    x2, y2 = gathered(u, corners, k, 0) - x, gathered(u, corners, k, 1) - y
     b00, b01, b10, b11 = elements[n, 0], elements[n, 1], elements[n, 2], elements[n, 3]
     return x1 * b00 + x2 * b10, x1 * b01 + x2 * b11, y1 * b00 + y2 * b10, y1 * b01 + y2 * b11
 
@@ -47,9 +53,7 @@ def pairs(x: lanes, y: lanes):
 def add_forces(solid: any_value, state: any_value, n: ti.i32):
     """Forces of block n: V P grad N (Appendix A) with P = 2 mu (F - R) + lambda (J - 1) cof F, F = I + grad u."""
     corners, elements = ti.static(solid.corners, solid.elements)
-    g00, g01, g10, g11 = displacement_gradient(
-        state.displacement, corners[n, 0], corners[n, 1], corners[n, 2], elements, n
-    )
+    g00, g01, g10, g11 = displacement_gradient(state.displacement, corners, elements, n)
     cosine = 2.0 + g00 + g11 + 1e-15  # vanishes in rounding, but decides for the identity at 0, 0
     sine = g10 - g01
     scale = 1.0 / ti.sqrt(cosine * cosine + sine * sine)
@@ -78,9 +82,7 @@ def magnitude(x: lanes):
 def present_frequencies(solid: any_value, state: any_value, n: ti.i32):
     """omega^2 of deformed triangles: that at rest times a bound on the growth of Psi's second derivative."""
     corners, elements = ti.static(solid.corners, solid.elements)
-    g00, g01, g10, g11 = displacement_gradient(
-        state.displacement, corners[n, 0], corners[n, 1], corners[n, 2], elements, n
-    )
+    g00, g01, g10, g11 = displacement_gradient(state.displacement, corners, elements, n)
     f00, f11 = 1.0 + g00, 1.0 + g11
     j = f00 * f11 - g01 * g10
     square = f00 * f00 + g01 * g01 + g10 * g10 + f11 * f11

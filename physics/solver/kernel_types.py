@@ -10,7 +10,7 @@ import taichi as ti
 
 from ..runtime import LANES
 
-__all__ = ["any_value", "int2", "lanes", "lanes_of_indices", "vec2", "vec4"]
+__all__ = ["any_value", "int2", "lanes", "vec2", "vec4"]
 
 any_value = ti.template()
 """Taken as it is when the kernel is compiled: packs and arrays, or named tuples of these."""
@@ -21,5 +21,3 @@ int2 = ti.types.vector(2, ti.i32)
 
 lanes = ti.types.vector(LANES, ti.f32)
 """A number of each triangle of a block."""
-
-lanes_of_indices = ti.types.vector(LANES, ti.i32)

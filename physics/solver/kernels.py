@@ -78,9 +78,9 @@ def build_kernels() -> Kernels:
             advance_with_others(part, ti.static(Shared(solid, state, drive, counters, highest)))
 
     @ti.kernel
-    def forces(corners: types.index_blocks, elements: types.blocks, u: types.vectors, corner_forces: types.pair_blocks):
+    def forces(corners: types.integers, elements: types.blocks, u: types.vectors, corner_forces: types.pair_blocks):
         ti.loop_config(serialize=True)
-        for n in range(corners.shape[0]):
+        for n in range(elements.shape[0]):
             elastic = ti.static(_Elastic(corners, elements, u, corner_forces))
             add_forces(elastic, elastic, n)
 

@@ -97,4 +97,4 @@ def _triangles(solid: Solid, part: int) -> int:
 
 
 def _internal_forces(solid: Solid, arrays: tuple[NDArray[Any], ...]) -> None:
-    taichi_runtime.compiled(_kernels).forces(solid.corners, solid.elements, *arrays)
+    taichi_runtime.compiled(_kernels).forces(solid.corners.ravel(), solid.elements, *arrays)
