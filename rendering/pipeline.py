@@ -172,8 +172,8 @@ def animate(
         watch.on_scene(whole)
     animated = partial(Animation, parts.image, parts.masks, whole, own=parts.own, networks=networks, first=timing.skip)
     if save is not None and whole.loop is None and not (parts.needs_motion or networks.draws_opaque):
-        motion, renderer = _simulated_and_saved(parts, whole, timing, max_minutes, watch, seconds, save, animated)
-        return animated(motion=motion, renderer=renderer, seconds=seconds)
+        saved = _simulated_and_saved(parts, whole, timing, max_minutes, watch, seconds, save, animated)
+        return animated(motion=saved.motion, renderer=saved, seconds=seconds)
     motion, renderer = _simulated(parts, whole, timing, max_minutes, watch, seconds)
     animation = animated(motion=motion, renderer=renderer, seconds=seconds)
     if save is not None:
@@ -222,8 +222,8 @@ def _simulated_and_saved(
     seconds: dict[str, float],
     save: Saving,
     animated: Callable[..., Animation],
-) -> tuple[Motion, LayeredRenderer]:
-    """The motion, and what draws it; all frames are saved, most of them while others are still simulated."""
+) -> LayeredRenderer:
+    """What draws the motion; all frames are saved, most of them while others are still simulated."""
     from .saved_meanwhile import ComingFrames, SavedMeanwhile
 
     assert timing.frames is not None
@@ -238,14 +238,14 @@ def _simulated_and_saved(
         if hears is not None:
             hears(done, total)
 
-    saving = SavedMeanwhile(lambda: parts.drawn_at_rest(scene), write)
+    saving = SavedMeanwhile(lambda: parts.drawn_at_rest(scene), write)  # type: ignore[arg-type, return-value]
     with simulated_beside(), saving:
         with timed(seconds, "simulate"):
             motion = simulate(
                 scene, frames=timing.frames, progress=advance, max_minutes=max_minutes, on_frame=coming.take
             )
         with timed(seconds, "render"):
-            return motion, saving.finish(watch.progress).showing(motion)
+            return saving.finish(watch.progress).showing(motion)
 
 
 def _check_length(timing: Timing, scene: Scene, networks: NetworkOptions) -> None:

@@ -15,14 +15,12 @@ from ..physics.beside import Beside
 from ..physics.interruption import checkpoint
 from ..physics.motion import Motion
 from ..physics.scene import Scene
-from .composite import LayeredRenderer, PixelArtRenderer
+from .composite import LayeredRenderer
 from .stages import StageProgress
 
 __all__ = ["ComingFrames", "SavedMeanwhile"]
 
 _POLL_SECONDS = 0.2
-
-Renderer = LayeredRenderer | PixelArtRenderer
 
 
 class ComingFrames:
@@ -73,9 +71,11 @@ class SavedMeanwhile:
         save: saves all of its frames, and calls its second argument after each.
     """
 
-    def __init__(self, make: Callable[[], Renderer], save: Callable[[Renderer, StageProgress], None]) -> None:
+    def __init__(
+        self, make: Callable[[], LayeredRenderer], save: Callable[[LayeredRenderer, StageProgress], None]
+    ) -> None:
         self._make, self._save = make, save
-        self._renderer: list[Renderer] = []
+        self._renderer: list[LayeredRenderer] = []
         self._steps: queue.Queue[_Step | None] = queue.Queue()
         self._working = Beside(self._work)
 
@@ -90,7 +90,7 @@ class SavedMeanwhile:
         """Raise what has ended the other thread early, if anything has."""
         self._working.check()
 
-    def finish(self, progress: StageProgress | None) -> Renderer:
+    def finish(self, progress: StageProgress | None) -> LayeredRenderer:
         """The renderer, when all is saved; raises what has gone wrong there.
 
         Args:

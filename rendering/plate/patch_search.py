@@ -118,7 +118,7 @@ class PatchSearch:
     def round(self, current: FloatImage) -> Finds:
         """Match all patches of the current fill."""
         self.wanted = self._described(_patches(current, self.targets), self.level.guide, self.targets)
-        self.cost = self._cost(self.source)
+        self.cost = self._cost(self.source, np.arange(len(self.targets)))
         for sweep in range(_SWEEPS):
             for stride in (1,) if sweep else (4, 2, 1):
                 for neighbour in self.steps:
@@ -136,11 +136,12 @@ class PatchSearch:
         weight = np.float32(np.sqrt(_GUIDE_WEIGHT) * _SIDE)
         return np.concatenate([(patches - self.mean) @ self.axes, smooth.reshape(-1, 3)[at] * weight], axis=1)
 
-    def _cost(self, source: IndexArray) -> FloatImage:
+    def _cost(self, source: IndexArray, of: IndexArray) -> FloatImage:
+        """Cost of a match for each of some targets, given by their numbers."""
         difference = self.features.take(source, axis=0)
-        difference -= self.wanted
+        difference -= self.wanted.take(of, axis=0)
         row = source // self.shape[1]
-        away = (row - self.row) ** 2 + (source - row * self.shape[1] - self.column) ** 2
+        away = (row - self.row.take(of)) ** 2 + (source - row * self.shape[1] - self.column.take(of)) ** 2
         return np.einsum("ij,ij->i", difference, difference) + np.float32(_NEARNESS) * away.astype(np.float32)
 
     def _neighbours(self) -> Iterator[IndexArray]:
@@ -173,12 +174,14 @@ class PatchSearch:
             radius /= 2.5  # PatchMatch halves it; this needs a quarter fewer guesses
 
     def _try(self, source: IndexArray) -> None:
-        source = np.clip(source, 0, self.usable.size - 1)
-        source = np.where(self.usable[source], source, self.source)
-        cost = self._cost(source)
-        better = cost < self.cost
-        self.source = np.where(better, source, self.source)
-        self.cost = np.where(better, cost, self.cost)
+        """Take other sources where they match better; neighbours mostly propose what has been found."""
+        np.clip(source, 0, self.usable.size - 1, out=source)
+        other = np.flatnonzero((source != self.source) & self.usable.take(source))
+        source = source.take(other)
+        cost = self._cost(source, other)
+        better = np.flatnonzero(cost < self.cost.take(other))
+        improved = other.take(better)
+        self.source[improved], self.cost[improved] = source.take(better), cost.take(better)
 
 
 def _patches(picture: FloatImage, at: IndexArray) -> FloatImage:

@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...physics.beside import Beside
 from ...physics.errors import InvalidInputError
 from ...physics.interruption import checkpoint
 from ...physics.mesh import coverage_of, fitted
@@ -66,7 +67,9 @@ def clean_plate(image: NDArray[Any], mask: ArrayLike) -> NDArray[Any]:
         raise InvalidInputError("mask must leave some of the picture to fill the rest with. Got: all is white")
     picture = as_float(image)
     # An outline along the mask belongs to what is removed: it must not run on into the fill.
-    whole, regular = hole | with_outline(picture, coverage), regular_mask(picture, coverage)
+    with Beside(lambda: with_outline(picture, coverage)) as outlined:
+        regular = regular_mask(picture, coverage)
+    whole = hole | outlined.result()
     if (regular != coverage).any():
         whole |= with_outline(picture, regular)
     filled = fill_hole(picture, hole if whole.all() else whole)
