@@ -195,8 +195,8 @@ class AnimateIllustration(io.ComfyNode):
         report(0, 2)  # the bar appears at once: cutting and meshing have no steps of their own
         given = given_picture(cls, picture, image, image_alpha, layers)
         shown: dict[str, Any] = {}
-        if image is not None and given.picture is not None:
-            shown = {"physanimator_picture": [saved_picture(given.picture)]}
+        if image is not None or layers is not None:
+            shown = {"physanimator_picture": [saved_picture(given.seen)]}
             # At once: where nothing is picked yet, it has to be seen to be clicked on.
             send_to_page(PICTURE_EVENT, shown["physanimator_picture"][0])
         timing = {"loop": loop, "frames": frames, "fps": fps}

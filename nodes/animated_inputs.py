@@ -62,6 +62,13 @@ class GivenPicture:
         """Whichever there is."""
         return self.picture if self.artwork is None else self.artwork
 
+    @property
+    def seen(self) -> NDArray[Any]:
+        """The illustration as one picture."""
+        from ..rendering.parts import picture_of
+
+        return self.picture if self.artwork is None else picture_of(self.artwork)
+
 
 @dataclass(frozen=True, eq=False)
 class ChosenParts:
@@ -117,18 +124,25 @@ def given_picture(
         InvalidInputError: it cannot be read.
     """
     if layers is not None:
-        artwork, told = artwork_of(node, layers)
-        return GivenPicture(artwork=artwork, told=told)
+        return _layered(*artwork_of(node, layers))
     if image is not None:
         return GivenPicture(picture_with_alpha(image, alpha))
     if is_layered(name):
         from ..rendering.artwork import load_artwork
 
         artwork = load_artwork(file_of(name))
-        return GivenPicture(artwork=artwork, told=tell_user(node, artwork.warnings))
+        return _layered(artwork, tell_user(node, artwork.warnings))
     from ..rendering.pictures import load_image
 
     return GivenPicture(load_image(file_of(name), alpha=True))
+
+
+def _layered(artwork: Artwork, told: dict[str, list[str]]) -> GivenPicture:
+    """An artwork in layers; a flat picture where it has none that could move alone."""
+    from ..rendering.picked_layers import flat_picture
+
+    picture = flat_picture(artwork)
+    return GivenPicture(picture, artwork if picture is None else None, told)
 
 
 def check_points(text: str) -> None:

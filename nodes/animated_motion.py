@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     import torch
 
     from ..physics.progress import Progress
+    from ..rendering.artwork import Artwork
     from ..rendering.composite import LayeredRenderer, PixelArtRenderer
+    from ..rendering.picked_layers import PickedLayers
     from .host.progress import Report
 
 __all__ = ["Moved", "motion_of_parts", "motion_of_scene"]
@@ -98,11 +100,12 @@ def motion_of_parts(
         InvalidInputError: nothing moves, or a value is none that may be.
     """
     from ..rendering.moving_layers import MovingLayers
-    from ..rendering.options import AutomaticWind, Timing, Watch
+    from ..rendering.options import AutomaticWind, LayerChoice, Timing, Watch
     from ..rendering.pipeline import animate
 
     parts, presets, notes = (), None if said["preset"] == AUTO else said["preset"], list[str]()
     told: dict[str, list[str]] = {}
+    layered: PickedLayers | None = None
     if given.picture is not None:
         with interruptible(host_check()):
             chosen = chosen_parts(node, given.picture, points, masks, said["preset"])
@@ -112,6 +115,11 @@ def motion_of_parts(
         presets = None if told_by_scene else list(chosen.presets)
     elif masks is not None:
         raise InvalidInputError("masks must be left out where the picture is in layers. Got: masks")
+    else:
+        layered = _picked_layers(given.artwork, points, said["preset"], document)
+        told = tell_user(node, layered.told)
+        if not document:  # each layer says of what it is made; a document's bodies do so themselves
+            presets = None
     loop, own_rate = said["loop"] or None, "frame_rate" in (document or {})
     loops = loop is not None or "loop" in (document or {})
     timing = Timing(None if loops else said["frames"], loop=loop, frame_rate=None if own_rate else said["fps"])
@@ -128,6 +136,7 @@ def motion_of_parts(
             parts or None,
             scene=document,
             preset=presets,
+            layers=LayerChoice() if layered is None else LayerChoice(plans=layered.plans),
             wind=AutomaticWind(said["wind"], said["wind_angle"]),
             timing=timing,
             pixel_art=pixel_art,
@@ -137,6 +146,20 @@ def motion_of_parts(
     layers = None if source is None else MovingLayers(source, tuple(made.renderer.moving_layers))  # type: ignore[union-attr]
     told = all_told(told, tell_user(node, notes))
     return Moved(MaskedMotion(made.motion, tuple(made.masks), layers), made.renderer, told)
+
+
+def _picked_layers(artwork: Artwork, points: str, usual: str, document: dict[str, Any] | None) -> PickedLayers:
+    """What becomes of the layers.
+
+    Raises:
+        InvalidInputError: none moves.
+    """
+    from ..rendering.picked_layers import NOTHING_MOVES, picked_layers
+
+    found = picked_layers(artwork, None if is_empty(points) else points, usual=usual, document=document)
+    if not found.moving:
+        raise InvalidInputError(" ".join([NOTHING_MOVES, *found.told]))
+    return found
 
 
 @contextmanager

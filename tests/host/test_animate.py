@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from editor_page import CANVASES, EditorPage
+from layered_files import bust, write_ora
 
 ILLUSTRATION = Path(__file__).resolve().parents[2] / "workflows" / "example" / "illustration.png"
 HAIR, CAPE = (700, 300), (680, 540)
@@ -58,6 +59,13 @@ class Hand:
 
 def value_of(editor: EditorPage, name: str) -> Any:
     return editor.ask(f"node.widgets.find((one) => one.name === '{name}').value")
+
+
+def failure(host: Any, prompt: dict[str, Any]) -> str:
+    """The sentence with which a node fails that has begun."""
+    entry = host.wait(host.queue(prompt))
+    (message,) = [each[1] for each in entry["status"]["messages"] if each[0] == "execution_error"]
+    return str(message["exception_message"])
 
 
 def opened(page: Any, canvas: str) -> EditorPage:
@@ -237,4 +245,33 @@ def test_a_picture_that_nodes_make_can_be_clicked_on_once_a_preview_shows_it(pag
     editor.wait("editor.backdrop.picture?.naturalWidth === 512")
     editor.click(200, 200)
     editor.wait("editor.picking.cuts !== null || editor.notes.shown.has('pick')")
+    assert page.problems == []
+
+
+def test_of_a_layered_file_whose_names_say_nothing_the_clicked_layer_moves(host: Any, page: Any, canvas: str) -> None:
+    drawn = [(f"Layer {number}", pixels) for number, (_, pixels) in enumerate(bust())]
+    write_ora(host.folder / "input" / "nameless.ora", drawn)
+    editor = opened(page, canvas)
+    page.run(
+        "(id) => { const node = app.graph.getNodeById(id), widget = node.widgets.find((one) => one.name === 'picture');"
+        " widget.value = 'nameless.ora'; widget.callback?.(widget.value); node.physanimatorEditor.look(); }",
+        editor.node,
+    )
+    editor.wait("editor.backdrop.picture?.src.includes('nameless') && editor.picking.named === 0")
+    told = editor.selector('[data-note="empty"]')
+    assert told.inner_text() == "No layer moves by its name: click on what shall move."
+    editor.click(80, 24)
+    editor.wait("editor.picking.cuts?.length === 1 && editor.live.measured.largest > 0.5")
+    assert editor.ask("editor.live.player.layers.filter((one) => one.body !== null).map((one) => one.layer)") == [3]
+    page.page.keyboard.down("Shift")
+    editor.click(55, 70)
+    page.page.keyboard.up("Shift")
+    editor.wait("editor.picking.cuts?.length === 2 && editor.live.measured.largest > 0.5")
+    editor.selector('[data-preset="1"]').select_option("cloth")
+    editor.wait("editor.live.measured.drawn > 0")
+    editor.ask("node.widgets.find((one) => one.name === 'frames').value = 6")
+    prompt = json.loads(page.run("async () => JSON.stringify((await app.graphToPrompt()).output)"))
+    assert host.run(prompt)[str(editor.node)]["images"]
+    prompt[str(editor.node)]["inputs"]["points"] = ""
+    assert "click on what shall move" in failure(host, prompt)
     assert page.problems == []
