@@ -78,11 +78,13 @@ class ChosenParts:
         masks: where each is, 0..1 or bool, shape [h, w] each.
         presets: what each is made of.
         told: what the user was told of them.
+        names: what the user calls each.
     """
 
     masks: tuple[NDArray[Any], ...]
     presets: tuple[str, ...]
     told: dict[str, list[str]]
+    names: tuple[str, ...]
 
 
 def file_of(name: str) -> Path:
@@ -183,6 +185,7 @@ def chosen_parts(node: Any, picture: NDArray[Any], points: str, masks: torch.Ten
 
     given = [] if masks is None else _masks_of(masks)
     cut: Sequence[NDArray[np.bool_]] = ()
+    names = [f"mask {number} of masks" for number in range(len(given))]
     own: tuple[str | None, ...] = ()
     told: dict[str, list[str]] = {}
     if not is_empty(points):
@@ -190,9 +193,10 @@ def chosen_parts(node: Any, picture: NDArray[Any], points: str, masks: torch.Ten
         picked = picked_parts(points, width=width, height=height)
         cut, own = segment_parts(as_uint8(over(picture)), picked.prompts), picked.presets
         told = tell_user(node, picked.judged(cut))
+        names += [f"Part {number + 1}" for number in picked.numbers]
     if not given and not cut:
         raise InvalidInputError(NOTHING_PICKED)
-    return ChosenParts((*given, *cut), tuple(presets_of([*[None] * len(given), *own], usual)), told)
+    return ChosenParts((*given, *cut), tuple(presets_of([*[None] * len(given), *own], usual)), told, tuple(names))
 
 
 def _masks_of(masks: torch.Tensor) -> list[NDArray[np.float32]]:

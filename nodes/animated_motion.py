@@ -12,7 +12,7 @@ from ..physics.interruption import interruptible
 from ..rendering.picked_parts import AUTO
 from .animated_inputs import GivenPicture, chosen_parts, is_empty
 from .drawing import drawing_of
-from .host import all_told, host_check, server, tell_user
+from .host import all_told, host_check, parts_named, server, tell_user
 from .host.wires import MaskedMotion, MaskedScene
 
 if TYPE_CHECKING:
@@ -106,10 +106,11 @@ def motion_of_parts(
     parts, presets, notes = (), None if said["preset"] == AUTO else said["preset"], list[str]()
     told: dict[str, list[str]] = {}
     layered: PickedLayers | None = None
+    names: tuple[str, ...] = ()
     if given.picture is not None:
         with interruptible(host_check()):
             chosen = chosen_parts(node, given.picture, points, masks, said["preset"])
-        parts, told = chosen.masks, chosen.told
+        parts, told, names = chosen.masks, chosen.told, chosen.names
         # What a document says of bodies stands above what was picked, but not above what the user has chosen for all.
         told_by_scene = bool((document or {}).get("bodies")) and said["preset"] == AUTO
         presets = None if told_by_scene else list(chosen.presets)
@@ -130,7 +131,7 @@ def motion_of_parts(
             simulated(done, total)
 
     watch = Watch(of_stage, on_note=notes.append)
-    with _aside(contact="contact" in (document or {})):
+    with _aside(contact="contact" in (document or {})), parts_named(names):
         made = animate(
             given.subject,
             parts or None,

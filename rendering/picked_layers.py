@@ -95,8 +95,8 @@ def picked_layers(
             plans[index] = replace(plans[index], moves=False, preset=None, held=None, why=PICKED, asked=True)
         elif _fills(ordered, index):
             told.append(
-                f"{part}the layer {printable(plans[index].name[:60])} fills the whole picture and stands still: click on"
-                " a layer in front of it, or save the picture flat, as PNG, to pick parts within it."
+                f"{part}the layer {printable(plans[index].name[:60])} fills the whole picture and stands still: click"
+                " on a layer in front of it, or save the picture flat, as PNG, to pick parts within it."
             )
         else:
             parts[index] = point.part

@@ -37,16 +37,12 @@ class PickedParts:
     presets: tuple[str | None, ...]
 
     def judged(self, masks: Sequence[NDArray[np.bool_]]) -> list[str]:
-        """What is suspicious about the masks that were cut: sentences, with the part counted from 1 if there are more.
+        """What is suspicious about the masks that were cut: sentences, with the part's name if there are more.
 
         Args:
             masks: one for each part, shape [h, w] each.
         """
-        told = []
-        for number, mask, prompt in zip(self.numbers, masks, self.prompts, strict=True):
-            part = f"Part {number + 1}: " if len(masks) > 1 else ""
-            told += [part + each for each in judge_cuts([mask], [prompt])]
-        return told
+        return judge_cuts(masks, self.prompts)
 
 
 def picked_parts(points: str | Mapping[str, Any], *, width: int, height: int, boxes: Sequence[Box] = ()) -> PickedParts:

@@ -30,6 +30,7 @@ from .store import PreviewBodies, PreviewStore
 if TYPE_CHECKING:
     from ...rendering.artwork import Artwork
     from ...rendering.movement import Movement
+    from ...rendering.picked_parts import PickedParts
 
 __all__ = ["PickRequest", "Picker", "read_pick"]
 
@@ -156,7 +157,7 @@ class Picker:
         made: dict[str, Any] = {"width": width, "height": height, "cuts": _told(masks, picked.numbers)}
         made["advice"] = picked.judged(masks)
         if wanted.move is not None:
-            made |= self._moving(picture, masks, (of_file, asked), picked.presets, wanted.move)
+            made |= self._moving(picture, masks, (of_file, asked), picked, wanted.move)
         return made
 
     def _answer_of_layers(self, artwork: Artwork, of_file: Hashable, wanted: PickRequest) -> dict[str, Any]:
@@ -182,7 +183,7 @@ class Picker:
         picture: NDArray[np.uint8],
         masks: Sequence[Mask],
         key: Hashable,
-        presets: Sequence[str | None],
+        picked: PickedParts,
         move: dict[str, Any],
     ) -> dict[str, Any]:
         """The bodies' key, and the scene that the node Animate Illustration makes for them."""
@@ -190,10 +191,10 @@ class Picker:
         from ...rendering.picked_parts import presets_of
 
         covered = [mask.astype(np.float32) for mask in masks]
-        names = [f"part {number + 1}" for number in range(len(masks))]
+        names = [f"Part {number + 1}" for number in picked.numbers]
         common: dict[str, Any] = {"spacing": None, "plate": None, "in_front": None, "pixel_art": False}
         parts = self._parts.get(key, lambda: parts_of_picture(picture, covered, names, **common))
-        _, scene = _movement(presets_of(presets, move["preset"]), move).staged(parts)
+        _, scene = _movement(presets_of(picked.presets, move["preset"]), move).staged(parts)
         hole = np.logical_or.reduce(masks).astype(np.uint8) * np.uint8(255)
         stored = self._store.put(PreviewBodies(scene.bodies, picture, hole))
         document = scene_to_dict(scene, meshes=False)

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.errors import InvalidInputError
 from ...physics.interruption import checkpoint
 from .grabcut import segment
 from .mask_cleanup import clean_mask
@@ -74,7 +75,10 @@ def _cut(image: NDArray[np.uint8], prompts: Sequence[Prompt]) -> list[Mask]:
         beside = np.concatenate([np.zeros((0, 2)), *others])
         points = np.concatenate([np.reshape(prompt.points, (-1, 2)), beside])
         labels = np.concatenate([np.reshape(prompt.labels, -1), np.zeros(len(beside))])
-        masks.append(segment(image, points, labels, box=prompt.box))
+        try:
+            masks.append(segment(image, points, labels, box=prompt.box))
+        except InvalidInputError as error:
+            raise InvalidInputError(f"{prompt.name}: {error}" if prompt.name else str(error)) from error
     return masks
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from blueprints import blueprint
 from editor_page import CANVASES, EditorPage
 from layered_files import bust, write_ora
 
@@ -25,6 +26,12 @@ _DROP = """
   for (const kind of ['dragover', 'drop']) {
     keys.dispatchEvent(new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true }));
   }
+}
+"""
+_LOAD = """
+async (workflow) => {
+  await app.loadGraphData(JSON.parse(workflow), true, true);
+  await new Promise((done) => setTimeout(done, 500));
 }
 """
 _ADD = """
@@ -274,4 +281,59 @@ def test_of_a_layered_file_whose_names_say_nothing_the_clicked_layer_moves(host:
     assert host.run(prompt)[str(editor.node)]["images"]
     prompt[str(editor.node)]["inputs"]["points"] = ""
     assert "click on what shall move" in failure(host, prompt)
+    assert page.problems == []
+
+
+@pytest.mark.parametrize("down", [420, 700])
+def test_the_play_bar_is_in_sight_however_narrow_the_node(page: Any, canvas: str, down: int) -> None:
+    editor = opened(page, canvas)
+    editor.click(*HAIR)
+    page.page.keyboard.down("Shift")
+    editor.click(*CAPE)
+    page.page.keyboard.up("Shift")
+    editor.wait("editor.picking.cuts?.length === 2 && editor.live.measured.drawn > 0")
+    editor.ask(f"(node.setSize([250, {down}]), app.canvas.setDirty(true, true), 0)")
+    page.page.wait_for_timeout(600)
+    gap = "editor.frame.getBoundingClientRect().bottom - {}.getBoundingClientRect().bottom"
+    bar = "editor.timeline.root.querySelector('.physanimator-bar')"
+    assert editor.ask(gap.format(bar)) >= 0, "nothing has to be scrolled"
+    middle = (
+        f"(({{ x, y, width, height }}) => [x + width / 2, y + height / 2])({bar}.firstChild.getBoundingClientRect())"
+    )
+    there = f"document.elementFromPoint(...{middle})?.closest('button')?.dataset.action"
+    assert editor.ask(there) == "play", "nothing lies over it"
+    assert page.problems == []
+
+
+def test_a_picker_without_a_picture_says_how_to_get_one(page: Any, canvas: str) -> None:
+    page.problems.clear()
+    EditorPage.choose_canvas(page, canvas)
+    page.run(_LOAD, json.dumps(blueprint()))
+    segment = page.run(
+        "() => { const { subgraph } = app.graph.nodes.find((node) => node.subgraph); app.canvas.setGraph(subgraph);"
+        " return subgraph.nodes.find((node) => node.type === 'PhysAnimator_SegmentByPoints').id; }"
+    )
+    editor = EditorPage(page, segment)
+    editor.look(scale=1.0)
+    note = '[data-note="empty"]'
+    told = editor.selector(note).inner_text()
+    assert told.startswith("Connect a picture, such as that of Load Image, to the node of this subgraph")
+    page.run("() => app.canvas.setGraph(app.graph)")
+    holder = page.run("() => app.graph.nodes.find((node) => node.subgraph).id")
+    page.run(
+        "(id) => app.graph.getNodeById(id).subgraph && app.graph.unpackSubgraph(app.graph.getNodeById(id))", holder
+    )
+    alone = page.run("() => app.graph.nodes.find((node) => node.type === 'PhysAnimator_SegmentByPoints').id")
+    editor = EditorPage(page, alone)
+    editor.look(*page.run("(id) => [...app.graph.getNodeById(id).pos]", alone), scale=1.0)
+    assert editor.selector(note).inner_text().startswith("Connect a picture, such as that of Load Image, to image:")
+    made = page.run(_ADD, ["EmptyImage", -1300, 0])
+    page.run(
+        "([from, to]) => { const [a, b] = [from, to].map((id) => app.graph.getNodeById(id));"
+        " a.connect(0, b, b.inputs.findIndex((slot) => slot.name === 'image')); }",
+        [made, alone],
+    )
+    editor.wait("editor.notes.shown.has('empty')")
+    page.page.wait_for_timeout(700)
+    assert "connect a Preview Image beside this node" in editor.selector(note).inner_text()
     assert page.problems == []

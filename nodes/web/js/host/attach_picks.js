@@ -8,7 +8,7 @@
 import { linkInto } from "./links.js";
 import { shownPicture } from "./shown_picture.js";
 import { choose, upload, uploadOf, warn } from "./upload.js";
-import { EXAMPLE, pathOfFile, upstreamPicture } from "./upstream.js";
+import { EXAMPLE, getsPicture, pathOfFile, upstreamPicture } from "./upstream.js";
 import { say, words } from "./words.js";
 
 /** The example in the node's list of pictures, and in that of layered files; see nodes/animated_inputs.py, layer_nodes.py. */
@@ -204,6 +204,18 @@ async function takeFiles(app, api, node, files) {
 }
 
 /**
+ * How the picture gets into a node that has none of its own.
+ *
+ * @param {GraphNode} node
+ * @param {any} rootGraph
+ */
+function hintOfPicture(node, rootGraph) {
+  if (getsPicture(node, rootGraph)) return say("The picture appears here once a node has shown it: connect a Preview Image beside this node, run that, then click on what shall move.");
+  if (node.graph && node.graph !== rootGraph) return say("Connect a picture, such as that of Load Image, to the node of this subgraph: it appears here, to be clicked on.");
+  return say("Connect a picture, such as that of Load Image, to image: it appears here, to be clicked on.");
+}
+
+/**
  * @param {any} app
  * @param {any} api
  * @param {GraphNode} node  Segment by Points
@@ -222,6 +234,6 @@ export function picksOfSegmentation(app, api, node) {
     choosePicture: null,
     takePicture: null,
     setLength: () => {},
-    hint: () => (isLinked(node, "points") ? say(LINKED) : say("Click on what shall move.")),
+    hint: (picture) => (isLinked(node, "points") ? say(LINKED) : picture ? say("Click on what shall move.") : hintOfPicture(node, app.rootGraph ?? app.graph)),
   };
 }

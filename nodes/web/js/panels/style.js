@@ -167,6 +167,7 @@ export const STYLE = `
     grid-auto-rows: max-content; flex: none; max-height: 150px; }
   .physanimator-editor > .physanimator-frame .physanimator-side { border-left: 0; border-top: 1px solid var(--physanimator-rim); }
   .physanimator-layers { max-height: 110px; }
+  .physanimator-editor > .physanimator-frame .physanimator-timeline { position: sticky; bottom: 0; z-index: 1; background: var(--physanimator-back); }
   .physanimator-heading, .physanimator-section, .physanimator-table, .physanimator-field[data-field="region"] { grid-column: 1 / -1; }
 }
 @container (max-width: 379px) {
