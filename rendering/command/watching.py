@@ -34,7 +34,9 @@ def watch_of(options: argparse.Namespace, progress: StageProgress, points: Seque
 
     return Watch(
         progress=progress,
-        on_cut=lambda cut: tell(judge_points(cut, points, [f"--points {path}" for path in options.points or ()])),
+        on_cut=lambda cut: tell(
+            judge_points(cut, points, [f"--points {path}" for path in getattr(options, "points", None) or ()])
+        ),
         on_scene=on_scene,
         on_note=lambda sentence: tell([sentence]),
     )
