@@ -73,9 +73,9 @@ class AnimateIllustration(io.ComfyNode):
                     "points",
                     default="",
                     multiline=True,
-                    tooltip="What is picked: click on the picture. As text, points in every form that Segment by Points"
-                    " takes, such as [[x, y, 1, part], ...] in pixels; the bodies of a scene document with query_points"
-                    " say of what each part is made.",
+                    tooltip="What is picked: click on the picture; of a picture in layers, the layer under the click"
+                    " moves. As text, points in every form that Segment by Points takes, such as [[x, y, 1, part], ...]"
+                    " in pixels; the bodies of a scene document with query_points say of what each part is made.",
                 ),
                 io.Combo.Input(
                     "preset",
@@ -128,7 +128,7 @@ class AnimateIllustration(io.ComfyNode):
                 LayersWire.Input(
                     "layers",
                     optional=True,
-                    tooltip="The illustration in layers: those whose names say so move, and nothing has to be picked.",
+                    tooltip="The illustration in layers: those move whose names say so, and those that are picked.",
                 ),
                 SceneOrTextWire.Input(
                     "scene",
