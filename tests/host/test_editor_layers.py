@@ -236,7 +236,7 @@ def looked_at(editor: EditorPage) -> np.ndarray:
 
 
 def difference(editor: EditorPage, seen: np.ndarray, box: tuple[int, int, int, int]) -> float:
-    """How far a part of what is seen is from the example's picture, of 255; a pixel beside it where that suits better."""
+    """How far a part of what is seen is from the example's picture, of 255, at the best place within a pixel."""
     left, top, right, bottom = box
     x0, y0 = map(round, _corner(editor, left, top))
     x1, y1 = map(round, _corner(editor, right, bottom))
