@@ -122,6 +122,19 @@ def test_what_it_does_not_take_is_refused(standin: Any, bars: str, inputs: dict[
     assert told in standin.error_of(prompt)
 
 
+def test_parts_on_the_same_pixels_have_the_names_that_the_node_shows(standin: Any, bars: str) -> None:
+    told = standin.error_of(animate(bars, [[*ON_RED, 0], [*ON_RED[:2], 1, 2]]))
+    assert told.startswith(("Part 1", "Part 3")), told
+
+
+def test_a_file_is_named_by_its_place_in_the_host_s_folders(standin: Any) -> None:
+    (standin.folder / "input" / "broken.psd").write_bytes(b"no psd")
+    for prompt in (animate("broken.psd", ""), animate("PhysAnimator example.png", "", scene="{}")):
+        told = standin.error_of(prompt)
+        assert str(standin.folder) not in told
+    assert "input/broken.psd" in standin.error_of(animate("broken.psd", ""))
+
+
 def test_masks_may_stand_in_for_points_and_a_connected_picture_for_the_file(standin: Any) -> None:
     prompt = animate("gone.png", "") | {
         "black": core("SolidMask", value=0.0, width=160, height=96),
