@@ -28,9 +28,13 @@ def parts_named(names: Sequence[str]) -> Iterator[None]:
     try:
         yield
     except InvalidInputError as error:
-        found = _PART.match(str(error))
+        said = str(error)
+        found = _PART.match(said)
         if found and int(found[1]) < len(names):
-            error.args = (names[int(found[1])] + str(error)[found.end() :],)
+            said = names[int(found[1])] + said[found.end() :]
+        elif names and said.startswith("masks must "):
+            said = "the parts" + said[len("masks") :]
+        error.args = (said,)
         raise
 
 

@@ -67,6 +67,7 @@ def test_errors_keep_their_kind(folder: Path, kind: Any) -> None:
         ("masks[1] must have white", "Part 4 must have white"),
         ("bodies[1] (part 4) has one part", "Part 4 has one part"),
         ("masks[2]: there is none", "masks[2]: there is none"),
+        ("masks must leave some background", "the parts must leave some background"),
         ("points must be a list", "points must be a list"),
     ],
 )
