@@ -204,12 +204,15 @@ async function takeFiles(app, api, node, files) {
 }
 
 /**
- * How the picture gets into a node that has none of its own.
+ * How the picture gets into a node that has none of its own, and what to do once it is on its way.
  *
  * @param {GraphNode} node
  * @param {any} rootGraph
+ * @param {boolean} picture  whether it is to be seen
+ * @param {Record<string, any>} outputs  what nodes have shown, by their ids
  */
-function hintOfPicture(node, rootGraph) {
+function hintOfPicture(node, rootGraph, picture, outputs) {
+  if (picture || segmentedPicture(node, rootGraph, outputs)) return say("Click on what shall move.");
   if (getsPicture(node, rootGraph)) return say("The picture appears here once a node has shown it: connect a Preview Image beside this node, run that, then click on what shall move.");
   if (node.graph && node.graph !== rootGraph) return say("Connect a picture, such as that of Load Image, to the node of this subgraph: it appears here, to be clicked on.");
   return say("Connect a picture, such as that of Load Image, to image: it appears here, to be clicked on.");
@@ -234,6 +237,6 @@ export function picksOfSegmentation(app, api, node) {
     choosePicture: null,
     takePicture: null,
     setLength: () => {},
-    hint: (picture) => (isLinked(node, "points") ? say(LINKED) : picture ? say("Click on what shall move.") : hintOfPicture(node, app.rootGraph ?? app.graph)),
+    hint: (picture) => (isLinked(node, "points") ? say(LINKED) : hintOfPicture(node, app.rootGraph ?? app.graph, picture, app.nodeOutputs)),
   };
 }
