@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...physics.document import scene_to_dict
-from ...physics.errors import InvalidInputError, require
+from ...physics.errors import InvalidInputError
 from ...physics.mesh import runs_of
 from ..host import place_of
 from .limits import MAX_FRAMES, MAX_PICKED_PIXELS, MAX_PICKED_SIZE
@@ -79,8 +80,11 @@ def artwork_to_pick(place: Path) -> Artwork | NDArray[np.uint8]:
     from ...rendering.pictures import as_uint8
 
     artwork = load_artwork(place)
-    size = f"{artwork.width} x {artwork.height} px"
-    require("picture", size, artwork.width * artwork.height <= MAX_PICKED_PIXELS, f"at most {MAX_PICKED_PIXELS} pixels")
+    if artwork.width * artwork.height > MAX_PICKED_PIXELS:
+        raise InvalidInputError(
+            f"A picture of {artwork.width} x {artwork.height} px is too large to be cut while you click: click on what"
+            " shall move, then run this node."
+        )
     flat = flat_picture(artwork)
     return artwork if flat is None else as_uint8(flat)
 
@@ -88,18 +92,16 @@ def artwork_to_pick(place: Path) -> Artwork | NDArray[np.uint8]:
 def cuts_of_layers(artwork: Artwork, picked: PickedLayers) -> list[dict[str, Any]]:
     """What is seen of each layer that moves, in the form of a scene document's painted regions.
 
-    Raises:
-        InvalidInputError: they are more than can be shown.
+    Of many layers of a large picture only every n-th pixel each way.
     """
     from ...rendering.composite import hidden_by, mask_of_layer
 
-    size = len(picked.moving) * artwork.width * artwork.height
-    require("layers", len(picked.moving), size <= MAX_PICKED_SIZE, "fewer that move, or of a smaller picture")
+    step = math.ceil(math.sqrt(len(picked.moving) * artwork.width * artwork.height / MAX_PICKED_SIZE)) or 1
     cuts = []
     for index in picked.moving:
         mask, cover = mask_of_layer(artwork, index) > 0.5, hidden_by(artwork, index, moving=())
-        seen = mask if cover is None else mask & ~cover
-        region = {"type": "mask", "width": artwork.width, "height": artwork.height, "runs": runs_of(seen)}
+        seen = (mask if cover is None else mask & ~cover)[::step, ::step]
+        region = {"type": "mask", "width": seen.shape[1], "height": seen.shape[0], "runs": runs_of(seen)}
         cuts.append({"part": picked.parts.get(index, BY_NAME), **region})
     return cuts
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from physanimator.nodes.preview import layers
 from physanimator.nodes.preview.limits import MAX_PICKED_POINTS
 from physanimator.nodes.preview.turns import Turns
 from physanimator.physics.errors import Cancelled
@@ -200,6 +201,24 @@ def test_layers_that_move_by_name_are_cut_out_without_a_click(standin: Any) -> N
         assert [cut["part"] for cut in found["cuts"]] == [-1, 1]
         _, found = await pick(server, asked("named.psd", [{"x": 60, "y": 40, "positive": False}], move=MOVE))
         assert (found["cuts"], "key" in found) == ([], False)
+
+    in_a_server(test)
+
+
+def test_of_large_layers_the_cut_is_coarser_and_of_too_large_ones_there_is_none(
+    standin: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save_psd(bars_in_layers(("hair", "hair")), standin.folder / "input" / "large.psd")
+
+    async def test(server: Served) -> None:
+        monkeypatch.setattr(layers, "MAX_PICKED_SIZE", 120 * 200 // 2)
+        _, found = await pick(server, asked("large.psd", [], move=MOVE))
+        assert [(cut["width"], cut["height"]) for cut in found["cuts"]] == [(100, 60)] * 2
+        assert mask_of(found["cuts"][0])[13:50, 25:37].all()
+        monkeypatch.setattr(layers, "MAX_PICKED_PIXELS", 100)
+        save_psd(bars_in_layers(("hair", "lock")), standin.folder / "input" / "larger.psd")
+        status, found = await pick(server, asked("larger.psd", [], move=MOVE))
+        assert (status, "too large to be cut while you click" in found["error"]) == (422, True)
 
     in_a_server(test)
 
