@@ -124,12 +124,11 @@ def test_the_editor_speaks_the_language(page: Any, language: str) -> None:
     assert page.problems == []
 
 
-def test_help_is_shown_in_the_language_where_there_is_some(page: Any, language: str) -> None:
+def test_help_is_shown_in_the_language(page: Any, language: str) -> None:
     page.problems.clear()
-    folder = ROOT / "nodes" / "web" / "docs"
-    translated = folder / "PhysAnimator_Simulate" / f"{language}.md"
-    english = folder / "PhysAnimator_Simulate.md"
-    meant = (translated if translated.exists() else english).read_text(encoding="utf-8")
+    text = (ROOT / "nodes" / "web" / "docs" / "PhysAnimator_Simulate" / f"{language}.md").read_text(encoding="utf-8")
     page.run(_OPENED, "PhysAnimator_Simulate")
     page.page.locator('[data-testid="info-button"]').first.click(timeout=10_000)
-    page.page.get_by_text(meant.split("\n\n")[1].replace("\n", " ")[:30]).first.wait_for(timeout=10_000)
+    page.page.get_by_text(text.split("\n\n")[1].replace("\n", " ")[:20]).first.wait_for(timeout=10_000)
+    page.run("() => app.graph.clear()")  # help of what others put down is not asked for
+    assert page.problems == []
