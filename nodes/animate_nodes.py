@@ -73,9 +73,9 @@ class AnimateIllustration(io.ComfyNode):
                     "points",
                     default="",
                     multiline=True,
-                    tooltip="What is picked: click on the picture. As text, points in every form that Segment by Points"
-                    " takes, such as [[x, y, 1, part], ...] in pixels; the bodies of a scene document with query_points"
-                    " say of what each part is made.",
+                    tooltip="What is picked: click on the picture; of a picture in layers, the layer under the click"
+                    " moves. As text, points in every form that Segment by Points takes, such as [[x, y, 1, part], ...]"
+                    " in pixels; the bodies of a scene document with query_points say of what each part is made.",
                 ),
                 io.Combo.Input(
                     "preset",
@@ -128,7 +128,7 @@ class AnimateIllustration(io.ComfyNode):
                 LayersWire.Input(
                     "layers",
                     optional=True,
-                    tooltip="The illustration in layers: those whose names say so move, and nothing has to be picked.",
+                    tooltip="The illustration in layers: those move whose names say so, and those that are picked.",
                 ),
                 SceneOrTextWire.Input(
                     "scene",
@@ -195,8 +195,8 @@ class AnimateIllustration(io.ComfyNode):
         report(0, 2)  # the bar appears at once: cutting and meshing have no steps of their own
         given = given_picture(cls, picture, image, image_alpha, layers)
         shown: dict[str, Any] = {}
-        if image is not None and given.picture is not None:
-            shown = {"physanimator_picture": [saved_picture(given.picture)]}
+        if image is not None or layers is not None:
+            shown = {"physanimator_picture": [saved_picture(given.seen)]}
             # At once: where nothing is picked yet, it has to be seen to be clicked on.
             send_to_page(PICTURE_EVENT, shown["physanimator_picture"][0])
         timing = {"loop": loop, "frames": frames, "fps": fps}

@@ -62,6 +62,13 @@ class GivenPicture:
         """Whichever there is."""
         return self.picture if self.artwork is None else self.artwork
 
+    @property
+    def seen(self) -> NDArray[Any]:
+        """The illustration as one picture."""
+        from ..rendering.parts import picture_of
+
+        return self.picture if self.artwork is None else picture_of(self.artwork)
+
 
 @dataclass(frozen=True, eq=False)
 class ChosenParts:
@@ -71,11 +78,13 @@ class ChosenParts:
         masks: where each is, 0..1 or bool, shape [h, w] each.
         presets: what each is made of.
         told: what the user was told of them.
+        names: what the user calls each.
     """
 
     masks: tuple[NDArray[Any], ...]
     presets: tuple[str, ...]
     told: dict[str, list[str]]
+    names: tuple[str, ...]
 
 
 def file_of(name: str) -> Path:
@@ -117,18 +126,25 @@ def given_picture(
         InvalidInputError: it cannot be read.
     """
     if layers is not None:
-        artwork, told = artwork_of(node, layers)
-        return GivenPicture(artwork=artwork, told=told)
+        return _layered(*artwork_of(node, layers))
     if image is not None:
         return GivenPicture(picture_with_alpha(image, alpha))
     if is_layered(name):
         from ..rendering.artwork import load_artwork
 
         artwork = load_artwork(file_of(name))
-        return GivenPicture(artwork=artwork, told=tell_user(node, artwork.warnings))
+        return _layered(artwork, tell_user(node, artwork.warnings))
     from ..rendering.pictures import load_image
 
     return GivenPicture(load_image(file_of(name), alpha=True))
+
+
+def _layered(artwork: Artwork, told: dict[str, list[str]]) -> GivenPicture:
+    """An artwork in layers; a flat picture where it has none that could move alone."""
+    from ..rendering.picked_layers import flat_picture
+
+    picture = flat_picture(artwork)
+    return GivenPicture(picture, artwork if picture is None else None, told)
 
 
 def check_points(text: str) -> None:
@@ -169,6 +185,7 @@ def chosen_parts(node: Any, picture: NDArray[Any], points: str, masks: torch.Ten
 
     given = [] if masks is None else _masks_of(masks)
     cut: Sequence[NDArray[np.bool_]] = ()
+    names = [f"mask {number} of masks" for number in range(len(given))]
     own: tuple[str | None, ...] = ()
     told: dict[str, list[str]] = {}
     if not is_empty(points):
@@ -176,9 +193,10 @@ def chosen_parts(node: Any, picture: NDArray[Any], points: str, masks: torch.Ten
         picked = picked_parts(points, width=width, height=height)
         cut, own = segment_parts(as_uint8(over(picture)), picked.prompts), picked.presets
         told = tell_user(node, picked.judged(cut))
+        names += [f"Part {number + 1}" for number in picked.numbers]
     if not given and not cut:
         raise InvalidInputError(NOTHING_PICKED)
-    return ChosenParts((*given, *cut), tuple(presets_of([*[None] * len(given), *own], usual)), told)
+    return ChosenParts((*given, *cut), tuple(presets_of([*[None] * len(given), *own], usual)), told, tuple(names))
 
 
 def _masks_of(masks: torch.Tensor) -> list[NDArray[np.float32]]:

@@ -12,14 +12,16 @@ from ..physics.interruption import interruptible
 from ..rendering.picked_parts import AUTO
 from .animated_inputs import GivenPicture, chosen_parts, is_empty
 from .drawing import drawing_of
-from .host import all_told, host_check, server, tell_user
+from .host import all_told, host_check, parts_named, server, tell_user
 from .host.wires import MaskedMotion, MaskedScene
 
 if TYPE_CHECKING:
     import torch
 
     from ..physics.progress import Progress
+    from ..rendering.artwork import Artwork
     from ..rendering.composite import LayeredRenderer, PixelArtRenderer
+    from ..rendering.picked_layers import PickedLayers
     from .host.progress import Report
 
 __all__ = ["Moved", "motion_of_parts", "motion_of_scene"]
@@ -98,20 +100,27 @@ def motion_of_parts(
         InvalidInputError: nothing moves, or a value is none that may be.
     """
     from ..rendering.moving_layers import MovingLayers
-    from ..rendering.options import AutomaticWind, Timing, Watch
+    from ..rendering.options import AutomaticWind, LayerChoice, Timing, Watch
     from ..rendering.pipeline import animate
 
     parts, presets, notes = (), None if said["preset"] == AUTO else said["preset"], list[str]()
     told: dict[str, list[str]] = {}
+    layered: PickedLayers | None = None
+    names: tuple[str, ...] = ()
     if given.picture is not None:
         with interruptible(host_check()):
             chosen = chosen_parts(node, given.picture, points, masks, said["preset"])
-        parts, told = chosen.masks, chosen.told
+        parts, told, names = chosen.masks, chosen.told, chosen.names
         # What a document says of bodies stands above what was picked, but not above what the user has chosen for all.
         told_by_scene = bool((document or {}).get("bodies")) and said["preset"] == AUTO
         presets = None if told_by_scene else list(chosen.presets)
     elif masks is not None:
         raise InvalidInputError("masks must be left out where the picture is in layers. Got: masks")
+    else:
+        layered = _picked_layers(given.artwork, points, said["preset"], document)
+        told = tell_user(node, layered.told)
+        if not document:  # each layer says of what it is made; a document's bodies do so themselves
+            presets = None
     loop, own_rate = said["loop"] or None, "frame_rate" in (document or {})
     loops = loop is not None or "loop" in (document or {})
     timing = Timing(None if loops else said["frames"], loop=loop, frame_rate=None if own_rate else said["fps"])
@@ -122,12 +131,13 @@ def motion_of_parts(
             simulated(done, total)
 
     watch = Watch(of_stage, on_note=notes.append)
-    with _aside(contact="contact" in (document or {})):
+    with _aside(contact="contact" in (document or {})), parts_named(names):
         made = animate(
             given.subject,
             parts or None,
             scene=document,
             preset=presets,
+            layers=LayerChoice() if layered is None else LayerChoice(plans=layered.plans),
             wind=AutomaticWind(said["wind"], said["wind_angle"]),
             timing=timing,
             pixel_art=pixel_art,
@@ -137,6 +147,20 @@ def motion_of_parts(
     layers = None if source is None else MovingLayers(source, tuple(made.renderer.moving_layers))  # type: ignore[union-attr]
     told = all_told(told, tell_user(node, notes))
     return Moved(MaskedMotion(made.motion, tuple(made.masks), layers), made.renderer, told)
+
+
+def _picked_layers(artwork: Artwork, points: str, usual: str, document: dict[str, Any] | None) -> PickedLayers:
+    """What becomes of the layers.
+
+    Raises:
+        InvalidInputError: none moves.
+    """
+    from ..rendering.picked_layers import NOTHING_MOVES, picked_layers
+
+    found = picked_layers(artwork, None if is_empty(points) else points, usual=usual, document=document)
+    if not found.moving:
+        raise InvalidInputError(" ".join([NOTHING_MOVES, *found.told]))
+    return found
 
 
 @contextmanager

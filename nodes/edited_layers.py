@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..physics.errors import InvalidInputError
 from .host.wires import MaskedBody
 from .layer_lists import listed_layers, masked_bodies, tell_layers, usual_attachment
+from .preview.layers import drawn_layers
 
 if TYPE_CHECKING:
     from ..physics.document import LayerMasks
@@ -62,18 +63,7 @@ class EditedLayers:
 
     def told(self) -> dict[str, Any]:
         """What the page is told: the layers from front to back, and what to draw from back to front."""
-        from ..physics.motion import layer_order
-
-        order = [self._moving[number] for number in layer_order([item.body for item in self.bodies])]
-        drawn = [
-            {
-                "layer": each.layer,
-                "body": order.index(each.layer) if each.layer in order else None,
-                "box": list(each.box),
-                "blend": each.blend,
-            }
-            for each in self.pictures
-        ]
+        drawn = drawn_layers(self.pictures, self._moving, [item.body for item in self.bodies])
         return {"layers": listed_layers(self._plans, self._before, self._held, self._moving), "drawn": drawn}
 
     def held_unless_said(self, document: Mapping[str, Any]) -> list[MaskedBody]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
@@ -14,6 +14,9 @@ from ..physics.scene import Contact, Scene, check_scene_rate
 from ..physics.simulation import loop_frames
 from .drawing_checks import check_count
 from .stages import StageProgress
+
+if TYPE_CHECKING:
+    from .artwork import LayerPlan
 
 __all__ = [
     "DEFAULT_FRAMES",
@@ -107,10 +110,12 @@ class LayerChoice:
     Attributes:
         move: names of layers that move.
         still: names of layers that stand still.
+        plans: what becomes of every layer, in the order that the scene says, instead of what follows from their names.
     """
 
     move: Sequence[str] = ()
     still: Sequence[str] = ()
+    plans: Sequence[LayerPlan] | None = None
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from ..physics.document import parse_points
 from ..physics.material import PRESETS
 from .segmentation import Prompt, judge_cuts, prompts_of
 
-__all__ = ["AUTO", "PickedParts", "picked_parts", "presets_of"]
+__all__ = ["AUTO", "PickedParts", "picked_parts", "presets_in", "presets_of"]
 
 AUTO = "auto"
 """Stands for the preset that suits a part: what a layer's name says, or hair."""
@@ -37,16 +37,12 @@ class PickedParts:
     presets: tuple[str | None, ...]
 
     def judged(self, masks: Sequence[NDArray[np.bool_]]) -> list[str]:
-        """What is suspicious about the masks that were cut: sentences, with the part counted from 1 if there are more.
+        """What is suspicious about the masks that were cut: sentences, with the part's name if there are more.
 
         Args:
             masks: one for each part, shape [h, w] each.
         """
-        told = []
-        for number, mask, prompt in zip(self.numbers, masks, self.prompts, strict=True):
-            part = f"Part {number + 1}: " if len(masks) > 1 else ""
-            told += [part + each for each in judge_cuts([mask], [prompt])]
-        return told
+        return judge_cuts(masks, self.prompts)
 
 
 def picked_parts(points: str | Mapping[str, Any], *, width: int, height: int, boxes: Sequence[Box] = ()) -> PickedParts:
@@ -78,7 +74,7 @@ def picked_parts(points: str | Mapping[str, Any], *, width: int, height: int, bo
     found = parse_points(points, width=width, height=height) if given else []
     prompts = prompts_of(found, boxes)
     numbers = tuple(sorted({point.part for point in found} | set(range(len(boxes)))))
-    said = _presets_in(points)
+    said = presets_in(points)
     return PickedParts(tuple(prompts), numbers, tuple(said.get(number) for number in numbers))
 
 
@@ -92,8 +88,8 @@ def presets_of(own: Sequence[str | None], usual: str) -> list[str]:
     return [name or ("hair" if usual == AUTO else usual) for name in own]
 
 
-def _presets_in(points: str | Mapping[str, Any]) -> dict[int, str]:
-    """What a document says that its parts are made of, by their numbers."""
+def presets_in(points: str | Mapping[str, Any]) -> dict[int, str]:
+    """What a document says that its parts are made of: names of presets by the parts' numbers."""
     if isinstance(points, str):
         try:
             points = json.loads(points)

@@ -147,7 +147,8 @@ def animate(
             watch.progress("mesh", 0, 1)
         with timed(seconds, "mesh"):
             said = None if isinstance(scene, Scene) else scene
-            parts = parts_of_artwork(image, move=layers.move, still=layers.still, spacing=spacing, document=said)
+            chosen: dict[str, Any] = {"move": layers.move, "still": layers.still, "plans": layers.plans}
+            parts = parts_of_artwork(image, spacing=spacing, document=said, **chosen)
             if watch.progress is not None:
                 watch.progress("mesh", 1, 1)
     else:

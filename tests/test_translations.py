@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -20,6 +21,7 @@ from translations import (
     texts_in,
 )
 
+HELP = WORDS.parent / "docs"
 SCRIPTS_OF = {
     "ja": "\u3040-\u30ff\u4e00-\u9fff",
     "ko": "\uac00-\ud7a3",
@@ -112,3 +114,29 @@ def test_what_the_page_shows_is_said() -> None:
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             assert not shown.search(line) or path.name == NOT_SHOWN, f"{path.name}:{number}: {line.strip()}"
             assert not odd.search(line), f"{path.name}:{number}: {line.strip()}"
+
+
+def _alike(page: str, node_id: str) -> tuple[list[str], set[str], set[str]]:
+    """What a help page has in every language: depths of headings, names of inputs and outputs, pictures and code."""
+    described = schemas()[node_id]
+    own = {*described["input"].get("required", {}), *described["input"].get("optional", {}), *described["output_name"]}
+    depths = [line.split(" ")[0] for line in page.splitlines() if line.startswith("#")]
+    kept = re.findall(r"\]\(([^)]+)\)|`([^`\n]+)`", page)
+    return depths, own & set(re.findall(r"^\| (\w+) \|", page, re.MULTILINE)), {"".join(each) for each in kept}
+
+
+@pytest.mark.parametrize("path", sorted(HELP.glob("*/*.md")), ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_a_translated_help_page_has_all_that_the_english_one_has(path: Path) -> None:
+    translated = path.read_text(encoding="utf-8")
+    node_id = path.parent.name
+    assert _alike(translated, node_id) == _alike((HELP / f"{node_id}.md").read_text(encoding="utf-8"), node_id)
+    titles = json.loads((LOCALES / path.stem / "nodeDefs.json").read_text(encoding="utf-8"))
+    assert translated.splitlines()[0] == f"# {titles[node_id]['display_name']}"
+
+
+def test_help_that_is_translated_is_so_in_each_language_that_has_any() -> None:
+    pages = {(path.parent.name, path.stem) for path in HELP.glob("*/*.md")}
+    nodes, languages = ({each[place] for each in pages} for place in (0, 1))
+    assert {"PhysAnimator_AnimateIllustration", "PhysAnimator_SceneEditor"} <= nodes
+    assert languages == set(LANGUAGES)
+    assert pages == {(node, language) for node in nodes for language in languages}

@@ -25,6 +25,7 @@ from .tensors import (
     pictures_for,
     pictures_of,
 )
+from .wording import parts_named, with_known_places
 
 __all__ = [
     "FILE_TYPES",
@@ -57,6 +58,7 @@ __all__ = [
     "mask_of",
     "not_made",
     "numbers_of",
+    "parts_named",
     "picture_batch",
     "picture_of",
     "picture_with_alpha",
@@ -73,4 +75,5 @@ __all__ = [
     "watch_prompts",
     "watched_sampling",
     "whole_numbers_of",
+    "with_known_places",
 ]

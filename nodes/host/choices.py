@@ -16,6 +16,7 @@ from ...physics.errors import InvalidInputError
 from .literals import refusal
 from .one_line import Check, OneLine
 from .running import sent_inputs
+from .wording import placed_errors
 
 __all__ = ["OPEN", "check_choices", "check_values", "checked"]
 
@@ -123,9 +124,10 @@ def _checking_execution(inner: Callable[..., Any]) -> Callable[..., Any]:
     @wraps(inner)
     def execute(cls: Any, **values: Any) -> Any:
         described, sent = cls.INPUT_TYPES(), sent_inputs()
-        check_choices(described, values, sent)
-        check_values(described, values, sent)  # the host's own bounds let NaN pass
-        return inner(cls, **values)
+        with placed_errors():
+            check_choices(described, values, sent)
+            check_values(described, values, sent)  # the host's own bounds let NaN pass
+            return inner(cls, **values)
 
     return execute
 

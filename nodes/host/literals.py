@@ -7,6 +7,7 @@ from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
 from ...physics.errors import InvalidInputError, PhysAnimatorError, require
+from .wording import with_known_places
 
 __all__ = ["PATH_FORMS", "boxes_of", "chosen", "keys_of", "numbers_of", "refusal", "times_of", "whole_numbers_of"]
 
@@ -24,7 +25,7 @@ def refusal(*checks: Callable[[], Any]) -> bool | str:
         try:
             check()
         except PhysAnimatorError as error:
-            return str(error)
+            return with_known_places(str(error))
     return True
 
 

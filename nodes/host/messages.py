@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from .running import context, server
+from .wording import in_users_words
 
 __all__ = ["EVENT", "all_told", "hint_of_pixel_art", "send_to_page", "shown_with", "tell_user"]
 
@@ -27,7 +28,7 @@ def tell_user(node: Any, sentences: Iterable[str]) -> dict[str, list[str]]:
         What belongs into the node's ``ui``, so that the history has the sentences for programs that queue prompts:
         see :func:`shown_with`, or ``io.NodeOutput(..., ui=told or None)``. Empty without sentences.
     """
-    told = list(dict.fromkeys(sentences))
+    told = list(dict.fromkeys(map(in_users_words, sentences)))
     if not told:
         return {}
     title = node.define_schema().display_name  # GET_SCHEMA would write to the class, which is locked by now

@@ -9,6 +9,7 @@ from collections.abc import Awaitable, Callable
 from aiohttp import web
 
 from ...physics.errors import PhysAnimatorError
+from ..host import with_known_places
 from .hosts import HOSTS_VARIABLE, Authority, authority_of, is_own_name, origin_of, told_origin
 from .limits import MAX_REQUEST_BYTES
 
@@ -56,7 +57,7 @@ async def _answered(handler: Handler, request: web.Request) -> web.StreamRespons
     try:
         return await handler(request)
     except PhysAnimatorError as error:
-        return refused(422, str(error))
+        return refused(422, with_known_places(str(error)))
     except UnreadableBody:
         return await hung_up(request, refused(400, UNREADABLE))
     except web.HTTPException:  # says itself what is wrong

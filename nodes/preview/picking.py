@@ -10,7 +10,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,11 +19,18 @@ from ...physics.checks import is_whole, within
 from ...physics.document import scene_to_dict
 from ...physics.errors import require
 from ...physics.mesh import runs_of
+from ...rendering.picked_parts import AUTO
 from ..host import boxes_of
 from ..host.pictures import as_load_image, picture_place, require_small
+from .layers import artwork_to_pick, cuts_of_layers, layered_place, moving_of_layers
 from .limits import MAX_EDITOR_NAME, MAX_FRAMES, MAX_PICKED_PIXELS, MAX_PICKED_POINTS, MAX_PICKED_SIZE
 from .requests import read_bounded
 from .store import PreviewBodies, PreviewStore
+
+if TYPE_CHECKING:
+    from ...rendering.artwork import Artwork
+    from ...rendering.movement import Movement
+    from ...rendering.picked_parts import PickedParts
 
 __all__ = ["PickRequest", "Picker", "read_pick"]
 
@@ -109,7 +116,7 @@ class Picker:
             example: the illustration that stands for no file.
         """
         self._store, self._example = store, example
-        self._pictures, self._cuts, self._parts = _Kept(2), _Kept(4), _Kept(2)
+        self._pictures, self._cuts, self._parts, self._artworks = _Kept(2), _Kept(4), _Kept(2), _Kept(1)
 
     def answer(self, wanted: PickRequest) -> dict[str, Any]:
         """What the page gets: the size of the picture, a mask for each part, and what moves them where that is asked.
@@ -120,11 +127,19 @@ class Picker:
         from ...rendering.picked_parts import picked_parts
         from ...rendering.pictures import as_uint8, over
 
-        place = self._example if wanted.picture is None else picture_place(wanted.picture)
-        stamp = place.stat()
-        of_file = (str(place), stamp.st_mtime_ns, stamp.st_size, wanted.alpha)
-        picture = self._pictures.get(of_file, lambda: _read(place, wanted.alpha))
+        layered = None if wanted.picture is None else layered_place(wanted.picture)
+        if layered is not None:
+            of_file = _stamp(layered)
+            picture = self._artworks.get(of_file, lambda: artwork_to_pick(layered))
+            if not isinstance(picture, np.ndarray):
+                return self._answer_of_layers(picture, of_file, wanted)
+        else:
+            place = self._example if wanted.picture is None else picture_place(wanted.picture)
+            of_file = (*_stamp(place), wanted.alpha)
+            picture = self._pictures.get(of_file, lambda: _read(place, wanted.alpha))
         height, width = picture.shape[:2]
+        if layered is not None and not wanted.points.get("query_points"):
+            return {"width": width, "height": height, "cuts": [], "advice": []}  # that nothing is layered is an answer
         picked = picked_parts(
             wanted.points, width=width, height=height, boxes=boxes_of(wanted.cleaning.get("box", ""), name="box")
         )
@@ -142,7 +157,25 @@ class Picker:
         made: dict[str, Any] = {"width": width, "height": height, "cuts": _told(masks, picked.numbers)}
         made["advice"] = picked.judged(masks)
         if wanted.move is not None:
-            made |= self._moving(picture, masks, (of_file, asked), picked.presets, wanted.move)
+            made |= self._moving(picture, masks, (of_file, asked), picked, wanted.move)
+        return made
+
+    def _answer_of_layers(self, artwork: Artwork, of_file: Hashable, wanted: PickRequest) -> dict[str, Any]:
+        """The same for a picture in layers, of which those are cut out that move by their names or were picked."""
+        from ...rendering.parts import parts_of_artwork
+        from ...rendering.picked_layers import picked_layers
+
+        move = wanted.move or {"preset": AUTO}
+        points = wanted.points if wanted.points.get("query_points") else None
+        picked = picked_layers(artwork, points, usual=move["preset"])
+        shown = tuple((plan.name, plan.moves, plan.shown) for plan in picked.plans)
+        made: dict[str, Any] = {"width": artwork.width, "height": artwork.height}
+        made["cuts"] = self._cuts.get((of_file, shown, repr(picked.parts)), lambda: cuts_of_layers(artwork, picked))
+        made["advice"] = list(picked.told)
+        if wanted.move is not None and picked.moving:
+            parts = self._parts.get((of_file, shown), lambda: parts_of_artwork(artwork, plans=picked.plans))
+            made["advice"] += parts.notes
+            made |= moving_of_layers(artwork, parts, picked, _movement(None, move), int(move["frames"]), self._store)
         return made
 
     def _moving(
@@ -150,29 +183,37 @@ class Picker:
         picture: NDArray[np.uint8],
         masks: Sequence[Mask],
         key: Hashable,
-        presets: Sequence[str | None],
+        picked: PickedParts,
         move: dict[str, Any],
     ) -> dict[str, Any]:
         """The bodies' key, and the scene that the node Animate Illustration makes for them."""
-        from ...rendering.movement import Movement
-        from ...rendering.options import AutomaticWind, Timing
         from ...rendering.parts import parts_of_picture
         from ...rendering.picked_parts import presets_of
 
         covered = [mask.astype(np.float32) for mask in masks]
-        names = [f"part {number + 1}" for number in range(len(masks))]
+        names = [f"Part {number + 1}" for number in picked.numbers]
         common: dict[str, Any] = {"spacing": None, "plate": None, "in_front": None, "pixel_art": False}
         parts = self._parts.get(key, lambda: parts_of_picture(picture, covered, names, **common))
-        how = Movement(
-            presets_of(presets, move["preset"]),
-            wind=AutomaticWind(move["wind"], move["wind_angle"]),
-            timing=Timing(loop=move["loop"] or None, frame_rate=move["fps"]),
-        )
-        _, scene = how.staged(parts)
+        _, scene = _movement(presets_of(picked.presets, move["preset"]), move).staged(parts)
         hole = np.logical_or.reduce(masks).astype(np.uint8) * np.uint8(255)
         stored = self._store.put(PreviewBodies(scene.bodies, picture, hole))
         document = scene_to_dict(scene, meshes=False)
         return {"key": stored, "scene": document, "frames": min(int(move["frames"]), MAX_FRAMES)}
+
+
+def _movement(presets: Sequence[str] | None, move: dict[str, Any]) -> Movement:
+    """How parts move, as the node Animate Illustration has it."""
+    from ...rendering.movement import Movement
+    from ...rendering.options import AutomaticWind, Timing
+
+    timing = Timing(loop=move["loop"] or None, frame_rate=move["fps"])
+    return Movement(presets, wind=AutomaticWind(move["wind"], move["wind_angle"]), timing=timing)
+
+
+def _stamp(place: Path) -> tuple[Any, ...]:
+    """What is another for another file, or for another content of the same."""
+    files = sorted(place.iterdir()) if place.is_dir() else [place]
+    return str(place), *((file.name, file.stat().st_mtime_ns, file.stat().st_size) for file in files)
 
 
 class _Kept:

@@ -1,8 +1,9 @@
 """Where a body is held: pinned regions, one or several for each connected part, found from its shape.
 
 A part hangs from its top unless something says otherwise: it reaches a border of the picture through a narrow neck and
-continues outside it (a plant's stalk), somebody names a side, or a layer's name says how such things are worn. Outlines
-run around every part of a drawing, so the colours along the contour say nothing about where a part is fixed.
+continues outside it (a plant's stalk), hair is blown aside, somebody names a side, or a layer's name says how such
+things are worn. Outlines run around every part of a drawing, so the colours along the contour say nothing about where a
+part is fixed.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from ..errors import require
 from ..rig import Pinned, Polygon, RigPoint
 from .held_outline import hull_around, outlines_around
 from .part_raster import PartRaster
-from .roots import covered_root, crown, end_in_contact, head
+from .roots import blown_from, covered_root, crown, end_in_contact, head
 from .scene import Body, Scene
 from .sides import ATTACHMENTS, Attachment, Held
 
@@ -89,7 +90,8 @@ def _held_regions(body: Body, chosen: BoolArray, attach: Attachment) -> list[tup
     mesh, part = body.mesh, body.mesh.vertices[chosen]
     if attach == "auto":
         attach = attachment_of(part, mesh.width, mesh.height)
-        attach = "head" if attach == "top" and body.material.name == "hair" else attach
+        if attach == "top" and body.material.name == "hair":
+            attach = blown_from(PartRaster.of(body, chosen)) or "head"
     if attach in _FOUND:
         held = np.zeros(len(chosen), dtype=bool)
         raster = PartRaster.of(body, chosen)

@@ -5,19 +5,22 @@ All work on a part in cells, so that they see the same whatever the mesh and the
 
 from __future__ import annotations
 
+from typing import Literal
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from .part_raster import PartRaster
 
-__all__ = ["covered_root", "crown", "end_in_contact", "head", "on_face"]
+__all__ = ["blown_from", "covered_root", "crown", "end_in_contact", "head", "on_face"]
 
 BoolArray = NDArray[np.bool_]
 
 _SPIKE = 0.15  # rows on top narrower than this share of the widest are a spike, such as a cowlick
 # Hair of which a head would be more than this share is blown aside or cut short, and is held by a share of its height.
 _LARGEST_HEAD, _SHORT = 0.5, 0.22
+_ROUND = 0.8  # likeness of the top of hair to that of a disc from which on it lies on a head
 _FOREHEAD = 0.6  # where hair leaves the forehead, in radii of the head from its top
 _TO_CHIN, _FAR_BELOW = 2.5, 4.0  # hair that ends at the chin, and such that most of it hangs below [radii of the head]
 _MOST = 0.5  # of hair before a face: share of its height that is held at most
@@ -27,6 +30,9 @@ _TOP = 0.25  # share of a part's extent that counts as its top
 _TOUCHING = 0.5  # share of the top that has to touch something for the part to hang from it
 _DEEP = 0.35  # what is held of a contact: from this share of its depth on
 _THICK = 2.0  # a knot is so many times as thick as what hangs from it, usually
+# What is thick lies so far aside in hair that is blown, as a share of its width, and so many times as far as up.
+_ASIDE, _RATHER = 0.02, 1.5
+_TRIED = 65  # places of a disc along a row
 _SCATTERED = 0.05  # contact below this share of a part is none
 
 
@@ -34,6 +40,22 @@ def head(part: PartRaster) -> BoolArray:
     """What of hair lies on the head: all above the middle of the head, which hair frames."""
     (top, radius), rows = _head(part.inside), len(part.inside)
     return _down_to(part, top + (radius if radius <= _LARGEST_HEAD * rows else _SHORT * rows))
+
+
+def blown_from(part: PartRaster) -> Literal["left", "right"] | None:
+    """The side from which hair is blown that lies on no head: the thicker one; None where it hangs or lies on a head.
+
+    Hair on a head is round on top, however its strands lie; a bundle of strands that is wider than tall is not, and its
+    strands grow thinner from one side to the other rather than from its top down.
+    """
+    inside = part.inside
+    if inside.shape[1] <= inside.shape[0] or _roundness(inside) >= _ROUND:
+        return None
+    room = cv2.distanceTransform(np.pad(inside, 1).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)[1:-1, 1:-1]
+    aside, down = (_lean(room.sum(axis=axis), inside.sum(axis=axis)) for axis in (0, 1))
+    if abs(aside) < max(_ASIDE * inside.shape[1], _RATHER * abs(down)):
+        return None
+    return "left" if aside < 0 else "right"
 
 
 def crown(part: PartRaster) -> BoolArray:
@@ -107,6 +129,35 @@ def _head(shape: BoolArray) -> tuple[int, int]:
     depths = np.arange(1, len(widths) - top + 1)
     narrow = widths[top:] <= 2 * depths
     return top, int(depths[narrow.argmax()] if narrow.any() else depths[-1])
+
+
+def _lean(room: NDArray[np.floating], amount: NDArray[np.integer]) -> float:
+    """How far the middle of what is thick lies beside the middle of all along an axis [cells].
+
+    Args:
+        room: distances to the outline, summed up for each place of the axis.
+        amount: cells at each place.
+    """
+    places = np.arange(len(amount))
+    return float(np.average(places, weights=room) - np.average(places, weights=amount))
+
+
+def _roundness(shape: BoolArray) -> float:
+    """How alike the part of a shape above the middle of its head and the upper half of a disc are: their common share.
+
+    Of the shape all counts that lies between the ends of a row; the disc is where it suits best.
+    """
+    top, radius = _head(shape)
+    rows = shape[top : top + radius + 1]
+    columns = np.arange(shape.shape[1])[None]
+    span = np.logical_or.accumulate(rows, axis=1) & np.logical_or.accumulate(rows[:, ::-1], axis=1)[:, ::-1]
+    depths = np.arange(len(rows))[:, None]
+    half = np.sqrt(np.maximum(depths * (2 * radius - depths), 0))
+    shares = []
+    for middle in np.linspace(0, shape.shape[1], _TRIED):
+        disc = np.abs(columns - middle) <= half
+        shares.append((span & disc).sum() / (span | disc).sum())
+    return float(max(shares))
 
 
 def _without_scatter(contact: BoolArray, inside: BoolArray) -> BoolArray:

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 from ...physics.errors import InvalidInputError, SceneError
 
-__all__ = ["named_as", "named_by_options", "option_of"]
+__all__ = ["named_as", "named_by_options", "option_of", "parts_in_options"]
 
 _OPTIONS = {
     "every": "--interpolate",
@@ -43,6 +43,8 @@ _OPTIONS["keyframes"] = "--keyframes-at"
 _LISTS = {"masks": ("mask", "--mask"), "colliders": ("collider", "--collider"), "points": ("points", "--points")}
 
 _ITEM = re.compile(r"(masks|colliders|points)\[(\d+)\](?=:| must)")
+_POINT = re.compile(r"points(\[\d+\])? must ")  # one of the points of a file, not one of the files
+_BODY = re.compile(r"bodies\[(\d+)\]")
 _FILE = re.compile(rf"({'|'.join(_FILES)}|inpainting_options)(?=: )")
 _HEAD = re.compile(r"(?P<before>|.*?: )(?P<name>[a-z_]+)(?= must )", re.DOTALL)
 _REMEDIES = (
@@ -94,13 +96,13 @@ def named_by_options(options: argparse.Namespace) -> Iterator[None]:
 def _in_options(text: str, options: argparse.Namespace) -> str:
     if found := _FILE.match(text):
         text = option_of(found[1]) + text[found.end() :]
+    elif _POINT.match(text) and len(clicked := _given(options, "points")) == 1:
+        text = f"--points {clicked[0]}: {text}"
     elif found := _ITEM.match(text):
         attribute, option = _LISTS[found[1]]
         given = _given(options, attribute)
         if int(found[2]) < len(given):
             text = f"{option} {given[int(found[2])]}{text[found.end() :]}"
-    elif text.startswith("points must ") and len(clicked := _given(options, "points")) == 1:
-        text = f"--points {clicked[0]}: {text}"
     elif text.startswith("mask must ") and len(parts := _parts(options)) == 1:
         text = f"{parts[0]}: {text}"
     elif text.startswith("masks must "):
@@ -112,6 +114,14 @@ def _in_options(text: str, options: argparse.Namespace) -> str:
         if hasattr(options, attribute) and not (attribute == "sway" and options.scene and options.sway is None):
             text = pattern.sub(replacement, text)
     return text
+
+
+def parts_in_options(text: str, options: argparse.Namespace) -> str:
+    """A sentence about a body, with the option that its part was given by in the body's place."""
+    parts, found = _parts(options), _BODY.match(text)
+    if found is None or int(found[1]) >= len(parts):
+        return text
+    return parts[int(found[1])] + text[found.end() :]
 
 
 def _parts(options: argparse.Namespace) -> list[str]:

@@ -21,6 +21,7 @@ def watch_of(options: argparse.Namespace, progress: StageProgress, points: Seque
     from ..options import Watch
     from ..segmentation import judge_points
     from .messages import warn
+    from .names import parts_in_options
     from .networks import check_keyframes
 
     def tell(sentences: Sequence[str]) -> None:
@@ -29,11 +30,13 @@ def watch_of(options: argparse.Namespace, progress: StageProgress, points: Seque
 
     def on_scene(scene: Scene) -> None:
         check_keyframes(options, scene)
-        tell(advice(scene, masks=not getattr(options, "mask", None)))
+        tell([parts_in_options(each, options) for each in advice(scene, masks=not getattr(options, "mask", None))])
 
     return Watch(
         progress=progress,
-        on_cut=lambda cut: tell(judge_points(cut, points)),
+        on_cut=lambda cut: tell(
+            judge_points(cut, points, [f"--points {path}" for path in getattr(options, "points", None) or ()])
+        ),
         on_scene=on_scene,
         on_note=lambda sentence: tell([sentence]),
     )

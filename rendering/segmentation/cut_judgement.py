@@ -59,29 +59,30 @@ def judge_cuts(masks: Sequence[Mask], prompts: Sequence[Prompt], *, instead: str
         instead: what else cuts, named where anything is suspicious: a sentence.
 
     Returns:
-        Sentences, with the number of the part where there are several.
+        Sentences, with the part's name where there are several, or else its number, counted from 1.
     """
     told = []
     for number, (mask, prompt) in enumerate(zip(masks, prompts, strict=True)):
-        part = f"Part {number}: " if len(masks) > 1 else ""
+        part = f"{prompt.name or f'Part {number + 1}'}: " if len(masks) > 1 else ""
         told += [part + each for each in judge_cut(mask, prompt.points, prompt.labels, box=prompt.box)]
     return [*told, instead] if told and instead else told
 
 
-def judge_points(masks: Sequence[Mask], points: Sequence[Any]) -> list[str]:
+def judge_points(masks: Sequence[Mask], points: Sequence[Any], names: Sequence[str] = ()) -> list[str]:
     """What is suspicious about masks that were cut each from points as they are read.
 
     Args:
         masks: shape [h, w] each.
         points: for each mask what ``parse_points`` reads.
+        names: what sentences call the masks; their numbers, counted from 1, if left out.
 
     Returns:
-        Sentences, with the number of the mask where there are several.
+        Sentences, with the mask's name where there are several.
     """
     prompts = []
-    for mask, given in zip(masks, points, strict=True):
+    for mask, given, name in zip(masks, points, names or [""] * len(masks), strict=True):
         clicked = parse_points(given, width=mask.shape[1], height=mask.shape[0])
-        prompts.append(Prompt([(each.x, each.y) for each in clicked], [each.positive for each in clicked]))
+        prompts.append(Prompt([(each.x, each.y) for each in clicked], [each.positive for each in clicked], None, name))
     return judge_cuts(masks, prompts)
 
 

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.errors import InvalidInputError
 from ...physics.interruption import checkpoint
 from .grabcut import segment
 from .mask_cleanup import clean_mask
@@ -67,6 +68,7 @@ def segment_parts(
 
 
 def _cut(image: NDArray[np.uint8], prompts: Sequence[Prompt]) -> list[Mask]:
+    _check_apart(prompts)
     masks = []
     for number, prompt in enumerate(prompts):
         checkpoint()
@@ -74,8 +76,21 @@ def _cut(image: NDArray[np.uint8], prompts: Sequence[Prompt]) -> list[Mask]:
         beside = np.concatenate([np.zeros((0, 2)), *others])
         points = np.concatenate([np.reshape(prompt.points, (-1, 2)), beside])
         labels = np.concatenate([np.reshape(prompt.labels, -1), np.zeros(len(beside))])
-        masks.append(segment(image, points, labels, box=prompt.box))
+        try:
+            masks.append(segment(image, points, labels, box=prompt.box))
+        except InvalidInputError as error:
+            raise InvalidInputError(f"{prompt.name}: {error}" if prompt.name else str(error)) from error
     return masks
+
+
+def _check_apart(prompts: Sequence[Prompt]) -> None:
+    """Refuse parts that have points at one pixel: it cannot belong to both."""
+    seen: dict[tuple[int, int], str] = {}
+    for number, prompt in enumerate(prompts, 1):
+        name = prompt.name or f"Part {number}"
+        for place in {(int(x), int(y)) for x, y in _on(prompt)}:
+            if seen.setdefault(place, name) != name:
+                raise InvalidInputError(f"{seen[place]} and {name} must not be at the same pixel. Got: both at {place}")
 
 
 def _on(prompt: Prompt) -> NDArray[np.float64]:

@@ -26,11 +26,13 @@ class Prompt:
         points: x and y [px], shape [k, 2]; may be empty if there is a box.
         labels: 1 for a point on the object, 0 for one beside it, shape [k].
         box: x0, y0, x1, y1 [px] around the object.
+        name: what sentences call the object; empty where there is only one.
     """
 
     points: ArrayLike = field(default_factory=lambda: np.zeros((0, 2)))
     labels: ArrayLike = ()
     box: Box | None = None
+    name: str = ""
 
 
 def require_object(positive: NDArray[np.bool_], box: Box | None) -> None:
@@ -109,5 +111,6 @@ def prompts_of(points: Sequence[QueryPoint], boxes: Sequence[Box] = ()) -> list[
     for part in parts:
         own = [point for point in points if point.part == part]
         box = boxes[part] if part < len(boxes) else None
-        prompts.append(Prompt([(each.x, each.y) for each in own], [each.positive for each in own], box))
+        name = f"Part {part + 1}" if len(parts) > 1 else ""
+        prompts.append(Prompt([(each.x, each.y) for each in own], [each.positive for each in own], box, name))
     return prompts

@@ -8,7 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from blueprints import blueprint
 from editor_page import CANVASES, EditorPage
+from layered_files import bust, write_ora
 
 ILLUSTRATION = Path(__file__).resolve().parents[2] / "workflows" / "example" / "illustration.png"
 HAIR, CAPE = (700, 300), (680, 540)
@@ -24,6 +26,12 @@ _DROP = """
   for (const kind of ['dragover', 'drop']) {
     keys.dispatchEvent(new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true }));
   }
+}
+"""
+_LOAD = """
+async (workflow) => {
+  await app.loadGraphData(JSON.parse(workflow), true, true);
+  await new Promise((done) => setTimeout(done, 500));
 }
 """
 _ADD = """
@@ -58,6 +66,13 @@ class Hand:
 
 def value_of(editor: EditorPage, name: str) -> Any:
     return editor.ask(f"node.widgets.find((one) => one.name === '{name}').value")
+
+
+def failure(host: Any, prompt: dict[str, Any]) -> str:
+    """The sentence with which a node fails that has begun."""
+    entry = host.wait(host.queue(prompt))
+    (message,) = [each[1] for each in entry["status"]["messages"] if each[0] == "execution_error"]
+    return str(message["exception_message"])
 
 
 def opened(page: Any, canvas: str) -> EditorPage:
@@ -237,4 +252,88 @@ def test_a_picture_that_nodes_make_can_be_clicked_on_once_a_preview_shows_it(pag
     editor.wait("editor.backdrop.picture?.naturalWidth === 512")
     editor.click(200, 200)
     editor.wait("editor.picking.cuts !== null || editor.notes.shown.has('pick')")
+    assert page.problems == []
+
+
+def test_of_a_layered_file_whose_names_say_nothing_the_clicked_layer_moves(host: Any, page: Any, canvas: str) -> None:
+    drawn = [(f"Layer {number}", pixels) for number, (_, pixels) in enumerate(bust())]
+    write_ora(host.folder / "input" / "nameless.ora", drawn)
+    editor = opened(page, canvas)
+    page.run(
+        "(id) => { const node = app.graph.getNodeById(id), widget = node.widgets.find((one) => one.name === 'picture');"
+        " widget.value = 'nameless.ora'; widget.callback?.(widget.value); node.physanimatorEditor.look(); }",
+        editor.node,
+    )
+    editor.wait("editor.backdrop.picture?.src.includes('nameless') && editor.picking.named === 0")
+    told = editor.selector('[data-note="empty"]')
+    assert told.inner_text() == "No layer moves by its name: click on what shall move."
+    editor.click(80, 24)
+    editor.wait("editor.picking.cuts?.length === 1 && editor.live.measured.largest > 0.5")
+    assert editor.ask("editor.live.player.layers.filter((one) => one.body !== null).map((one) => one.layer)") == [3]
+    page.page.keyboard.down("Shift")
+    editor.click(55, 70)
+    page.page.keyboard.up("Shift")
+    editor.wait("editor.picking.cuts?.length === 2 && editor.live.measured.largest > 0.5")
+    editor.selector('[data-preset="1"]').select_option("cloth")
+    editor.wait("editor.live.measured.drawn > 0")
+    editor.ask("node.widgets.find((one) => one.name === 'frames').value = 6")
+    prompt = json.loads(page.run("async () => JSON.stringify((await app.graphToPrompt()).output)"))
+    assert host.run(prompt)[str(editor.node)]["images"]
+    prompt[str(editor.node)]["inputs"]["points"] = ""
+    assert "click on what shall move" in failure(host, prompt)
+    assert page.problems == []
+
+
+@pytest.mark.parametrize("down", [420, 700])
+def test_the_play_bar_is_in_sight_however_narrow_the_node(page: Any, canvas: str, down: int) -> None:
+    editor = opened(page, canvas)
+    editor.click(*HAIR)
+    page.page.keyboard.down("Shift")
+    editor.click(*CAPE)
+    page.page.keyboard.up("Shift")
+    editor.wait("editor.picking.cuts?.length === 2 && editor.live.measured.drawn > 0")
+    editor.ask(f"(node.setSize([250, {down}]), app.canvas.setDirty(true, true), 0)")
+    page.page.wait_for_timeout(600)
+    gap = "editor.frame.getBoundingClientRect().bottom - {}.getBoundingClientRect().bottom"
+    bar = "editor.timeline.root.querySelector('.physanimator-bar')"
+    assert editor.ask(gap.format(bar)) >= 0, "nothing has to be scrolled"
+    middle = (
+        f"(({{ x, y, width, height }}) => [x + width / 2, y + height / 2])({bar}.firstChild.getBoundingClientRect())"
+    )
+    there = f"document.elementFromPoint(...{middle})?.closest('button')?.dataset.action"
+    assert editor.ask(there) == "play", "nothing lies over it"
+    assert page.problems == []
+
+
+def test_a_picker_without_a_picture_says_how_to_get_one(page: Any, canvas: str) -> None:
+    page.problems.clear()
+    EditorPage.choose_canvas(page, canvas)
+    page.run(_LOAD, json.dumps(blueprint()))
+    segment = page.run(
+        "() => { const { subgraph } = app.graph.nodes.find((node) => node.subgraph); app.canvas.setGraph(subgraph);"
+        " return subgraph.nodes.find((node) => node.type === 'PhysAnimator_SegmentByPoints').id; }"
+    )
+    editor = EditorPage(page, segment)
+    editor.look(scale=1.0)
+    note = '[data-note="empty"]'
+    told = editor.selector(note).inner_text()
+    assert told.startswith("Connect a picture, such as that of Load Image, to the node of this subgraph")
+    page.run("() => app.canvas.setGraph(app.graph)")
+    holder = page.run("() => app.graph.nodes.find((node) => node.subgraph).id")
+    page.run(
+        "(id) => app.graph.getNodeById(id).subgraph && app.graph.unpackSubgraph(app.graph.getNodeById(id))", holder
+    )
+    alone = page.run("() => app.graph.nodes.find((node) => node.type === 'PhysAnimator_SegmentByPoints').id")
+    editor = EditorPage(page, alone)
+    editor.look(*page.run("(id) => [...app.graph.getNodeById(id).pos]", alone), scale=1.0)
+    assert editor.selector(note).inner_text().startswith("Connect a picture, such as that of Load Image, to image:")
+    made = page.run(_ADD, ["EmptyImage", -1300, 0])
+    page.run(
+        "([from, to]) => { const [a, b] = [from, to].map((id) => app.graph.getNodeById(id));"
+        " a.connect(0, b, b.inputs.findIndex((slot) => slot.name === 'image')); }",
+        [made, alone],
+    )
+    editor.wait("editor.notes.shown.has('empty')")
+    page.page.wait_for_timeout(700)
+    assert "connect a Preview Image beside this node" in editor.selector(note).inner_text()
     assert page.problems == []

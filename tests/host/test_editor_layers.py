@@ -236,12 +236,14 @@ def looked_at(editor: EditorPage) -> np.ndarray:
 
 
 def difference(editor: EditorPage, seen: np.ndarray, box: tuple[int, int, int, int]) -> float:
-    """How far a part of what is seen is from the example's picture, of 255."""
+    """How far a part of what is seen is from the example's picture, of 255, at the best place within a pixel."""
     left, top, right, bottom = box
     x0, y0 = map(round, _corner(editor, left, top))
     x1, y1 = map(round, _corner(editor, right, bottom))
     expected = Image.open(_EXAMPLE).convert("RGB").crop(box).resize((x1 - x0, y1 - y0), Image.Resampling.BOX)
-    return float(np.abs(seen[y0:y1, x0:x1] - np.asarray(expected).astype(int)).mean())
+    meant, steps = np.asarray(expected).astype(int), (-1, 0, 1)
+    places = [seen[y0 + down : y1 + down, x0 + across : x1 + across] for down in steps for across in steps]
+    return min(float(np.abs(place - meant).mean()) for place in places)
 
 
 def _corner(editor: EditorPage, x: float, y: float) -> tuple[float, float]:

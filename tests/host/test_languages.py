@@ -29,6 +29,18 @@ async (type) => {
   };
 }
 """
+_OPENED = """
+async (type) => {
+  app.graph.clear();
+  const node = LiteGraph.createNode(type);
+  node.pos = [300, 300];
+  app.graph.add(node);
+  app.canvas.ds.scale = 1;
+  app.canvas.ds.offset = [0, 0];
+  app.canvas.selectNode(node);
+  app.canvas.setDirty(true, true);
+}
+"""
 _EDITOR = """
 async () => {
   const node = LiteGraph.createNode('PhysAnimator_SceneEditor');
@@ -109,4 +121,14 @@ def test_the_editor_speaks_the_language(page: Any, language: str) -> None:
     assert _word(language, "Gravity") in editor["captions"]
     assert ["vertex_force", _word(language, "vertex_force")] in editor["options"]
     assert _word(language, "Run this node") in editor["text"]
+    assert page.problems == []
+
+
+def test_help_is_shown_in_the_language(page: Any, language: str) -> None:
+    page.problems.clear()
+    text = (ROOT / "nodes" / "web" / "docs" / "PhysAnimator_Simulate" / f"{language}.md").read_text(encoding="utf-8")
+    page.run(_OPENED, "PhysAnimator_Simulate")
+    page.page.locator('[data-testid="info-button"]').first.click(timeout=10_000)
+    page.page.get_by_text(text.split("\n\n")[1].replace("\n", " ")[:20]).first.wait_for(timeout=10_000)
+    page.run("() => app.graph.clear()")  # help of what others put down is not asked for
     assert page.problems == []

@@ -20,6 +20,7 @@ ALL = {
 WORKFLOWS = [path for path, api in ALL.items() if led_by(api) is None and not for_newer_hosts(api)]
 FOR_NEWER_HOSTS = [path for path, api in ALL.items() if for_newer_hosts(api)]
 FOR_VIDEO_MODELS = [path for path, api in ALL.items() if led_by(api) is not None]
+MOVING = {"PhysAnimator_Simulate", "PhysAnimator_AnimateIllustration"}
 LOADERS = {"UNETLoader", "CLIPLoader", "VAELoader", "CLIPVisionLoader"}
 
 
@@ -35,7 +36,7 @@ def test_a_workflow_gives_a_moving_video(host: Any, path: Path) -> None:
     prompt = without_models(json.loads(path.read_text(encoding="utf-8")))
     outputs = host.run(prompt)
     (save,) = [key for key, node in prompt.items() if node["class_type"] == "SaveVideo"]
-    (count,) = {node["inputs"]["frames"] for node in prompt.values() if node["class_type"] == "PhysAnimator_Simulate"}
+    (count,) = {node["inputs"]["frames"] for node in prompt.values() if node["class_type"] in MOVING}
     frames = frames_of(host.view(outputs[save]["images"][0]))
     assert frames.shape == (count, 720, 1280, 3)
     steps = np.abs(np.diff(frames.astype(np.int16), axis=0))

@@ -46,8 +46,13 @@ test("a file that the server cannot read as a picture is not uploaded, whatever 
   assert.deepEqual(told, ["Choose a picture, or a .psd, .psb or .ora file."]);
 });
 
-test("a layered file is shown flat, and nothing is cut out of it", () => {
+test("a layered file is shown flat, and its layers can be picked, from a node that loads it as well", () => {
   const path = animatedPicture({ inputs: [], widgets: [{ name: "picture", value: "a b/girl.psd" }] }, {});
   assert.equal(path, "/physanimator/artwork?file=a+b%2Fgirl.psd");
-  assert.equal(sourceOf(path, true), null);
+  assert.deepEqual(sourceOf(path, true), { picture: "a b/girl.psd", alpha: true, layered: true });
+  const loader = { comfyClass: "PhysAnimator_LoadLayers", mode: 0, widgets: [{ name: "file", value: "girl.ora" }] };
+  const node = { inputs: [{ name: "layers", link: 1 }], isInputConnected: () => true, getInputLink: () => ({ origin_id: 7 }), graph: { getNodeById: () => loader } };
+  assert.equal(animatedPicture(node, {}), "/physanimator/artwork?file=girl.ora");
+  loader.mode = 4;
+  assert.equal(animatedPicture({ ...node, physanimatorSeen: "/view?filename=a.png" }, {}), "/view?filename=a.png");
 });

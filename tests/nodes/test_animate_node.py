@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from physanimator.rendering.artwork import ArtLayer, Artwork, save_psd
 from physanimator.rendering.pictures import read_clip
 from PIL import Image
 
@@ -121,6 +122,19 @@ def test_what_it_does_not_take_is_refused(standin: Any, bars: str, inputs: dict[
     assert told in standin.error_of(prompt)
 
 
+def test_parts_on_the_same_pixels_have_the_names_that_the_node_shows(standin: Any, bars: str) -> None:
+    told = standin.error_of(animate(bars, [[*ON_RED, 0], [*ON_RED[:2], 1, 2]]))
+    assert told == "Part 1 and Part 3 must not be at the same pixel. Got: both at (60, 40)"
+
+
+def test_a_file_is_named_by_its_place_in_the_host_s_folders(standin: Any) -> None:
+    (standin.folder / "input" / "broken.psd").write_bytes(b"no psd")
+    for prompt in (animate("broken.psd", ""), animate("PhysAnimator example.png", "", scene="{}")):
+        told = standin.error_of(prompt)
+        assert str(standin.folder) not in told
+    assert "input/broken.psd" in standin.error_of(animate("broken.psd", ""))
+
+
 def test_masks_may_stand_in_for_points_and_a_connected_picture_for_the_file(standin: Any) -> None:
     prompt = animate("gone.png", "") | {
         "black": core("SolidMask", value=0.0, width=160, height=96),
@@ -202,6 +216,40 @@ def test_layers_move_by_their_names_without_a_click(standin: Any) -> None:
     frames = pictures(standin, outputs["frames"])
     assert np.abs(frames[2] - frames[0]).max() > 30
     assert Path(outputs["saved"]["text"][0]).exists()
+
+
+@pytest.fixture(scope="module")
+def layered(standin: Any) -> str:
+    """The bars and their beam as layers whose names say nothing."""
+    paper, beam = (np.full((120, 200, 4), (*PAPER, 255), np.uint8) for _ in range(2))
+    beam[...] = (60, 50, 40, 255)
+    red, blue = (np.full((74, 24, 4), (*colour, 255), np.uint8) for colour in (RED, BLUE))
+    layers = [("Layer 0", paper, 0, 0), ("Layer 1", beam[20:26, 30:170], 30, 20), ("Layer 2", red, 50, 26)]
+    made = [ArtLayer(*each) for each in [*layers, ("Layer 2", blue, 130, 26)]]
+    save_psd(Artwork(200, 120, tuple(made)), standin.folder / "input" / "bars.psd")
+    return "bars.psd"
+
+
+def test_a_clicked_layer_moves_where_names_say_nothing(standin: Any, layered: str) -> None:
+    assert "no layer moves by its name: click on what shall move" in standin.error_of(animate(layered, ""))
+    told = standin.error_of(animate(layered, [[5, 5, 1]]))
+    assert "Part 1: the layer Layer 0 fills the whole picture" in told
+    outputs = standin.run(seen(animate(layered, [ON_BLUE], preset="ribbon")))
+    frames, (mask,) = pictures(standin, outputs["frames"]), pictures(standin, outputs["masks"])
+    moved = np.abs(frames - frames[0]).sum(axis=3).max(axis=0)
+    assert (moved[30:100, 110:170].max() > 150, moved[:, :90].max()) == (True, 0)
+    assert (mask[40, 140].min() > 250, mask[40, 60].max()) == (True, 0)
+
+
+def test_layers_of_other_nodes_are_shown_so_that_they_can_be_clicked_on(standin: Any, layered: str) -> None:
+    prompt = animate("gone.png", "") | {"layers": core("PhysAnimator_LoadLayers", file=layered)}
+    prompt["animate"]["inputs"]["layers"] = ["layers", 0]
+    assert "click on what shall move" in standin.error_of(prompt)
+    name, told = standin.server.messages[-1]
+    assert (name, told["node"]) == ("physanimator.picture", "animate")
+    prompt["animate"]["inputs"]["points"] = json.dumps([ON_RED])
+    frames = pictures(standin, standin.run(seen(prompt))["frames"])
+    assert np.abs(frames - frames[0]).max() > 60
 
 
 def test_it_can_be_interrupted(standin: Any, bars: str) -> None:

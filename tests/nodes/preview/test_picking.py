@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from physanimator.nodes.preview import layers
 from physanimator.nodes.preview.limits import MAX_PICKED_POINTS
 from physanimator.nodes.preview.turns import Turns
 from physanimator.physics.errors import Cancelled
@@ -154,6 +155,83 @@ def test_a_layered_file_is_shown_before_its_node_has_run(standin: Any) -> None:
         for name in ("../secret.psd", "words.txt", "gone.psd", "", ".", "a" * 5000):
             answer = await server.client.get("/physanimator/artwork", params={"file": name})
             assert (answer.status, len((await answer.json())["error"]) > 20) == (422, True), name
+
+    in_a_server(test)
+
+
+def bars_in_layers(names: tuple[str, str]) -> Artwork:
+    paper = np.full((120, 200, 4), (*PAPER, 255), np.uint8)
+    red, blue = (np.full((74, 24, 4), (*colour, 255), np.uint8) for colour in (RED, BLUE))
+    layers = ArtLayer("Layer 0", paper), ArtLayer(names[0], red, 50, 26), ArtLayer(names[1], blue, 130, 26)
+    return Artwork(200, 120, layers)
+
+
+def test_of_a_layered_file_the_clicked_layer_is_cut_out_and_moves(standin: Any) -> None:
+    save_psd(bars_in_layers(("Layer 1", "Layer 1")), standin.folder / "input" / "bars.psd")
+
+    async def test(server: Served) -> None:
+        status, found = await pick(server, asked("bars.psd", [], move=MOVE))
+        assert (status, found["cuts"], "key" in found) == (200, [], False)
+        points = [{"x": 140, "y": 40}]
+        status, found = await pick(server, asked("bars.psd", points, move=MOVE | {"preset": "ribbon"}))
+        assert status == 200
+        (cut,) = found["cuts"]
+        mask = mask_of(cut)
+        assert (cut["part"], mask.sum(), mask[26:100, 130:154].all()) == (0, 74 * 24, True)
+        assert [body["material"]["name"] for body in found["scene"]["bodies"]] == ["ribbon"]
+        assert [(each["layer"], each["body"]) for each in found["drawn"]] == [(0, None), (1, None), (2, 0)]
+        records = await server.stream(key=found["key"], scene=found["scene"], frames=found["frames"])
+        assert json.loads(records[0][1])["unheld"] == []
+        assert json.loads(records[-1][1])["largest_displacement"] > 0.5
+        picture = await server.client.get(f"/physanimator/layer/{found['key']}/2")
+        assert picture.status == 200
+        status, found = await pick(server, asked("bars.psd", [{"x": 10, "y": 10}], move=MOVE))
+        assert (found["cuts"], "Part 1: the layer Layer 0 fills" in found["advice"][0]) == ([], True)
+
+    in_a_server(test)
+
+
+def test_layers_that_move_by_name_are_cut_out_without_a_click(standin: Any) -> None:
+    save_psd(bars_in_layers(("front hair", "thing")), standin.folder / "input" / "named.psd")
+
+    async def test(server: Served) -> None:
+        _, found = await pick(server, asked("named.psd", [], move=MOVE))
+        assert ([cut["part"] for cut in found["cuts"]], len(found["scene"]["bodies"])) == ([-1], 1)
+        _, found = await pick(server, asked("named.psd", [POINTS[1]], move=MOVE))
+        assert [cut["part"] for cut in found["cuts"]] == [-1, 1]
+        _, found = await pick(server, asked("named.psd", [{"x": 60, "y": 40, "positive": False}], move=MOVE))
+        assert (found["cuts"], "key" in found) == ([], False)
+
+    in_a_server(test)
+
+
+def test_of_large_layers_the_cut_is_coarser_and_of_too_large_ones_there_is_none(
+    standin: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save_psd(bars_in_layers(("hair", "hair")), standin.folder / "input" / "large.psd")
+
+    async def test(server: Served) -> None:
+        monkeypatch.setattr(layers, "MAX_PICKED_SIZE", 120 * 200 // 2)
+        _, found = await pick(server, asked("large.psd", [], move=MOVE))
+        assert [(cut["width"], cut["height"]) for cut in found["cuts"]] == [(100, 60)] * 2
+        assert mask_of(found["cuts"][0])[13:50, 25:37].all()
+        monkeypatch.setattr(layers, "MAX_PICKED_PIXELS", 100)
+        save_psd(bars_in_layers(("hair", "lock")), standin.folder / "input" / "larger.psd")
+        status, found = await pick(server, asked("larger.psd", [], move=MOVE))
+        assert (status, "too large to be cut while you click" in found["error"]) == (422, True)
+
+    in_a_server(test)
+
+
+def test_a_layered_file_of_one_layer_is_cut_as_a_flat_picture(standin: Any, bars: str) -> None:
+    pixels = np.asarray(Image.open(standin.folder / "input" / bars).convert("RGBA"))
+    save_psd(Artwork(200, 120, (ArtLayer("Background", pixels),)), standin.folder / "input" / "flat.psd")
+
+    async def test(server: Served) -> None:
+        assert (await pick(server, asked("flat.psd", [])))[1]["cuts"] == []
+        _, of_psd = await pick(server, asked("flat.psd", POINTS))
+        _, of_png = await pick(server, asked(bars, POINTS))
+        assert of_psd["cuts"] == of_png["cuts"]
 
     in_a_server(test)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import cv2
 import numpy as np
@@ -48,6 +49,59 @@ def test_hair_is_held_down_to_the_middle_of_the_head_that_it_frames() -> None:
     assert 140 < y[held].max() < 175
     assert held[y < 135].all()
     assert not held[y > 180].any()
+
+
+def short_hair() -> np.ndarray:
+    return long_hair() & (np.arange(SIZE[0])[:, None] < 260)
+
+
+def bundle() -> np.ndarray:
+    """Strands that are blown to the right from a root of 200 px at 100 px from the left."""
+    tips = [(450, 130), (480, 200), (470, 270), (410, 350)]
+    return np.logical_or.reduce([painted([(100, y - 90), (100, y - 30), (x, y)]) for x, y in tips])
+
+
+def rough(mask: np.ndarray, seed: int) -> np.ndarray:
+    """The mask as a hand draws it: too wide or too narrow, with a trembling edge."""
+    rng = np.random.default_rng(seed)
+    wide = cv2.GaussianBlur(mask.astype(np.float32), (0, 0), 6)
+    tremble = cv2.GaussianBlur(rng.normal(size=mask.shape).astype(np.float32), (0, 0), 5)
+    return wide > 0.4 + 0.2 * rng.random() + tremble
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize("damaged", [None, 0, 1, 2])
+def test_hair_that_is_blown_aside_is_held_at_its_thick_end(mirrored: bool, damaged: int | None) -> None:
+    mask = bundle() if damaged is None else rough(bundle(), damaged)
+    held, body = held_of(mask[:, ::-1] if mirrored else mask, "auto")
+    x = body.mesh.vertices[:, 0]
+    along = (body.mesh.width - x if mirrored else x) - 100
+    rooted = np.isin(body.mesh.components, np.unique(body.mesh.components[along < 20]))  # no tip that has come off
+    assert held[rooted & (along < 50)].all()
+    assert not held[rooted & (along > 120)].any(), "the tips of the upper strands are free, too"
+
+
+@pytest.mark.parametrize(
+    "mask",
+    [
+        pytest.param(short_hair, id="short hair"),
+        pytest.param(lambda: long_hair() | painted(ellipse(175, 60, 45, 45), ellipse(325, 60, 45, 45)), id="two buns"),
+        pytest.param(
+            lambda: np.logical_or.reduce(
+                [painted([(x, 100), (x + 65, 100), (x + 30 + x // 20, 220)]) for x in range(100, 380, 50)]
+            ),
+            id="fringe of locks",
+        ),
+        pytest.param(lambda: painted(ellipse(250, 200, 180, 110)), id="wide hair"),
+        pytest.param(lambda: short_hair() | painted([(300, 90), (330, 160), (490, 190)]), id="a strand in the wind"),
+    ],
+)
+def test_hair_wider_than_tall_is_held_on_top_where_it_is_not_blown_aside(mask: Any) -> None:
+    held, body = held_of(mask(), "auto")
+    y = body.mesh.vertices[:, 1]
+    top = y < y.min() + 0.12 * np.ptp(y)
+    assert held[top].all()
+    assert not held[y > y.max() - 0.2 * np.ptp(y)].any()
 
 
 def test_a_fringe_over_a_drawn_face_is_held_above_the_forehead() -> None:

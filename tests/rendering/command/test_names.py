@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 from pathlib import Path
 
@@ -10,6 +11,8 @@ import numpy as np
 import physanimator.rendering.pipeline
 import pytest
 from command_status import status
+from physanimator.physics.errors import InvalidInputError
+from physanimator.rendering.command.names import named_by_options, parts_in_options
 from physanimator.rendering.pictures import save_image
 
 Output = pytest.CaptureFixture[str]
@@ -203,3 +206,26 @@ def test_a_damaged_video_is_refused_in_one_sentence(kept: int, capsys: Output) -
     assert said.startswith("physanimator: --clip clip.mp4 cannot be read: ")
     assert "Errno" not in said
     assert said.count("\n") == 1
+
+
+def test_bodies_and_points_are_named_by_their_files() -> None:
+    options = argparse.Namespace(mask=["hair.png"], points=["cape.json"])
+    loose = "bodies[1] has one separate part that no rig point holds: it may drift away"
+    assert parts_in_options(loose, options) == loose.replace("bodies[1]", "--points cape.json")
+    assert parts_in_options(loose.replace("1", "7"), options).startswith("bodies[7]"), "a scene file has more"
+    outside = "points[3] must lie inside the picture of 64 x 48 px. Got: (900, 4)"
+    with pytest.raises(InvalidInputError) as caught, named_by_options(options):
+        raise InvalidInputError(outside)
+    assert str(caught.value) == f"--points cape.json: {outside}"
+
+
+def test_a_cut_is_judged_by_the_name_of_its_file(folder: Path, capsys: Output) -> None:
+    points = {"a.json": "[[28, 24, 1]]", "b.json": "[[50, 24, 1], [28, 24, 0]]"}
+    for name, text in points.items():
+        (folder / name).write_text(text)
+    given = ["animate", "girl.png", "--points", "a.json", "--points", "b.json", "--frames", "2", "-o", "a.gif"]
+    status(*given)  # what is left of the picture after such a cut is refused later
+    told = capsys.readouterr().err
+    assert "warning: --points b.json: The cut is " in told
+    assert "warning: --points b.json covers " in told
+    assert "Part " not in told

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physanimator.rendering.segmentation import Prompt, judge_cuts, judge_points
+from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.scene import QueryPoint
+from physanimator.rendering.segmentation import Prompt, judge_cuts, judge_points, prompts_of, segment_parts
 from physanimator.rendering.segmentation.cut_judgement import judge_cut
 
 HEIGHT, WIDTH = 300, 400
@@ -62,8 +64,17 @@ def test_parts_are_told_apart_and_the_way_out_comes_last_and_once() -> None:
     masks = [mask_of((50, 50, 150, 200)), mask_of((5, 5, 6, 6)), mask_of()]
     prompts = [Prompt([(60, 60)], [1]), Prompt([(5, 5)], [1]), Prompt(box=(1, 1, 9, 9))]
     told = judge_cuts(masks, prompts, instead="Use a network.")
-    assert [each.split(":")[0] for each in told] == ["Part 1", "Part 2", "Use a network."]
+    assert [each.split(":")[0] for each in told] == ["Part 2", "Part 3", "Use a network."]
     assert judge_cuts(masks[:1], prompts[:1], instead="Use a network.") == []
+
+
+def test_parts_have_the_numbers_that_people_see() -> None:
+    points = [QueryPoint(60, 60), QueryPoint(5, 5, part=2)]
+    told = judge_cuts([mask_of((50, 50, 150, 200)), mask_of((5, 5, 6, 6))], prompts_of(points))
+    assert [each.split(":")[0] for each in told] == ["Part 3"]
+    picture = np.full((40, 40, 3), 200, np.uint8)
+    with pytest.raises(InvalidInputError, match=r"^Part 3: points must be with one on the part"):
+        segment_parts(picture, prompts_of([QueryPoint(6, 6), QueryPoint(5, 5, positive=False, part=2)]))
 
 
 def test_points_are_judged_as_they_are_read() -> None:

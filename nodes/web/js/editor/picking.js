@@ -13,10 +13,11 @@
  * @property {(() => void) | null} choosePicture  asks for a file; null where the node has no picture of its own
  * @property {((file: File) => void) | null} takePicture  one was dropped or pasted
  * @property {(frames: number) => void} setLength  of the motion
- * @property {(picture: boolean) => string} hint  what to do while nothing is picked
+ * @property {(picture: boolean, named: number | null) => string} hint  what to do while nothing is picked; ``named``: how
+ *   many layers move by their names, null where that is not known
  *
- * @typedef {{picture: string | null, alpha: boolean}} Source  a file of the host's folders; null for the example
- * @typedef {{part: number, fill: HTMLCanvasElement, edge: HTMLCanvasElement}} Cut
+ * @typedef {{picture: string | null, alpha: boolean, layered?: boolean}} Source  a file of the host's folders, which may be in layers; null for the example
+ * @typedef {{part: number, fill: HTMLCanvasElement, edge: HTMLCanvasElement}} Cut  part is negative where a layer moves by its name
  */
 
 import { say } from "../host/words.js";
@@ -64,6 +65,8 @@ export class Picking {
     /** @type {any} */
     this.timer = 0;
     this.asked = { cut: "", all: "" };
+    /** @type {number | null} layers that move by their names; null where that is not known */
+    this.named = null;
     this.viewed = false;
     /** What was measured of the last change, for the tests [ms]. */
     this.measured = { asked: 0, cut: 0, moving: 0 };
@@ -126,7 +129,7 @@ export class Picking {
   /** Bring the strip up to date. */
   show() {
     const { document, backdrop, notes } = this.editor;
-    notes.keep("empty", document.query_points?.length ? "" : this.options.hint(backdrop.picture !== null));
+    notes.keep("empty", document.query_points?.length ? "" : this.options.hint(backdrop.picture !== null, this.named));
     const parts = Array.from({ length: this.count }, (_, part) => part);
     this.strip.show({
       count: this.count,
@@ -174,7 +177,8 @@ export class Picking {
     this.#stop();
     if (this.viewed) this.view(false);
     if (!again) this.#forget();
-    if (!wanted) return;
+    if (!wanted) this.named = null;
+    if (!wanted) return this.show();
     this.measured = { asked: performance.now(), cut: 0, moving: 0 };
     this.timer = setTimeout(() => this.#ask(wanted, again), PAUSE);
   }
@@ -196,10 +200,12 @@ export class Picking {
     const cleaning = this.options.cleaning();
     const points = document.query_points ?? [];
     const picks = points.some((/** @type {any} */ point) => point.positive !== false) || Boolean(cleaning?.box?.trim());
-    if (!source || !cleaning || !picks || !backdrop.picture) return null;
+    if (!source || !cleaning || !backdrop.picture) return null;
+    const { layered, ...file } = source;
+    if (!picks && !layered) return null;
     const { width, height, bodies, version } = document;
     const asked = { version, width, height, query_points: points, ...(bodies ? { bodies } : {}) };
-    return { editor: live.client.editor, ...source, points: asked, cleaning, move: this.options.move?.() ?? null };
+    return { editor: live.client.editor, ...file, points: asked, cleaning, move: this.options.move?.() ?? null };
   }
 
   /**
@@ -216,7 +222,7 @@ export class Picking {
         this.#take(await this.#post({ ...wanted, move: null }, mine));
         if (wanted.move && !this.viewed) this.#tell(say("Preparing the motion…"));
       }
-      if (wanted.move) await this.#move(await this.#post(wanted, mine), mine);
+      if (wanted.move && this.cuts?.length) await this.#move(await this.#post(wanted, mine), mine);
       if (this.running === mine) this.#tell("");
     } catch (error) {
       if (this.running !== mine || mine.signal.aborted) return;
@@ -245,12 +251,14 @@ export class Picking {
 
   /** @param {{cuts: any[], advice: string[]}} answer */
   #take({ cuts, advice }) {
+    this.named = cuts.filter((cut) => cut.part < 0).length;
     this.cuts = cuts.map((cut) => {
       const colour = partColour(cut.part);
       return { part: cut.part, fill: regionMask(cut, colour), edge: regionEdge(cut, colour) };
     });
     this.measured.cut = performance.now() - this.measured.asked;
     this.editor.advise(advice);
+    this.show();
     this.editor.redraw();
   }
 
@@ -258,15 +266,16 @@ export class Picking {
    * @param {any} answer
    * @param {AbortController} mine
    */
-  async #move({ key, scene, frames, width, height }, mine) {
+  async #move({ key, scene, frames, width, height, drawn = null }, mine) {
     const { editor } = this;
     const { live } = editor;
     if (live.run?.key !== key) {
-      const run = { key, width, height, image: null, plate: this.options.url(`/physanimator/plate/${key}`), layers: null, materials: null, holds: [] };
+      const layers = drawn && { layers: [], drawn: drawn.map((/** @type {any} */ one, /** @type {number} */ number) => ({ ...one, url: this.options.url(`/physanimator/layer/${key}/${number}`) })) };
+      const run = { key, width, height, image: null, plate: this.options.url(`/physanimator/plate/${key}`), layers, materials: null, holds: [] };
       await live.setRun(run, editor.backdrop.picture);
       if (this.running !== mine) return;
       // Made when first asked for, which takes a moment; until then the picture itself is behind the parts.
-      loaded(run.plate).then((plate) => live.setPlate(run, plate)).catch(() => null);
+      if (!layers) loaded(run.plate).then((plate) => live.setPlate(run, plate)).catch(() => null);
     }
     editor.frames = frames;
     live.request(scene, frames);

@@ -5,14 +5,18 @@
  * @typedef {import("../editor/picking.js").PickOptions} PickOptions
  */
 
+import { linkInto } from "./links.js";
 import { shownPicture } from "./shown_picture.js";
 import { choose, upload, uploadOf, warn } from "./upload.js";
-import { EXAMPLE, pathOfFile, upstreamPicture } from "./upstream.js";
+import { EXAMPLE, getsPicture, pathOfFile, upstreamPicture } from "./upstream.js";
 import { say, words } from "./words.js";
 
-/** The example in the node's list of pictures; see nodes/animated_inputs.py. */
+/** The example in the node's list of pictures, and in that of layered files; see nodes/animated_inputs.py, layer_nodes.py. */
 const EXAMPLE_FILE = "PhysAnimator example.png";
+const EXAMPLE_LAYERS = "PhysAnimator example.psd";
 const AUTO = "auto";
+/** Where the server has the picture of a layered file. */
+const ARTWORK = "/physanimator/artwork?";
 const LAYERED = /\.(psd|psb|ora)$/i;
 const PICTURE = /\.(png|jpe?g|webp|bmp|gif|tiff?|avif)$/i;
 const CLEANING = ["box", "smallest_speck", "largest_hole", "smoothing"];
@@ -58,13 +62,26 @@ function isLinked(node, name) {
  * @returns {string | null} its path on the server
  */
 export function animatedPicture(node, rootGraph, outputs) {
-  if (isLinked(node, "layers")) return null;
+  if (isLinked(node, "layers")) return loadedLayers(node) ?? node.physanimatorSeen ?? null;
   // A picture that is made by other nodes is known once the node has run.
   if (isLinked(node, "image")) return upstreamPicture(node, rootGraph) ?? node.physanimatorSeen ?? shownPicture(node, outputs);
   const file = String(valueOf(node, "picture") ?? "");
   if (file === EXAMPLE_FILE) return EXAMPLE;
   if (PICTURE.test(file.replace(/ \[\w+\]$/, ""))) return pathOfFile(file);
-  return file ? `/physanimator/artwork?${new URLSearchParams({ file })}` : null;
+  return file ? ARTWORK + new URLSearchParams({ file }) : null;
+}
+
+/**
+ * The layered file that a Load Layers node hands to this one.
+ *
+ * @param {GraphNode} node
+ * @returns {string | null} its path on the server
+ */
+function loadedLayers(node) {
+  const link = linkInto(node, (node.inputs ?? []).findIndex((/** @type {any} */ input) => input.name === "layers"));
+  const loader = link && node.graph?.getNodeById(link.origin_id);
+  const file = loader?.comfyClass === "PhysAnimator_LoadLayers" && loader.mode === 0 ? String(valueOf(loader, "file") ?? "") : "";
+  return file && file !== EXAMPLE_LAYERS ? ARTWORK + new URLSearchParams({ file }) : null;
 }
 
 /**
@@ -88,6 +105,7 @@ export function segmentedPicture(node, rootGraph, outputs) {
  */
 export function sourceOf(path, alpha) {
   if (path === EXAMPLE) return { picture: null, alpha: false };
+  if (path?.startsWith(ARTWORK)) return { picture: new URLSearchParams(path.slice(ARTWORK.length)).get("file"), alpha: true, layered: true };
   if (!path?.startsWith("/view?")) return null;
   const saved = new URLSearchParams(path.slice("/view?".length));
   const place = [saved.get("subfolder"), saved.get("filename")].filter(Boolean).join("/");
@@ -119,8 +137,8 @@ export function picksOfAnimation(app, api, node) {
   const values = node.widgets?.find((/** @type {any} */ widget) => widget.name === "preset")?.options?.values;
   return {
     source: () => {
-      // Where a scene is connected, or layers are, nothing is cut.
-      if (isLinked(node, "scene") || isLinked(node, "layers") || isLinked(node, "points")) return null;
+      // Where a scene is connected, nothing is cut; nor are layers that only a run makes.
+      if (isLinked(node, "scene") || isLinked(node, "points") || (isLinked(node, "layers") && !loadedLayers(node))) return null;
       return sourceOf(animatedPicture(node, root(), app.nodeOutputs), !isLinked(node, "image") || isLinked(node, "image_alpha"));
     },
     cleaning: () => ({}),
@@ -130,24 +148,36 @@ export function picksOfAnimation(app, api, node) {
     choosePicture: () => picker.click(),
     takePicture: (file) => take([file]),
     setLength: (frames) => setValue(node, "frames", frames),
-    hint: (picture) => hintOf(node, picture),
+    hint: (picture, named) => hintOf(node, picture, named),
   };
 }
 
 /**
  * @param {GraphNode} node
  * @param {boolean} picture  whether there is one to be seen
+ * @param {number | null} named  how many layers move by their names; null where that is not known
  */
-function hintOf(node, picture) {
+function hintOf(node, picture, named) {
   if (isLinked(node, "scene")) return say("The scene that is connected says what acts: run this node to see it move.");
   const file = String(valueOf(node, "picture") ?? "");
   const layered = isLinked(node, "layers") || (!isLinked(node, "image") && file !== EXAMPLE_FILE && !PICTURE.test(file));
-  if (layered) return say("Layers move by their names: run this node to see them move.");
   if (isLinked(node, "points")) return say(LINKED);
+  if (layered) return hintOfLayers(picture, named);
   if (picture && isLinked(node, "masks")) return say("Click on what else shall move, or run this node: the masks that are connected move.");
   if (picture) return say("Click on what shall move.");
   if (isLinked(node, "image")) return say("Run this node once to see its picture here, then click on what shall move.");
   return say("Drop a picture here, or choose one.");
+}
+
+/**
+ * @param {boolean} picture  whether it is to be seen
+ * @param {number | null} named  how many layers move by their names; null where that is not known
+ */
+function hintOfLayers(picture, named) {
+  if (!picture) return say("Run this node once to see its picture here, then click on what shall move.");
+  if (named === null) return say("Click on what shall move, besides the layers whose names say so; then run this node.");
+  if (!named) return say("No layer moves by its name: click on what shall move.");
+  return say("Layers move by their names. Click on what else shall move, or with Alt on what shall stand still.");
 }
 
 /**
@@ -174,6 +204,21 @@ async function takeFiles(app, api, node, files) {
 }
 
 /**
+ * How the picture gets into a node that has none of its own, and what to do once it is on its way.
+ *
+ * @param {GraphNode} node
+ * @param {any} rootGraph
+ * @param {boolean} picture  whether it is to be seen
+ * @param {Record<string, any>} outputs  what nodes have shown, by their ids
+ */
+function hintOfPicture(node, rootGraph, picture, outputs) {
+  if (picture || segmentedPicture(node, rootGraph, outputs)) return say("Click on what shall move.");
+  if (getsPicture(node, rootGraph)) return say("The picture appears here once a node has shown it: connect a Preview Image beside this node, run that, then click on what shall move.");
+  if (node.graph && node.graph !== rootGraph) return say("Connect a picture, such as that of Load Image, to the node of this subgraph: it appears here, to be clicked on.");
+  return say("Connect a picture, such as that of Load Image, to image: it appears here, to be clicked on.");
+}
+
+/**
  * @param {any} app
  * @param {any} api
  * @param {GraphNode} node  Segment by Points
@@ -192,6 +237,6 @@ export function picksOfSegmentation(app, api, node) {
     choosePicture: null,
     takePicture: null,
     setLength: () => {},
-    hint: () => (isLinked(node, "points") ? say(LINKED) : say("Click on what shall move.")),
+    hint: (picture) => (isLinked(node, "points") ? say(LINKED) : hintOfPicture(node, app.rootGraph ?? app.graph, picture, app.nodeOutputs)),
   };
 }

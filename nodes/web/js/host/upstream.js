@@ -34,6 +34,16 @@ export function upstreamPicture(node, rootGraph) {
   return null;
 }
 
+/**
+ * Whether the picture that a node needs comes from another node, through the ends of subgraphs too.
+ *
+ * @param {GraphNode} node
+ * @param {any} rootGraph
+ */
+export function getsPicture(node, rootGraph) {
+  return sourcesOf(node, rootGraph, "IMAGE").length > 0;
+}
+
 /** @param {GraphNode} node whether a picture is connected to the node itself */
 function isPicture(node) {
   return (node.inputs ?? []).some((/** @type {any} */ input, /** @type {number} */ slot) => input.type === "IMAGE" && isConnected(node, slot));

@@ -41,7 +41,8 @@ export const STYLE = `
 .physanimator-editor input.physanimator-keys { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; padding: 0; border: 0; opacity: 0; touch-action: none; user-select: none; cursor: crosshair; }
 .physanimator-stage:focus-within { box-shadow: inset 0 0 0 1px var(--physanimator-accent); }
 .physanimator-notes { position: absolute; inset: auto 8px 8px; display: flex; flex-direction: column; align-items: flex-start; gap: 4px; pointer-events: none; }
-.physanimator-note { max-width: 100%; padding: 4px 8px; border-radius: 5px; color: #fff; background: rgba(16, 18, 24, 0.86); pointer-events: auto; overflow-wrap: anywhere; }
+.physanimator-note { max-width: 100%; padding: 4px 8px; border-radius: 5px; color: #fff; background: rgba(16, 18, 24, 0.86); overflow-wrap: anywhere; }
+.physanimator-note[data-kind="error"], .physanimator-note button { pointer-events: auto; }
 .physanimator-note[data-kind="error"] { background: rgba(150, 28, 36, 0.94); }
 .physanimator-note button { color: #fff; background: var(--physanimator-accent); margin-left: 8px; padding: 0 8px; }
 .physanimator-note button:hover:not(:disabled) { background: var(--physanimator-accent); filter: brightness(1.15); }
@@ -167,6 +168,7 @@ export const STYLE = `
     grid-auto-rows: max-content; flex: none; max-height: 150px; }
   .physanimator-editor > .physanimator-frame .physanimator-side { border-left: 0; border-top: 1px solid var(--physanimator-rim); }
   .physanimator-layers { max-height: 110px; }
+  .physanimator-editor > .physanimator-frame .physanimator-timeline { position: sticky; bottom: 0; z-index: 1; background: var(--physanimator-back); }
   .physanimator-heading, .physanimator-section, .physanimator-table, .physanimator-field[data-field="region"] { grid-column: 1 / -1; }
 }
 @container (max-width: 379px) {

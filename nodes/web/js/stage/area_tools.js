@@ -34,8 +34,7 @@ export class PolygonTool extends Tool {
     this.fresh = !this.draft;
     this.pressed = point;
     const path = [...(this.draft?.path?.slice(0, -1) ?? []), point, point];
-    this.draft = { path, closed: true, colour: COLOURS.pin };
-    this.desk.redraw();
+    this.sketch({ path, closed: true, colour: COLOURS.pin });
   }
 
   /** @param {Point} point */
@@ -53,7 +52,7 @@ export class PolygonTool extends Tool {
     this.pressed = undefined;
     if (!path || !pressed || !this.fresh) return;
     if (path.every((one) => distance(one, pressed) < CLICK * this.desk.pixel)) {
-      this.draft = { path: [pressed, point], closed: true, colour: COLOURS.pin };
+      this.sketch({ path: [pressed, point], closed: true, colour: COLOURS.pin });
       this.desk.say(say("Click the next corners; click the first one again or press Enter to close."));
     } else this.#close(simplified(path, SMOOTHING * this.desk.pixel).map((i) => path[i]));
   }
@@ -104,7 +103,7 @@ class BrushTool extends Tool {
     const { width, height } = this.desk.document;
     const region = itemAt(this.desk.document, this.on)?.region;
     const before = region?.type === "mask" ? bitmapOf(region) : emptyBitmap(width, height);
-    this.draft = { bitmap: { ...before, bits: before.bits.slice() }, colour: this.colour() };
+    this.sketch({ bitmap: { ...before, bits: before.bits.slice() }, colour: this.colour() });
     this.last = point;
     this.move(point, event);
   }

@@ -16,9 +16,9 @@ export const COLOURS = /** @type {Record<string, string>} */ ({
 /** Of the parts that are picked, one after the other. */
 const PARTS = [COLOURS.positive, "#4db5ff", "#ffb02e", "#c48bff", "#ff5c8a", "#2dd4cf", "#d6e04a", "#ff8a3d"];
 
-/** @param {number} part  its number, from 0 */
+/** @param {number} part  its number, from 0; negative for what moves without being picked */
 export function partColour(part) {
-  return PARTS[part % PARTS.length];
+  return part < 0 ? COLOURS.colliders : PARTS[part % PARTS.length];
 }
 
 /**

@@ -68,10 +68,15 @@ export class Tool {
    */
   hover(point) {}
 
+  /** @param {Draft | null} draft  what is being drawn from now on */
+  sketch(draft) {
+    this.draft = draft;
+    this.desk.redraw();
+  }
+
   /** Give up what is being drawn. */
   cancel() {
-    this.draft = null;
-    this.desk.redraw();
+    this.sketch(null);
   }
 
   /** End what is being drawn, where it takes several clicks. */
