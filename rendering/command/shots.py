@@ -1,0 +1,318 @@
+"""The command about many shots: ``physanimator shots``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import secrets
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from .failures import FAILED
+
+if TYPE_CHECKING:
+    from ..shots import Job, Outcome, Problem, Shot
+
+__all__ = ["add_shots"]
+
+
+def add_shots(parser: argparse.ArgumentParser) -> None:
+    """All that ``physanimator shots`` takes."""
+    parser.description = (
+        "Animate every shot of a list, on all cores or on a cluster of machines. All are checked before one begins. A"
+        " second run does only what is missing or has changed. Exit status: 0 all are there, 1 some are not, 2 the list"
+        " or an option is wrong and nothing was begun."
+    )
+    parser.add_argument(
+        "list",
+        metavar="SHOTS",
+        help="TOML with [defaults] and a [[shot]] for each, whose keys are name and the options of animate, such as"
+        " image, mask, wind-angle = 30, contact = true; or CSV with a row for each below the names of options, several"
+        " values of a cell with | between them. Paths are from the list's folder on; {name} and {out} in those of"
+        " results stand for the shot's name and --output",
+    )
+    parser.add_argument(
+        "--output", "-o", metavar="OUT", required=True, help="folder of OUT/NAME.mp4; made where it is missing"
+    )
+    parser.add_argument("--only", metavar="NAME", action="extend", nargs="+", help="do these shots of the list")
+    parser.add_argument("--dry-run", action="store_true", help="check everything and say what would be done")
+    where = parser.add_argument_group("where the work is done")
+    where.add_argument(
+        "--workers",
+        metavar="N",
+        type=int,
+        help="processes on this machine (default: one a core, as memory allows); 0: in this one, without Dask",
+    )
+    where.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="use a running Dask cluster, such as tcp://HOST:8786; its machines have PhysAnimator and see the files"
+        " under the same paths, or --ship is given",
+    )
+    where.add_argument(
+        "--ship",
+        action="store_true",
+        help="send pictures to the cluster's machines and results back through the scheduler; weights of networks must"
+        " be there under the same paths",
+    )
+    more = parser.add_argument_group("what else is written")
+    more.add_argument("--report", metavar="OUT.html", help="contact sheet of all shots")
+    more.add_argument(
+        "--write-commands", metavar="OUT", help="do nothing but write one shell line a shot, for farms and GNU parallel"
+    )
+    more.add_argument(
+        "--write-openjd",
+        metavar="OUT.yaml",
+        help="do nothing but write an Open Job Description template with one task a shot",
+    )
+    parser.add_argument("--quiet", "-q", action="store_true", help="say only what went wrong")
+    parser.set_defaults(run=_shots)
+
+
+def _shots(options: argparse.Namespace) -> None:
+    from ..shots import check_installed
+
+    _check_options(options)
+    for_farms = options.write_commands or options.write_openjd
+    if not (options.workers == 0 or options.dry_run or for_farms):
+        check_installed()
+    with _output_folder(options):
+        shots, problems = _chosen(options)
+        kept, jobs = _what_to_do(options, shots)
+        _refuse(options, [*problems, *_wrong(shots if for_farms else [each.shot for each in jobs])])
+        if for_farms:
+            _write_for_farms(options, shots)
+        elif options.dry_run:
+            _tell_plan(options, shots, jobs)
+        else:
+            _run(options, shots, kept, jobs)
+
+
+def _check_options(options: argparse.Namespace) -> None:
+    from ...physics.errors import InvalidInputError, require
+    from ..files import check_file_place, check_text_output
+    from .names import named_as
+
+    if options.scheduler is not None and options.workers is not None:
+        raise InvalidInputError("--workers and --scheduler say in two ways where the work is done. Got: both")
+    if options.ship and options.scheduler is None:
+        raise InvalidInputError("--ship needs --scheduler, to whose machines the files are sent. Got: without")
+    if options.workers is not None:
+        require("--workers", options.workers, 0 <= options.workers <= 1024, "0 to 1024")
+    for name, suffix in (("report", ".html"), ("write_openjd", ".yaml"), ("write_commands", None)):
+        given = getattr(options, name)
+        if given is not None:
+            with named_as(f"--{name.replace('_', '-')}", "output", "the name"):
+                check_file_place(given) if suffix is None else check_text_output(given, suffix)
+
+
+@contextmanager
+def _output_folder(options: argparse.Namespace) -> Iterator[None]:
+    """The folder of results, which goes again where nothing came into it."""
+    from ..files import check_folder_place
+    from .names import named_as
+
+    with named_as("--output", "output"):
+        place = check_folder_place(options.output)
+    made = not place.is_dir()
+    if made:
+        place.mkdir()
+    try:
+        yield
+    finally:
+        if made:
+            with suppress(OSError):
+                place.rmdir()
+
+
+def _chosen(options: argparse.Namespace) -> tuple[list[Shot], list[Problem]]:
+    """The shots of the list that are asked for, and what is wrong with the list.
+
+    Raises:
+        InvalidInputError: the list cannot be read, or has none of a name.
+    """
+    from ...physics.errors import InvalidInputError
+    from .shot_list import read_list
+
+    read = read_list(options.list, options.output)
+    if options.only is None:
+        return list(read.shots), list(read.problems)
+    known = {shot.name: shot for shot in read.shots}
+    wrong = {each.shot for each in read.problems}
+    for name in options.only:
+        if name not in {*known, *wrong}:
+            raise InvalidInputError(f"--only must name shots of the list. Got: {name}")
+    problems = [each for each in read.problems if each.shot in ("", *options.only)]
+    return [known[name] for name in dict.fromkeys(options.only) if name in known], problems
+
+
+def _refuse(options: argparse.Namespace, problems: Sequence[Problem]) -> None:
+    """
+    Raises:
+        InvalidInputError: there are problems; each has been told.
+    """
+    from ...physics.errors import InvalidInputError, counted
+    from .messages import warn
+
+    if not problems:
+        return
+    for each in sorted(problems, key=lambda problem: problem.line or 0):
+        warn(f"{options.list}: {each}")
+    raise InvalidInputError(f"{options.list} has {counted(len(problems), 'error')}; nothing was begun")
+
+
+def _wrong(shots: Sequence[Shot]) -> Iterator[Problem]:
+    """All that ``animate`` would refuse of shots."""
+    from ...physics.beside import side_by_side
+    from .shot_list import check_shot
+
+    for found in side_by_side(check_shot, shots):
+        yield from found
+
+
+def _what_to_do(options: argparse.Namespace, shots: Sequence[Shot]) -> tuple[list[Outcome], list[Job]]:
+    """Shots that are done already, and what to do of the others."""
+    from ..shots import NOTES, FileDigests, Job, Outcome, identity_of, is_finished
+    from .shot_task import animate_shot, shot_files
+
+    digests, notes = FileDigests(), os.path.join(os.path.abspath(options.output), NOTES)
+    kept, jobs = [], []
+    for shot in shots:
+        try:
+            identity = identity_of(shot, digests)
+        except OSError:  # told by the checks
+            identity = ""
+        record = is_finished(shot, identity)
+        if record is None:
+            jobs.append(Job(shot, identity, animate_shot, shot_files, notes))
+        else:
+            kept.append(Outcome(shot.name, "kept", "", record.seconds, record.machine, record.said))
+    return kept, jobs
+
+
+def _write_for_farms(options: argparse.Namespace, shots: Sequence[Shot]) -> None:
+    from ...physics.errors import counted
+    from ..files import write_text
+    from ..shots import command_lines, openjd_template
+    from .messages import say
+
+    for path, write in ((options.write_commands, command_lines), (options.write_openjd, openjd_template)):
+        if path is not None:
+            write_text(path, write(shots, listed=options.list, out=options.output))
+            if not options.quiet:
+                say(f"{path}: {counted(len(shots), 'shot')}")
+
+
+def _tell_plan(options: argparse.Namespace, shots: Sequence[Shot], jobs: Sequence[Job]) -> None:
+    from ...physics.errors import counted
+    from ..shots import read_shot_record
+    from .messages import show
+
+    identities = {job.shot.name: job.identity for job in jobs}
+    for shot in shots:
+        record = read_shot_record(shot.record)
+        if shot.name not in identities:
+            state = "is done"
+        elif record is None:
+            state = "to do"
+        else:
+            state = "to do again: " + (
+                "what it wrote was changed"
+                if record.identity == identities[shot.name]
+                else "what it reads, its options or PhysAnimator changed"
+            )
+        show(f"{shot.name}: {state}; {', '.join(word.text or '' for word in shot.paths('output'))}")
+    show(f"{counted(len(jobs), 'shot')} to do, {len(shots) - len(jobs)} done")
+
+
+def _run(options: argparse.Namespace, shots: Sequence[Shot], kept: Sequence[Outcome], jobs: Sequence[Job]) -> None:
+    """Do what is to do; say, and write down, what became of all."""
+    from ..shots import alone_in, forgetting, outcomes_here
+
+    found = {each.name: each for each in kept}
+    told = _Teller(options, len(shots), len(kept))
+    with ExitStack() as stack:
+        if options.workers != 0:
+            stack.enter_context(alone_in(options.output))
+        stack.enter_context(forgetting(options.output, [job.shot for job in jobs]))
+        stack.callback(_end, options, shots, found)
+        if not jobs:
+            return
+        outcomes = outcomes_here(jobs, _heard) if options.workers == 0 else _on_cluster(options, jobs, stack)
+        for outcome in outcomes:
+            found[outcome.name] = outcome
+            told(outcome)
+
+
+def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitStack) -> Iterator[Outcome]:
+    from ..shots import check_cards, connected, local_cluster, outcomes_of, usual_workers
+    from .messages import say
+
+    if options.scheduler is not None:
+        client = stack.enter_context(connected(options.scheduler))
+    else:
+        cards = _cards(jobs)
+        if not cards:
+            jobs = [replace(job, shot=replace(job.shot, on_gpu=False)) for job in jobs]
+        workers = usual_workers() if options.workers is None else options.workers
+        client = stack.enter_context(local_cluster(min(workers, len(jobs)), cards=min(cards, len(jobs))))
+    if not options.quiet:
+        say(f"dashboard: {client.dashboard_link}")
+    check_cards(client, jobs)
+    return outcomes_of(client, jobs, ship=options.ship, token=secrets.token_hex(4), heard=_heard)
+
+
+def _cards(jobs: Sequence[Job]) -> int:
+    """Graphics cards of this machine, where shots ask for them."""
+    if not any(job.shot.on_gpu for job in jobs):
+        return 0
+    import torch
+
+    return int(torch.cuda.device_count())
+
+
+def _heard() -> None:
+    from ..files import hear_signals
+
+    hear_signals()
+
+
+class _Teller:
+    """Says of each shot that it has ended."""
+
+    def __init__(self, options: argparse.Namespace, count: int, done: int) -> None:
+        self._options, self._count, self._ended = options, count, done
+
+    def __call__(self, outcome: Outcome) -> None:
+        from .messages import say, warn
+
+        self._ended += 1
+        head = f"[{self._ended}/{self._count}] {outcome.name}"
+        if not outcome.is_good:
+            warn(f"{head}: {outcome.state}: {outcome.why}")
+        elif not self._options.quiet:
+            say(f"{head}: {outcome.state} in {outcome.seconds:.1f} s on {outcome.machine}")
+        if not self._options.quiet:
+            for line in outcome.said:
+                warn(f"{outcome.name}: {line}")
+
+
+def _end(options: argparse.Namespace, shots: Sequence[Shot], found: dict[str, Outcome]) -> None:
+    """The table and the report of what became of all shots, however the run has ended."""
+    from ...physics.errors import counted
+    from ..shots import Outcome, summary_lines, write_report
+    from .messages import say, warn
+
+    ended = [found.get(shot.name, Outcome(shot.name, "left", "not begun, or not ended")) for shot in shots]
+    bad = [each for each in ended if not each.is_good]
+    options.status = FAILED if bad else 0
+    if options.report is not None:
+        write_report(options.report, list(zip(shots, ended, strict=True)), title=os.path.basename(options.list))
+    for line in summary_lines(bad):
+        warn(line)
+    if not options.quiet:
+        done = sum(each.state == "done" for each in ended)
+        kept = sum(each.state == "kept" for each in ended)
+        say(f"{counted(len(shots), 'shot')}: {done} done now, {kept} done before, {len(bad)} not done")

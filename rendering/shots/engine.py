@@ -1,0 +1,166 @@
+"""Shots on a Dask cluster: as many under way as it has threads, whatever happens to its workers."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ...physics.errors import InvalidInputError
+from .cluster import GPU
+from .job import MOST_RUNS, Job, Outcome, perform
+from .shipping import Parcel, Returned, packed, perform_elsewhere, unpacked
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
+__all__ = ["SchedulerLost", "check_cards", "outcomes_here", "outcomes_of"]
+
+_AHEAD = 2  # shots for each thread that the scheduler knows: none waits for the client, and memory stays bounded
+
+
+class SchedulerLost(OSError):
+    """The scheduler is gone."""
+
+
+def outcomes_here(jobs: Sequence[Job], heard: Callable[[], None]) -> Iterator[Outcome]:
+    """What becomes of each shot, one after the other in this process."""
+    full = ""
+    for job in jobs:
+        heard()
+        if full:
+            yield Outcome(job.shot.name, "left", full)
+            continue
+        outcome = perform(job)
+        full = f"not begun: {outcome.why}" if outcome.full else ""
+        yield outcome
+
+
+def check_cards(client: Client, jobs: Sequence[Job]) -> None:
+    """
+    Raises:
+        InvalidInputError: shots ask for a graphics card, and no worker has one.
+    """
+    asking = [job.shot.name for job in jobs if job.shot.on_gpu]
+    workers = client.scheduler_info(n_workers=-1)["workers"].values()
+    if asking and not any(each.get("resources", {}).get(GPU) for each in workers):
+        raise InvalidInputError(
+            f"shots with networks need a worker with a graphics card, dask worker --resources 'GPU=1', or device ="
+            f' "cpu". Got: {asking[0]}, and {len(workers)} workers without'
+        )
+
+
+def outcomes_of(
+    client: Client, jobs: Sequence[Job], *, ship: bool, token: str, heard: Callable[[], None]
+) -> Iterator[Outcome]:
+    """What becomes of each shot, as they end.
+
+    Args:
+        client: of the cluster.
+        jobs: what to do.
+        ship: send files along and bring results back.
+        token: unlike that of any other run.
+        heard: called now and then; may raise to stop.
+
+    Raises:
+        SchedulerLost: the scheduler is gone; shots that are not told of are not done.
+    """
+    from distributed import as_completed
+
+    waiting: deque[Job] = deque(jobs)
+    under_way: dict[Any, Job] = {}
+    completed = as_completed(loop=client.loop, raise_errors=False)
+    full = ""
+    try:
+        while waiting or under_way:
+            while waiting and not full and len(under_way) < _AHEAD * max(1, _threads(client)):
+                heard()
+                job = waiting.popleft()
+                try:
+                    future = _submitted(client, job, ship, f"{token}-{job.shot.name}")
+                except OSError as error:
+                    yield Outcome(job.shot.name, "failed", f"{error.filename or ''}: {error.strerror or error}")
+                    continue
+                under_way[future.key] = job
+                completed.add(future)
+                del future
+            if full:
+                while waiting:
+                    yield Outcome(waiting.popleft().shot.name, "left", full)
+            if not under_way:
+                continue
+            future = next(completed)
+            job = under_way.pop(future.key)
+            outcome = _outcome(job, future)
+            del future
+            full = f"not begun: {outcome.why}" if outcome.full else full
+            yield outcome
+    finally:
+        if under_way:
+            client.cancel([future for future in completed.futures], force=True)
+
+
+def _threads(client: Client) -> int:
+    """How many shots the cluster can do at once, now."""
+    return sum(client.nthreads().values()) if client.status == "running" else 1
+
+
+def _submitted(client: Client, job: Job, ship: bool, key: str) -> Future:
+    resources = {GPU: 1} if job.shot.on_gpu else None
+    if ship:
+        return client.submit(_away, job, packed(job), key=key, resources=resources, pure=False)
+    return client.submit(_there, job, key=key, resources=resources, pure=False)
+
+
+def _outcome(job: Job, future: Future) -> Outcome:
+    from distributed import KilledWorker
+
+    name = job.shot.name
+    if future.status == "finished":
+        result = future.result()
+        if isinstance(result, Outcome):
+            return result
+        try:
+            return unpacked(job, result)
+        except (OSError, InvalidInputError) as error:
+            return _unwritten(name, error)
+    if future.status == "error":
+        raised = future.exception()
+        if isinstance(raised, KilledWorker):
+            return Outcome(name, "lost", f"its worker was killed {MOST_RUNS} times")
+        return Outcome(name, "failed", f"{type(raised).__name__}: {raised}")
+    raise SchedulerLost("the scheduler is gone")
+
+
+def _unwritten(name: str, error: Exception) -> Outcome:
+    import errno
+
+    full = isinstance(error, OSError) and error.errno in (errno.ENOSPC, getattr(errno, "EDQUOT", None), errno.EROFS)
+    told = f"{error.filename}: {error.strerror}" if isinstance(error, OSError) and error.filename else str(error)
+    return Outcome(name, "failed", told, full=full)
+
+
+def _there(job: Job) -> Outcome:
+    """On a worker: a shot whose files it sees."""
+    return perform(job, _wanted())
+
+
+def _away(job: Job, parcel: Parcel) -> Returned:
+    """On a worker: a shot whose files have come along."""
+    from distributed import get_worker
+
+    return perform_elsewhere(job, parcel, _wanted(), folder=get_worker().local_directory)
+
+
+def _wanted() -> Callable[[], bool]:
+    """Asks whether the scheduler still wants what this thread works on."""
+    from distributed import get_worker
+
+    worker: Any = get_worker()
+    key = worker.get_current_task()
+
+    def wanted() -> bool:
+        task = worker.state.tasks.get(key)
+        return task is not None and task.state == "executing"
+
+    return wanted

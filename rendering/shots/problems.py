@@ -1,0 +1,46 @@
+"""What is wrong with a list of shots: all of it in one list, each with its shot, its option and its line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ...physics.errors import InvalidInputError, counted, printable
+
+__all__ = ["Problem", "ShotsError"]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing that is wrong.
+
+    Attributes:
+        message: what was expected and what was got.
+        shot: name of the shot, empty where it concerns all of the list.
+        option: as a person writes it in the list, empty where it is none.
+        line: of the list's file, from 1.
+    """
+
+    message: str
+    shot: str = ""
+    option: str = ""
+    line: int | None = None
+
+    def __str__(self) -> str:
+        place = f"line {self.line}" if self.line is not None else ""
+        shot = f"shot {self.shot}" if self.shot else ""
+        head = ", ".join(each for each in (place, shot) if each)
+        told = self.message if not self.option or self.option in self.message else f"{self.option}: {self.message}"
+        return printable(f"{head}: {told}" if head else told)
+
+
+class ShotsError(InvalidInputError):
+    """A list of shots cannot be worked on.
+
+    Attributes:
+        problems: all that is wrong with it.
+    """
+
+    def __init__(self, path: str, problems: Sequence[Problem]) -> None:
+        super().__init__(f"{path}: {counted(len(problems), 'error')}, nothing was begun")
+        self.problems = tuple(problems)
