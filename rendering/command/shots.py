@@ -198,11 +198,14 @@ def _write_for_farms(options: argparse.Namespace, shots: Sequence[Shot]) -> None
     from ..shots import command_lines, openjd_template
     from .messages import say
 
-    for path, write in ((options.write_commands, command_lines), (options.write_openjd, openjd_template)):
-        if path is not None:
-            write_text(path, write(shots, listed=options.list, out=options.output))
-            if not options.quiet:
-                say(f"{path}: {counted(len(shots), 'shot')}")
+    lines, template = options.write_commands, options.write_openjd
+    if lines is not None:
+        write_text(lines, command_lines(shots, listed=options.list, out=options.output))
+    if template is not None:
+        write_text(template, openjd_template(shots, listed=options.list, out=options.output, template=template))
+    if not options.quiet:
+        for path in filter(None, (lines, template)):
+            say(f"{path}: {counted(len(shots), 'shot')}")
 
 
 def _tell_plan(options: argparse.Namespace, shots: Sequence[Shot], jobs: Sequence[Job]) -> None:
@@ -258,7 +261,7 @@ def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitSta
             jobs = [replace(job, shot=replace(job.shot, on_gpu=False)) for job in jobs]
         workers = usual_workers() if options.workers is None else options.workers
         client = stack.enter_context(local_cluster(min(workers, len(jobs)), cards=min(cards, len(jobs))))
-    if not options.quiet:
+    if not options.quiet and "dashboard" in client.scheduler_info().get("services", {}):
         say(f"dashboard: {client.dashboard_link}")
     check_cards(client, jobs)
     return outcomes_of(client, jobs, ship=options.ship, token=secrets.token_hex(4), heard=_heard)

@@ -7,10 +7,11 @@ import logging
 import os
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING, Any
 
 from ...physics.errors import InvalidInputError, require
+from ..files import uninterrupted
 from .job import MOST_RUNS
 
 if TYPE_CHECKING:
@@ -58,6 +59,8 @@ def local_cluster(workers: int, *, cards: int = 0) -> Iterator[Client]:
     """
     from distributed import Client, Nanny, Scheduler, SpecCluster
 
+    from .worker_plugin import LeavesInterruptions
+
     require("--workers", workers, 1 <= workers <= _MOST_WORKERS, f"0 to {_MOST_WORKERS}")
     visible = [each for each in os.environ.get(_PER_CARD, "").split(",") if each] or [str(n) for n in range(cards)]
     specs: dict[int, Any] = {}
@@ -68,26 +71,31 @@ def local_cluster(workers: int, *, cards: int = 0) -> Iterator[Client]:
             "host": "127.0.0.1",
             "dashboard": False,
             "silence_logs": logging.CRITICAL,
+            "plugins": (LeavesInterruptions(),),
         }
         if number < cards:
             options |= {"resources": {GPU: 1}, "env": {_PER_CARD: visible[number]}}
         specs[number] = {"cls": Nanny, "options": options}
-    with _quiet():
-        scheduler = {
-            "cls": Scheduler,
-            "options": {
-                "host": "127.0.0.1",
-                "port": 0,
-                "dashboard": True,
-                "dashboard_address": "127.0.0.1:8787",
-                "allowed_failures": MOST_RUNS - 1,
-            },
-        }
-        with (
-            SpecCluster(workers=specs, scheduler=scheduler, name="physanimator", silence_logs=logging.CRITICAL) as made,
-            Client(made, set_as_default=False) as client,
-        ):
-            yield client
+    scheduler = {
+        "host": "127.0.0.1",
+        "port": 0,
+        "dashboard": True,
+        "dashboard_address": "127.0.0.1:8787",  # another port where that is taken
+        "allowed_failures": MOST_RUNS - 1,
+    }
+    with _quiet(), ExitStack() as closing:
+        with uninterrupted():
+            specs_of_scheduler = {"cls": Scheduler, "options": scheduler}
+            made = SpecCluster(workers=specs, scheduler=specs_of_scheduler, silence_logs=logging.CRITICAL)
+            closing.callback(_closed, made)
+            client = Client(made, set_as_default=False)
+            closing.callback(_closed, client)
+        yield client
+
+
+def _closed(what: Any) -> None:
+    with uninterrupted():
+        what.close()
 
 
 @contextmanager

@@ -129,7 +129,7 @@ def _outcome(job: Job, future: Future) -> Outcome:
         if isinstance(raised, KilledWorker):
             return Outcome(name, "lost", f"its worker was killed {MOST_RUNS} times")
         return Outcome(name, "failed", f"{type(raised).__name__}: {raised}")
-    raise SchedulerLost("the scheduler is gone")
+    raise SchedulerLost("the scheduler is gone; finished shots are whole, and the same command does the others")
 
 
 def _unwritten(name: str, error: Exception) -> Outcome:
