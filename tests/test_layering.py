@@ -89,7 +89,7 @@ MAY_IMPORT = {
         "rendering/artwork rendering/files rendering/networks rendering/neural rendering/pictures "
         "rendering/sketch rendering/sketch/drawings rendering/svd rendering/tooncrafter"
     ),
-    "rendering/shots": "__init__ physics rendering/files",
+    "rendering/shots": "__init__ physics rendering rendering/composite rendering/files",
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
         "physics/scene physics/simulation rendering rendering/artwork rendering/composite rendering/export "

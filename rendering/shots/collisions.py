@@ -52,8 +52,9 @@ def colliding_outputs(
                 who = f"shot {_other(several.get(reader, set()), shot.name)}" if reader in several else "this command"
                 told = f"{written_option or 'output'} must not be a file that {who} reads. Got: {path}"
                 problems.append(Problem(told, shot.name, written_option, shot.line))
-            elif is_frame(os.path.basename(path)):
-                holder = next((folders[key] for key in _keys(os.path.dirname(path)) if key in folders), shot.name)
+            elif is_frame(os.path.basename(os.path.realpath(path))):
+                above = _keys(os.path.dirname(os.path.realpath(path)))
+                holder = next((folders[key] for key in above if key in folders), shot.name)
                 if holder != shot.name:
                     told = f"{written_option} must not be named as the frames of shot {holder} beside it. Got: {path}"
                     problems.append(Problem(told, shot.name, written_option, shot.line))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from ...physics.errors import InvalidInputError
@@ -142,14 +143,28 @@ def _unwritten(name: str, error: Exception) -> Outcome:
 
 def _there(job: Job) -> Outcome:
     """On a worker: a shot whose files it sees."""
-    return perform(job, _wanted())
+    with _frames_spread():
+        return perform(job, _wanted())
 
 
 def _away(job: Job, parcel: Parcel) -> Returned:
     """On a worker: a shot whose files have come along."""
     from distributed import get_worker
 
-    return perform_elsewhere(job, parcel, _wanted(), folder=get_worker().local_directory)
+    with _frames_spread():
+        return perform_elsewhere(job, parcel, _wanted(), folder=get_worker().local_directory)
+
+
+@contextmanager
+def _frames_spread() -> Iterator[None]:
+    """Let idle workers draw frames of this thread's shot."""
+    from distributed import get_client, rejoin, secede
+
+    from ..frame_drawing import frames_drawn_by
+    from .spreading import drawing_on_idle_workers
+
+    with frames_drawn_by(drawing_on_idle_workers(get_client(), secede, rejoin)):
+        yield
 
 
 def _wanted() -> Callable[[], bool]:
@@ -161,6 +176,6 @@ def _wanted() -> Callable[[], bool]:
 
     def wanted() -> bool:
         task = worker.state.tasks.get(key)
-        return task is not None and task.state == "executing"
+        return task is not None and task.state in ("executing", "long-running")
 
     return wanted
