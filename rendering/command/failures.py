@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import errno
 from dataclasses import dataclass
 
 from ...physics.errors import PhysAnimatorError
+from ..files import is_full
 
 __all__ = ["BAD_INPUT", "FAILED", "Failure", "failure_of"]
 
 FAILED = 1
 BAD_INPUT = 2
-
-_FULL = {getattr(errno, name, None) for name in ("ENOSPC", "EDQUOT", "EROFS")} - {None}
 
 
 @dataclass(frozen=True)
@@ -36,7 +34,7 @@ def failure_of(error: Exception) -> Failure | None:
         return Failure(BAD_INPUT, str(error))
     if isinstance(error, OSError):
         where = "" if error.filename is None else f"{error.filename}: "
-        return Failure(FAILED, f"{where}{error.strerror or error}", error.errno in _FULL)
+        return Failure(FAILED, f"{where}{error.strerror or error}", is_full(error))
     if isinstance(error, MemoryError):
         return Failure(FAILED, "the memory does not suffice for a picture of this size")
     return None

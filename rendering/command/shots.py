@@ -250,7 +250,7 @@ def _run(options: argparse.Namespace, shots: Sequence[Shot], kept: Sequence[Outc
 
 
 def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitStack) -> Iterator[Outcome]:
-    from ..shots import check_cards, connected, local_cluster, outcomes_of, usual_workers
+    from ..shots import check_workers, connected, local_cluster, outcomes_of, usual_workers
     from .messages import say
 
     if options.scheduler is not None:
@@ -263,7 +263,9 @@ def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitSta
         client = stack.enter_context(local_cluster(min(workers, len(jobs)), cards=min(cards, len(jobs))))
     if not options.quiet and "dashboard" in client.scheduler_info().get("services", {}):
         say(f"dashboard: {client.dashboard_link}")
-    check_cards(client, jobs)
+    if not client.nthreads() and not options.quiet:
+        say("no worker has come to the scheduler yet; waiting for one")
+    check_workers(client, jobs, ship=options.ship)
     return outcomes_of(client, jobs, ship=options.ship, token=secrets.token_hex(4), heard=_heard)
 
 
@@ -311,11 +313,11 @@ def _end(options: argparse.Namespace, shots: Sequence[Shot], found: dict[str, Ou
     ended = [found.get(shot.name, Outcome(shot.name, "left", "not begun, or not ended")) for shot in shots]
     bad = [each for each in ended if not each.is_good]
     options.status = FAILED if bad else 0
-    if options.report is not None:
-        write_report(options.report, list(zip(shots, ended, strict=True)), title=os.path.basename(options.list))
     for line in summary_lines(bad):
         warn(line)
     if not options.quiet:
         done = sum(each.state == "done" for each in ended)
         kept = sum(each.state == "kept" for each in ended)
         say(f"{counted(len(shots), 'shot')}: {done} done now, {kept} done before, {len(bad)} not done")
+    if options.report is not None:
+        write_report(options.report, list(zip(shots, ended, strict=True)), title=os.path.basename(options.list))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .atomic import naming_place, putting_in_place, replacing
+from .atomic import is_full, naming_place, putting_in_place, replacing
 from .path_names import StrPath, is_folder_name, plain_name, same_name, suffix_of
 from .places import check_file_place, check_folder_place, check_replaceable, is_read_only, place_of
 from .record import WrittenFile, recorded
@@ -26,6 +26,7 @@ __all__ = [
     "hear_signals",
     "ignore_signals",
     "is_folder_name",
+    "is_full",
     "is_read_only",
     "made_beside",
     "naming_place",

@@ -22,7 +22,7 @@ __all__ = ["GPU", "check_installed", "connected", "local_cluster", "usual_worker
 GPU = "GPU"
 """Dask's resource of which a worker with a graphics card has 1."""
 
-_MEMORY = 1 << 30  # bytes that a shot of some megapixels takes at most
+_MEMORY = 5 << 28  # bytes that a shot takes: 1.24 GB of a picture of 3840 x 2160
 _MOST_WORKERS = 1024
 _CONNECT_SECONDS = 20
 _PER_CARD = "CUDA_VISIBLE_DEVICES"

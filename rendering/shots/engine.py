@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import os
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+from ... import __version__
 from ...physics.errors import InvalidInputError
+from ..files import is_full
 from .cluster import GPU
-from .job import MOST_RUNS, Job, Outcome, perform
+from .job import MOST_RUNS, Job, Outcome, perform, told_of
 from .shipping import Parcel, Returned, packed, perform_elsewhere, unpacked
 
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-__all__ = ["SchedulerLost", "check_cards", "outcomes_here", "outcomes_of"]
+__all__ = ["SchedulerLost", "check_workers", "outcomes_here", "outcomes_of"]
 
 _AHEAD = 2  # shots for each thread that the scheduler knows: none waits for the client, and memory stays bounded
 
@@ -37,18 +40,31 @@ def outcomes_here(jobs: Sequence[Job], heard: Callable[[], None]) -> Iterator[Ou
         yield outcome
 
 
-def check_cards(client: Client, jobs: Sequence[Job]) -> None:
-    """
+def check_workers(client: Client, jobs: Sequence[Job], *, ship: bool) -> None:
+    """Refuse a cluster whose workers could not do the shots; those that come later are not asked.
+
     Raises:
-        InvalidInputError: shots ask for a graphics card, and no worker has one.
+        InvalidInputError: the message names a worker, and what it lacks.
     """
     asking = [job.shot.name for job in jobs if job.shot.on_gpu]
     workers = client.scheduler_info(n_workers=-1)["workers"].values()
-    if asking and not any(each.get("resources", {}).get(GPU) for each in workers):
+    if asking and workers and not any(each.get("resources", {}).get(GPU) for each in workers):
         raise InvalidInputError(
-            f"shots with networks need a worker with a graphics card, dask worker --resources 'GPU=1', or device ="
+            "shots with networks need a worker with a graphics card, dask worker --resources 'GPU=1', or device ="
             f' "cpu". Got: {asking[0]}, and {len(workers)} workers without'
         )
+    folder = os.path.dirname(jobs[0].notes)
+    for address, answer in client.run(_introduced, folder, on_error="return").items():
+        version, sees = answer if isinstance(answer, tuple) else (f"none: {answer}", True)
+        if version != __version__:
+            raise InvalidInputError(f"workers must have PhysAnimator {__version__}. Got: {version} at {address}")
+        if not (sees or ship):
+            raise InvalidInputError(f"workers must see {folder}, or --ship be given. Got: no such folder at {address}")
+
+
+def _introduced(folder: str) -> tuple[str, bool]:
+    """On a worker: its version, and whether it sees a folder."""
+    return __version__, os.path.isdir(folder)
 
 
 def outcomes_of(
@@ -80,7 +96,7 @@ def outcomes_of(
                 try:
                     future = _submitted(client, job, ship, f"{token}-{job.shot.name}")
                 except OSError as error:
-                    yield Outcome(job.shot.name, "failed", f"{error.filename or ''}: {error.strerror or error}")
+                    yield Outcome(job.shot.name, "failed", told_of(error))
                     continue
                 under_way[future.key] = job
                 completed.add(future)
@@ -124,21 +140,13 @@ def _outcome(job: Job, future: Future) -> Outcome:
         try:
             return unpacked(job, result)
         except (OSError, InvalidInputError) as error:
-            return _unwritten(name, error)
+            return Outcome(name, "failed", told_of(error), full=is_full(error))
     if future.status == "error":
         raised = future.exception()
         if isinstance(raised, KilledWorker):
             return Outcome(name, "lost", f"its worker was killed {MOST_RUNS} times")
         return Outcome(name, "failed", f"{type(raised).__name__}: {raised}")
     raise SchedulerLost("the scheduler is gone; finished shots are whole, and the same command does the others")
-
-
-def _unwritten(name: str, error: Exception) -> Outcome:
-    import errno
-
-    full = isinstance(error, OSError) and error.errno in (errno.ENOSPC, getattr(errno, "EDQUOT", None), errno.EROFS)
-    told = f"{error.filename}: {error.strerror}" if isinstance(error, OSError) and error.filename else str(error)
-    return Outcome(name, "failed", told, full=full)
 
 
 def _there(job: Job) -> Outcome:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ...physics.errors import Cancelled
 from ...physics.interruption import interruptible
-from ..files import noting_unfinished, remove_noted
+from ..files import is_full, noting_unfinished, remove_noted
 from .shot import Shot
 from .shot_record import ShotRecord, is_finished, write_shot_record, written_by
 
@@ -109,7 +109,10 @@ def perform(job: Job, wanted: Callable[[], bool] = lambda: True) -> Outcome:
     kept = is_finished(shot, job.identity)
     if kept is not None:  # by a worker that was killed before it could say so
         return Outcome(shot.name, "done", seconds=kept.seconds, machine=kept.machine, said=kept.said)
-    run = _begun(Path(job.notes), shot)
+    try:
+        run = _begun(Path(job.notes), shot)
+    except OSError as error:
+        return Outcome(shot.name, "failed", told_of(error), machine=machine, full=is_full(error))
     if run is None:
         return Outcome(shot.name, "lost", f"its worker was killed {MOST_RUNS} times", machine=machine)
     start = time.perf_counter()
@@ -120,7 +123,7 @@ def perform(job: Job, wanted: Callable[[], bool] = lambda: True) -> Outcome:
             try:
                 record_of(job, outcome)
             except (OSError, ValueError) as error:
-                outcome = replace(outcome, state="failed", why=f"its record cannot be written: {error}")
+                outcome = replace(outcome, state="failed", why=told_of(error), full=is_full(error))
     return outcome
 
 
@@ -159,6 +162,13 @@ def record_of(job: Job, outcome: Outcome) -> None:
     settings, said = dict(shot.settings), outcome.said
     record = ShotRecord(shot.name, job.identity, files, outcome.seconds, outcome.machine, said, settings)
     write_shot_record(shot.record, record)
+
+
+def told_of(error: Exception) -> str:
+    """An error of the disk, or another, in a sentence."""
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
+    return str(error)
 
 
 def _begun(notes: Path, shot: Shot) -> Path | None:

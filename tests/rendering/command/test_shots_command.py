@@ -307,3 +307,36 @@ def test_the_job_template_is_valid_and_runs(folder: Path) -> None:
     done = subprocess.run(run, env=environment(folder), capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
     assert sorted(contents(folder / "out")) == ["a.mp4"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="locks are taken in another way there")
+def test_two_runs_do_not_fill_one_folder(folder: Path, capsys: Output) -> None:
+    pytest.importorskip("distributed")
+    import fcntl
+
+    write_list(folder / "list.toml", ['name = "a"'])
+    (folder / "out" / ".shots").mkdir(parents=True)
+    with (folder / "out" / ".shots" / "lock").open("wb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        assert status("shots", "list.toml", "-o", "out", "--workers", "1") == 2
+    assert "--output must be a folder that no other run fills" in capsys.readouterr().err
+
+
+def test_a_shot_whose_workers_are_killed_thrice_is_given_up(folder: Path, capsys: Output) -> None:
+    """As its notes tell, which a killed worker leaves; what it was writing is removed."""
+    from physanimator.rendering.command.shot_task import animate_shot, shot_files
+    from physanimator.rendering.shots import FileDigests, Job, identity_of
+    from physanimator.rendering.shots.job import MOST_RUNS, perform
+
+    write_list(folder / "list.toml", ['name = "a"'])
+    notes = folder / "out" / ".shots"
+    notes.mkdir(parents=True)
+    shot = read_list("list.toml", "out").shots[0]
+    job = Job(shot, identity_of(shot, FileDigests()), animate_shot, shot_files, str(notes))
+    for run in range(MOST_RUNS):
+        (folder / "out" / f".{run}half.mp4").touch()
+        (notes / f"a.{run}").write_text(f"{folder}/out/.{run}half.mp4\0", encoding="utf-8")
+    outcome = perform(job)
+    assert outcome.state == "lost"
+    assert "3 times" in outcome.why
+    assert litter(folder / "out") == [".shots"]

@@ -53,7 +53,8 @@ def cluster(folder: Path) -> Iterator[tuple[str, subprocess.Popen[str], subproce
 def animated_alone(folder: Path, *options: str) -> bytes:
     """A clip as ``animate`` makes it."""
     done = begin(folder, "animate", "girl.png", "--mask", "hair.png", "-o", "alone.mp4", "--quiet", *options)
-    assert done.wait() == 0
+    said, _ = done.communicate()
+    assert done.returncode == 0, said
     return (folder / "alone.mp4").read_bytes()
 
 
@@ -106,7 +107,7 @@ def test_files_are_shipped_and_a_killed_client_or_scheduler_leaves_only_whole_sh
     killed = begin(folder, *words)
     until(lambda: begun(out, "c.0"))
     killed.kill()
-    killed.wait()
+    killed.communicate()
     until(lambda: not begun(out, "c.0"))  # the worker has heard that nobody waits for it, and has tidied up
     assert not (out / "c.mp4").exists()
     assert not [each for each in litter(out) if each.endswith("mp4")]
