@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["animate_shot", "shot_files", "shot_parser"]
 
 
+@lru_cache
 def shot_parser() -> argparse.ArgumentParser:
     """What reads the words of a shot; it raises instead of ending the process."""
     from .options import add_animate

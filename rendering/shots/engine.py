@@ -22,6 +22,8 @@ __all__ = ["SchedulerLost", "check_workers", "outcomes_here", "outcomes_of"]
 
 _AHEAD = 2  # shots for each thread that the scheduler knows: none waits for the client, and memory stays bounded
 
+_LOST = "the scheduler is gone; finished shots are whole, and the same command does the others"
+
 
 class SchedulerLost(OSError):
     """The scheduler is gone."""
@@ -84,48 +86,62 @@ def outcomes_of(
     """
     from distributed import as_completed
 
-    waiting: deque[Job] = deque(jobs)
+    waiting = {on_gpu: deque(job for job in jobs if job.shot.on_gpu is on_gpu) for on_gpu in (True, False)}
     under_way: dict[Any, Job] = {}
     completed = as_completed(loop=client.loop, raise_errors=False)
     full = ""
     try:
-        while waiting or under_way:
-            while waiting and not full and len(under_way) < _AHEAD * max(1, _threads(client)):
-                heard()
-                job = waiting.popleft()
-                try:
-                    future = _submitted(client, job, ship, f"{token}-{job.shot.name}")
-                except OSError as error:
-                    yield Outcome(job.shot.name, "failed", told_of(error))
-                    continue
-                under_way[future.key] = job
-                completed.add(future)
-                del future
-            if full:
-                while waiting:
-                    yield Outcome(waiting.popleft().shot.name, "left", full)
+        while any(waiting.values()) or under_way:
+            for on_gpu, queue in waiting.items():
+                begun = sum(job.shot.on_gpu is on_gpu for job in under_way.values())
+                for _ in range(min(len(queue), _places(client, on_gpu=on_gpu) * _AHEAD - begun)):
+                    heard()
+                    job = queue.popleft()
+                    try:
+                        parcel = packed(job) if ship else None
+                    except OSError as error:
+                        yield Outcome(job.shot.name, "failed", told_of(error))
+                        continue
+                    future = _submitted(client, job, parcel, f"{token}-{job.shot.name}")
+                    under_way[future.key] = job
+                    completed.add(future)
+                    del future
             if not under_way:
                 continue
             future = next(completed)
             job = under_way.pop(future.key)
             outcome = _outcome(job, future)
             del future
-            full = f"not begun: {outcome.why}" if outcome.full else full
             yield outcome
+            if outcome.full and not full:
+                full = f"not begun: {outcome.why}"
+                for queue in waiting.values():
+                    while queue:
+                        yield Outcome(queue.popleft().shot.name, "left", full)
     finally:
         if under_way:
-            client.cancel([future for future in completed.futures], force=True)
+            client.cancel(list(completed.futures), force=True)
 
 
-def _threads(client: Client) -> int:
-    """How many shots the cluster can do at once, now."""
-    return sum(client.nthreads().values()) if client.status == "running" else 1
+def _places(client: Client, *, on_gpu: bool) -> int:
+    """How many shots of a kind the cluster can do at once, now.
+
+    Raises:
+        SchedulerLost: the scheduler does not answer.
+    """
+    try:
+        workers = client.scheduler_info(n_workers=-1)["workers"].values()
+    except OSError:
+        raise SchedulerLost(_LOST) from None
+    if on_gpu:
+        return max(1, int(sum(each.get("resources", {}).get(GPU, 0) for each in workers)))
+    return max(1, sum(int(each["nthreads"]) for each in workers))
 
 
-def _submitted(client: Client, job: Job, ship: bool, key: str) -> Future:
+def _submitted(client: Client, job: Job, parcel: Parcel | None, key: str) -> Future:
     resources = {GPU: 1} if job.shot.on_gpu else None
-    if ship:
-        return client.submit(_away, job, packed(job), key=key, resources=resources, pure=False)
+    if parcel is not None:
+        return client.submit(_away, job, parcel, key=key, resources=resources, pure=False)
     return client.submit(_there, job, key=key, resources=resources, pure=False)
 
 
@@ -146,7 +162,7 @@ def _outcome(job: Job, future: Future) -> Outcome:
         if isinstance(raised, KilledWorker):
             return Outcome(name, "lost", f"its worker was killed {MOST_RUNS} times")
         return Outcome(name, "failed", f"{type(raised).__name__}: {raised}")
-    raise SchedulerLost("the scheduler is gone; finished shots are whole, and the same command does the others")
+    raise SchedulerLost(_LOST)
 
 
 def _there(job: Job) -> Outcome:

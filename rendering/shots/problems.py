@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ...physics.errors import InvalidInputError, counted, printable
+from ...physics.errors import printable
 
-__all__ = ["Problem", "ShotsError"]
+__all__ = ["Problem"]
 
 
 @dataclass(frozen=True)
@@ -32,15 +31,3 @@ class Problem:
         head = ", ".join(each for each in (place, shot) if each)
         told = self.message if not self.option or self.option in self.message else f"{self.option}: {self.message}"
         return printable(f"{head}: {told}" if head else told)
-
-
-class ShotsError(InvalidInputError):
-    """A list of shots cannot be worked on.
-
-    Attributes:
-        problems: all that is wrong with it.
-    """
-
-    def __init__(self, path: str, problems: Sequence[Problem]) -> None:
-        super().__init__(f"{path}: {counted(len(problems), 'error')}, nothing was begun")
-        self.problems = tuple(problems)
