@@ -96,7 +96,7 @@ def perform_elsewhere(job: Job, parcel: Parcel, wanted: Callable[[], bool], *, f
 def _as_here(line: str, there: Mapping[str, str]) -> str:
     """A line with the paths that its reader knows."""
     for place, path in there.items():
-        line = line.replace(place, path)
+        line = line.replace(place.rstrip("/\\"), path.rstrip("/\\"))
     return line
 
 
