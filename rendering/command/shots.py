@@ -8,6 +8,7 @@ import secrets
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import replace
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from .failures import FAILED
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
     from ..shots import Job, Outcome, Problem, Shot
 
 __all__ = ["add_shots"]
+
+_SHOWN = 12  # number of the frame that a contact sheet shows, or the last
+_WIDE = 320  # width of it [px]
 
 
 def add_shots(parser: argparse.ArgumentParser) -> None:
@@ -320,4 +324,22 @@ def _end(options: argparse.Namespace, shots: Sequence[Shot], found: dict[str, Ou
         kept = sum(each.state == "kept" for each in ended)
         say(f"{counted(len(shots), 'shot')}: {done} done now, {kept} done before, {len(bad)} not done")
     if options.report is not None:
-        write_report(options.report, list(zip(shots, ended, strict=True)), title=os.path.basename(options.list))
+        known = list(zip(shots, ended, strict=True))
+        write_report(options.report, known, title=os.path.basename(options.list), picture_of=_picture_of)
+
+
+def _picture_of(clip: str) -> str:
+    """A small picture of a clip, from half a second on, as an address that holds it."""
+    from ...physics.errors import InvalidInputError
+    from ..pictures import data_address, over, read_clip, resized
+
+    frame = None
+    try:
+        for frame in islice(read_clip(clip), _SHOWN + 1):  # noqa: B007
+            pass
+    except (InvalidInputError, OSError):  # such as layers as sequences
+        pass
+    if frame is None:
+        return ""
+    height = max(1, round(frame.shape[0] * _WIDE / frame.shape[1]))
+    return data_address(resized(over(frame), _WIDE, height))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from urllib.parse import quote
 
@@ -24,27 +24,32 @@ video, img { width: 100%; background: repeating-conic-gradient(#ccc 0 25%, #fff 
 h2 { font-size: 1em; margin: .2em 0 } p { margin: .2em 0 } .why { color: #c33 }
 details { font-size: .9em }
 """
-_MOVING = (".mp4", ".webm", ".mov")
+_PLAYED = (".mp4", ".webm")
 _PICTURES = (".gif", ".webp", ".apng")
 
 
-def write_report(path: str, shots: Iterable[tuple[Shot, Outcome]], *, title: str) -> None:
+def write_report(
+    path: str, shots: Iterable[tuple[Shot, Outcome]], *, title: str, picture_of: Callable[[str], str]
+) -> None:
     """Write the page; clips are linked from where they are, by paths from the page's folder on.
 
     Args:
         path: a name in .html.
         shots: every shot with what became of it.
         title: of the page.
+        picture_of: gives the address of a small picture of a clip, such as ``data:...``; empty where there is none.
 
     Raises:
         OSError: it cannot be written.
     """
     known = list(shots)
     with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="\n") as file:
-        file.writelines(_page(known, os.path.dirname(os.path.abspath(path)), title))
+        file.writelines(_page(known, os.path.dirname(os.path.abspath(path)), title, picture_of))
 
 
-def _page(shots: Sequence[tuple[Shot, Outcome]], folder: str, title: str) -> Iterator[str]:
+def _page(
+    shots: Sequence[tuple[Shot, Outcome]], folder: str, title: str, picture_of: Callable[[str], str]
+) -> Iterator[str]:
     good = sum(outcome.is_good for _, outcome in shots)
     seconds = sum(outcome.seconds for _, outcome in shots)
     yield (
@@ -53,16 +58,16 @@ def _page(shots: Sequence[tuple[Shot, Outcome]], folder: str, title: str) -> Ite
         f"<p>{good} of {len(shots)} shots are there; {seconds:.0f} s of work in all.</p>\n<main>\n"
     )
     for shot, outcome in sorted(shots, key=lambda each: each[1].is_good):
-        yield from _article(shot, outcome, folder)
+        yield from _article(shot, outcome, folder, picture_of)
     yield "</main></html>\n"
 
 
-def _article(shot: Shot, outcome: Outcome, folder: str) -> Iterator[str]:
+def _article(shot: Shot, outcome: Outcome, folder: str, picture_of: Callable[[str], str]) -> Iterator[str]:
     name = html.escape(shot.name)
     yield f'<article class="{outcome.state}"><h2>{name}</h2>\n'
     clip = next((each.text or "" for each in shot.paths("output") if each.option == "output"), "")
     if outcome.is_good:
-        yield _shown(clip, folder, name)
+        yield _shown(clip, folder, name, picture_of)
         yield f"<p>{outcome.state}, {outcome.seconds:.1f} s on {html.escape(outcome.machine)}</p>\n"
     else:
         yield f'<p class="why">{outcome.state}: {html.escape(outcome.why)}</p>\n'
@@ -71,17 +76,13 @@ def _article(shot: Shot, outcome: Outcome, folder: str) -> Iterator[str]:
     yield f"<details><summary>options</summary>{html.escape(words)}</details></article>\n"
 
 
-def _shown(clip: str, folder: str, name: str) -> str:
+def _shown(clip: str, folder: str, name: str, picture_of: Callable[[str], str]) -> str:
+    address, picture = html.escape(_address(clip, folder)), html.escape(picture_of(clip))
     suffix = os.path.splitext(clip)[1].lower()
-    if os.path.isdir(clip):
-        frames = sorted(Path(clip).rglob("frame_*.png"))
-        clip, suffix = (str(frames[0]), _PICTURES[0]) if frames else (clip, "")
-    address = html.escape(_address(clip, folder))
-    if suffix in _MOVING:
-        return f'<video src="{address}" preload="metadata" muted loop controls playsinline></video>\n'
-    if suffix in _PICTURES:
-        return f'<a href="{address}"><img src="{address}" alt="{name}" loading="lazy"></a>\n'
-    return f'<a href="{address}">{html.escape(os.path.basename(clip))}</a>\n'
+    if suffix in _PLAYED:
+        return f'<video src="{address}" poster="{picture}" preload="none" muted loop controls playsinline></video>\n'
+    picture = address if suffix in _PICTURES else picture
+    return f'<a href="{address}"><img src="{picture}" alt="{name}" loading="lazy"></a>\n'
 
 
 def _address(clip: str, folder: str) -> str:
