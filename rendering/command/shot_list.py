@@ -107,7 +107,16 @@ def _parsed(
 def _shot(row: ShotRow, name: str, words: Sequence[Word], options: argparse.Namespace) -> Shot:
     settings = {key: value for key, value in vars(options).items() if key not in _NO_SETTINGS and value is not None}
     record = options.output.rstrip("/\\" if os.name == "nt" else "/") + ENDING
-    return Shot(name, tuple(words), settings, record, row.line, row.lines, _on_gpu(options))
+    return Shot(name, tuple(words), settings, record, row.line, row.lines, _on_gpu(options), _frames(options))
+
+
+def _frames(options: argparse.Namespace) -> int:
+    """How many frames options tell of; a scene's own loop is not looked at."""
+    from ..options import DEFAULT_FRAME_RATE, DEFAULT_FRAMES
+
+    if options.frames is not None or options.loop is None:
+        return options.frames if options.frames is not None else DEFAULT_FRAMES
+    return int(min(options.loop * (options.fps or DEFAULT_FRAME_RATE), 1e9)) if options.loop > 0 else 0
 
 
 def _on_gpu(options: argparse.Namespace) -> bool:

@@ -254,7 +254,7 @@ def _run(options: argparse.Namespace, shots: Sequence[Shot], kept: Sequence[Outc
 
 
 def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitStack) -> Iterator[Outcome]:
-    from ..shots import check_workers, connected, local_cluster, outcomes_of, usual_workers
+    from ..shots import check_workers, connected, local_cluster, outcomes_of, usual_workers, workers_for
     from .messages import say
 
     if options.scheduler is not None:
@@ -264,7 +264,7 @@ def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitSta
         if not cards:
             jobs = [replace(job, shot=replace(job.shot, on_gpu=False)) for job in jobs]
         workers = usual_workers() if options.workers is None else options.workers
-        client = stack.enter_context(local_cluster(min(workers, len(jobs)), cards=min(cards, len(jobs))))
+        client = stack.enter_context(local_cluster(workers_for(jobs, workers), cards=min(cards, len(jobs))))
     if not options.quiet and "dashboard" in client.scheduler_info().get("services", {}):
         say(f"dashboard: {client.dashboard_link}")
     if not client.nthreads() and not options.quiet:

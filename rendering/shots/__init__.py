@@ -5,7 +5,7 @@ from __future__ import annotations
 from .cluster import check_installed, connected, local_cluster, usual_workers
 from .collisions import colliding_outputs
 from .document import ShotRow, read_rows
-from .engine import SchedulerLost, check_workers, outcomes_here, outcomes_of
+from .engine import SchedulerLost, check_workers, outcomes_here, outcomes_of, workers_for
 from .farms import command_lines, openjd_template
 from .job import Animated, Job, Outcome
 from .option_words import OptionNames, Word, shot_name, words_of
@@ -49,5 +49,6 @@ __all__ = [
     "summary_lines",
     "usual_workers",
     "words_of",
+    "workers_for",
     "write_report",
 ]

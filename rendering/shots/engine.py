@@ -18,7 +18,7 @@ from .shipping import Parcel, Returned, packed, perform_elsewhere, unpacked
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-__all__ = ["SchedulerLost", "check_workers", "outcomes_here", "outcomes_of"]
+__all__ = ["SchedulerLost", "check_workers", "outcomes_here", "outcomes_of", "workers_for"]
 
 _AHEAD = 2  # shots for each thread that the scheduler knows: none waits for the client, and memory stays bounded
 
@@ -67,6 +67,13 @@ def check_workers(client: Client, jobs: Sequence[Job], *, ship: bool) -> None:
 def _introduced(folder: str) -> tuple[str, bool]:
     """On a worker: its version, and whether it sees a folder."""
     return __version__, os.path.isdir(folder)
+
+
+def workers_for(jobs: Sequence[Job], most: int) -> int:
+    """How many of the workers that there may be have something to do: all where a shot is long, which they share."""
+    from .spreading import LONG
+
+    return most if any(job.shot.frames >= LONG for job in jobs) else min(most, len(jobs))
 
 
 def outcomes_of(

@@ -29,6 +29,7 @@ class Shot:
         line: of the list's file, where the shot begins.
         lines: of the list's file, for each option.
         on_gpu: whether it asks for a graphics card.
+        frames: how many it has, as far as its options tell.
     """
 
     name: str
@@ -38,6 +39,7 @@ class Shot:
     line: int | None = None
     lines: Mapping[str, int] = field(default_factory=dict)
     on_gpu: bool = False
+    frames: int = 0
 
     def command(self, places: Mapping[str, str] | None = None) -> Sequence[str]:
         """The words as a command has them; see :meth:`Word.spelled`."""

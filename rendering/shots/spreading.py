@@ -16,12 +16,14 @@ if TYPE_CHECKING:
 
     from ..frame_drawing import DrawsFrames
 
-__all__ = ["FRAMES", "drawing_on_idle_workers"]
+__all__ = ["FRAMES", "LONG", "drawing_on_idle_workers"]
 
 FRAMES = 16
 """Frames that a worker draws at a time."""
 
-_LEAST = 4 * FRAMES  # of a shot that is worth it
+LONG = 12 * FRAMES
+"""Frames of a shot that it is worth for: another worker takes seconds until it can draw."""
+
 _AHEAD = 2  # pieces for each thread that are drawn or wait to be written
 _FIRST = 10  # priority: what is under way is finished before other shots are begun
 _POLL = 0.2  # [s] between two looks at whether somebody still wants the shot
@@ -38,7 +40,7 @@ def drawing_on_idle_workers(client: Client, leave: Callable[[], Any], come_back:
 
     def draw(renderer: Any, numbers: Sequence[int], background: Background) -> Iterator[NDArray[Any]] | None:
         threads = sum(client.nthreads().values())
-        if len(numbers) < _LEAST or sum(map(len, client.processing().values())) >= threads:
+        if len(numbers) < LONG or sum(map(len, client.processing().values())) >= threads:
             return None
         return _spread(client, renderer, numbers, background, _AHEAD * threads, leave, come_back)
 

@@ -122,6 +122,15 @@ def test_files_are_shipped_and_a_killed_client_or_scheduler_leaves_only_whole_sh
     assert worker.wait(60) is not None
 
 
+def test_idle_workers_draw_frames_of_a_long_shot(folder: Path) -> None:
+    """The same bytes as by one process."""
+    write_list(folder / "list.toml", ['name = "a"'], defaults="frames = 200")
+    client = begin(folder, "shots", "list.toml", "-o", "out", "--workers", "2")
+    said, _ = client.communicate(timeout=100)
+    assert client.returncode == 0, said
+    assert contents(folder / "out")["a.mp4"] == animated_alone(folder, "--frames", "200")
+
+
 def _namespaces() -> str:
     """Why two network namespaces cannot be made; nothing where they can."""
     if sys.platform != "linux" or shutil.which("ip") is None:
