@@ -44,12 +44,13 @@ class ReadList:
     problems: tuple[Problem, ...]
 
 
-def read_list(path: str, out: str) -> ReadList:
+def read_list(path: str, out: str, *, also_written: Sequence[tuple[str, str]] = ()) -> ReadList:
     """The shots of a list, with what of it no command could be.
 
     Args:
         path: of the list.
         out: the folder where results go that say nothing else.
+        also_written: options and files that the command writes besides.
 
     Raises:
         InvalidInputError: the list cannot be read.
@@ -79,7 +80,9 @@ def read_list(path: str, out: str) -> ReadList:
         problems += [*wrong, *refused]
         if options is not None and not wrong:
             shots.append(_shot(row, name, words, options))
-    problems += colliding_outputs(shots, also_read=[os.path.abspath(path)], is_frame=is_frame_name)
+    problems += colliding_outputs(
+        shots, also_read=[os.path.abspath(path)], also_written=also_written, is_frame=is_frame_name
+    )
     return ReadList(tuple(shots), tuple(problems))
 
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["add_shots"]
 
+_BESIDES = ("report", "write_commands", "write_openjd")  # options of files that are written besides clips
 _SHOWN = 12  # number of the frame that a contact sheet shows, or the last
 _WIDE = 320  # width of it [px]
 
@@ -140,7 +141,8 @@ def _chosen(options: argparse.Namespace) -> tuple[list[Shot], list[Problem]]:
     from ...physics.errors import InvalidInputError
     from .shot_list import read_list
 
-    read = read_list(options.list, options.output)
+    besides = [(f"--{name.replace('_', '-')}", getattr(options, name)) for name in _BESIDES]
+    read = read_list(options.list, options.output, also_written=[each for each in besides if each[1] is not None])
     if options.only is None:
         return list(read.shots), list(read.problems)
     known = {shot.name: shot for shot in read.shots}
@@ -158,13 +160,15 @@ def _refuse(options: argparse.Namespace, problems: Sequence[Problem]) -> None:
         InvalidInputError: there are problems; each has been told.
     """
     from ...physics.errors import InvalidInputError, counted
+    from ..shots import merged
     from .messages import warn
 
     if not problems:
         return
-    for each in sorted(problems, key=lambda problem: problem.line or 0):
+    told = merged(problems)
+    for each in told:
         warn(f"{options.list}: {each}")
-    raise InvalidInputError(f"{options.list} has {counted(len(problems), 'error')}; nothing was begun")
+    raise InvalidInputError(f"{options.list} has {counted(len(told), 'error')}; nothing was begun")
 
 
 def _wrong(shots: Sequence[Shot]) -> Iterator[Problem]:
@@ -254,6 +258,7 @@ def _run(options: argparse.Namespace, shots: Sequence[Shot], kept: Sequence[Outc
 
 
 def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitStack) -> Iterator[Outcome]:
+    from ...physics.errors import counted
     from ..shots import check_workers, connected, local_cluster, outcomes_of, usual_workers, workers_for
     from .messages import say
 
@@ -267,8 +272,10 @@ def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitSta
         client = stack.enter_context(local_cluster(workers_for(jobs, workers), cards=min(cards, len(jobs))))
     if not options.quiet and "dashboard" in client.scheduler_info().get("services", {}):
         say(f"dashboard: {client.dashboard_link}")
-    if not client.nthreads() and not options.quiet:
-        say("no worker has come to the scheduler yet; waiting for one")
+    threads = sum(client.nthreads().values())
+    if not options.quiet:
+        where = f"{threads} at once" if threads else "once a worker has come to the scheduler"
+        say(f"{counted(len(jobs), 'shot')} to do, {where}")
     check_workers(client, jobs, ship=options.ship)
     return outcomes_of(client, jobs, ship=options.ship, token=secrets.token_hex(4), heard=_heard)
 

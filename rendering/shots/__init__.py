@@ -9,7 +9,7 @@ from .engine import SchedulerLost, check_workers, outcomes_here, outcomes_of, wo
 from .farms import command_lines, openjd_template
 from .job import Animated, Job, Outcome
 from .option_words import OptionNames, Word, shot_name, words_of
-from .problems import Problem
+from .problems import Problem, merged
 from .report import write_report
 from .run_folder import NOTES, alone_in, forgetting
 from .shot import FileDigests, Shot, identity_of
@@ -40,6 +40,7 @@ __all__ = [
     "identity_of",
     "is_finished",
     "local_cluster",
+    "merged",
     "openjd_template",
     "outcomes_here",
     "outcomes_of",

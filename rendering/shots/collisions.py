@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import unicodedata
 from collections.abc import Callable, Hashable, Iterator, Sequence
+from functools import lru_cache
 
 from ..files import is_folder_name
 from .problems import Problem
@@ -12,62 +13,72 @@ from .shot import Shot, files_read
 
 __all__ = ["colliding_outputs"]
 
+_THIS_COMMAND = "this command"
+
+_Owners = dict[Hashable, set[str]]
+
 
 def colliding_outputs(
-    shots: Sequence[Shot], *, also_read: Sequence[str], is_frame: Callable[[str], bool]
+    shots: Sequence[Shot],
+    *,
+    also_read: Sequence[str],
+    also_written: Sequence[tuple[str, str]],
+    is_frame: Callable[[str], bool],
 ) -> list[Problem]:
     """A problem for each result that would take the place of another shot's result or input.
 
     Args:
         shots: all of the list, in its order.
-        also_read: files that are read besides, such as the list.
+        also_read: files that the command reads besides, such as the list.
+        also_written: options and files that the command writes besides, such as its report.
         is_frame: whether a file of that name in a folder of frames would count as one of them.
     """
-    problems: list[Problem] = []
-    read: dict[Hashable, tuple[str, str]] = {}
-    for path in also_read:
-        read.update((key, ("", path)) for key in _keys(path))
-    several: dict[Hashable, set[str]] = {}
+    keys = lru_cache(maxsize=None)(lambda path: tuple(_keys(path)))
+    readers: _Owners = {key: {_THIS_COMMAND} for path in also_read for key in keys(path)}
+    folders: _Owners = {}
     for shot in shots:
         for word in (*shot.paths("input"), *shot.paths("model")):
-            for key in {key for file in files_read_or_named(word.text or "") for key in _keys(file)}:
-                several.setdefault(key, set()).add(shot.name)
-                read.setdefault(key, (shot.name, word.text or ""))
-    written: dict[Hashable, tuple[str, str]] = {}
-    folders: dict[Hashable, str] = {}
-    for shot in shots:
+            for key in {key for file in _files_or_named(word.text or "") for key in keys(file)}:
+                readers.setdefault(key, set()).add(shot.name)
         for word in shot.paths("output"):
             if is_folder_name(word.text or ""):
-                folders.update(dict.fromkeys(_keys(word.text or ""), shot.name))
-    for shot in shots:
-        for option, path in [*((each.option, each.text or "") for each in shot.paths("output")), ("", shot.record)]:
-            written_option = option.replace("_", "-")
-            keys = list(_keys(path))
-            other = next((written[key] for key in keys if key in written and written[key][0] != shot.name), None)
-            reader = next((key for key in keys if key in read and several.get(key, {""}) != {shot.name}), None)
-            if other is not None:
-                told = f"must be unlike what shot {other[0]} writes. Got: {path}"
-                problems.append(Problem(f"{written_option or 'output'} {told}", shot.name, written_option, shot.line))
-            elif reader is not None:
-                who = f"shot {_other(several.get(reader, set()), shot.name)}" if reader in several else "this command"
-                told = f"{written_option or 'output'} must not be a file that {who} reads. Got: {path}"
-                problems.append(Problem(told, shot.name, written_option, shot.line))
-            elif is_frame(os.path.basename(os.path.realpath(path))):
-                above = _keys(os.path.dirname(os.path.realpath(path)))
-                holder = next((folders[key] for key in above if key in folders), shot.name)
-                if holder != shot.name:
-                    told = f"{written_option} must not be named as the frames of shot {holder} beside it. Got: {path}"
-                    problems.append(Problem(told, shot.name, written_option, shot.line))
-            for key in keys:
-                written.setdefault(key, (shot.name, path))
+                for key in keys(word.text or ""):
+                    folders.setdefault(key, set()).add(shot.name)
+    writers: _Owners = {}
+    problems = []
+    for name, line, option, path in _outputs(shots, also_written):
+        place = os.path.realpath(path)
+        beside = keys(os.path.dirname(place)) if is_frame(os.path.basename(place)) else ()
+        for owners, among, told in (
+            (writers, keys(path), "be unlike what {} writes"),
+            (readers, keys(path), "not be a file that {} reads"),
+            (folders, beside, "not be named as the frames of {} beside it"),
+        ):
+            others = {owner for key in among for owner in owners.get(key, ())} - {name}
+            if others:
+                owner = min(others)
+                words = told.format(owner if owner == _THIS_COMMAND or owner.startswith("-") else f"shot {owner}")
+                shot_name = "" if name == option else name
+                problems.append(Problem(f"{option} must {words}. Got: {path}", shot_name, option, line))
+                break
+        for key in keys(path):
+            writers.setdefault(key, set()).add(name)
     return problems
 
 
-def _other(names: set[str], own: str) -> str:
-    return min(names - {own}, default=own)
+def _outputs(
+    shots: Sequence[Shot], also_written: Sequence[tuple[str, str]]
+) -> Iterator[tuple[str, int | None, str, str]]:
+    """Who writes, the line of it, the option, and the path."""
+    for shot in shots:
+        for word in shot.paths("output"):
+            yield shot.name, shot.lines.get(word.option, shot.line), word.option.replace("_", "-"), word.text or ""
+        yield shot.name, shot.line, "output", shot.record
+    for option, path in also_written:
+        yield option, None, option, path  # no shot's name begins with a dash
 
 
-def files_read_or_named(path: str) -> Iterator[str]:
+def _files_or_named(path: str) -> Iterator[str]:
     """The files of an input, and the input itself: it may be a folder, or not be there yet."""
     yield path
     if os.path.exists(path):

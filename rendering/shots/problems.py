@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from ...physics.errors import printable
 
-__all__ = ["Problem"]
+__all__ = ["Problem", "merged"]
 
 
 @dataclass(frozen=True)
@@ -31,3 +32,14 @@ class Problem:
         head = ", ".join(each for each in (place, shot) if each)
         told = self.message if not self.option or self.option in self.message else f"{self.option}: {self.message}"
         return printable(f"{head}: {told}" if head else told)
+
+
+def merged(problems: Sequence[Problem]) -> list[Problem]:
+    """Problems by their lines; one that the defaults give to every shot is told once."""
+    found: dict[tuple[int | None, str], list[Problem]] = {}
+    for each in problems:
+        found.setdefault((each.line, str(replace(each, shot=""))), []).append(each)
+    alone = [
+        same[0] if len({each.shot for each in same}) == 1 else replace(same[0], shot="") for same in found.values()
+    ]
+    return sorted(alone, key=lambda each: each.line or 0)

@@ -6,6 +6,7 @@ import argparse
 import json
 import os
 import re
+import resource
 import shlex
 import shutil
 import subprocess
@@ -58,25 +59,29 @@ def _prepared(folder: Path, files: Sequence[tuple[Path, Path]], count: int, fram
     return words
 
 
-def _shots(folder: Path, out: str, workers: int) -> float:
-    """Seconds of the whole command, its start included."""
+def _timed(command: Sequence[str], folder: Path, text: str | None = None) -> dict[str, float]:
+    """Seconds of a whole command, its start included: on the clock, and of processors, which others do not disturb."""
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    subprocess.run(command, input=text, text=True, cwd=folder, env=_environment(folder), check=True)
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    processors = used.ru_utime - before.ru_utime + used.ru_stime - before.ru_stime
+    return {"seconds": time.perf_counter() - start, "processor_seconds": processors}
+
+
+def _shots(folder: Path, out: str, workers: int) -> dict[str, float]:
     command = [sys.executable, "-m", "physanimator", "shots", "list.toml", "-o", out, "--workers", str(workers), "-q"]
-    start = time.perf_counter()
-    subprocess.run(command, cwd=folder, env=_environment(folder), check=True)
-    return time.perf_counter() - start
+    return _timed(command, folder)
 
 
-def _by_lines(folder: Path, words: Sequence[Sequence[str]], jobs: int) -> tuple[str, float]:
-    """Seconds of GNU parallel, or of xargs where there is none, running one ``animate`` after the other."""
+def _by_lines(folder: Path, words: Sequence[Sequence[str]], jobs: int) -> dict[str, Any]:
+    """GNU parallel, or xargs where there is none, running one ``animate`` after the other."""
     (folder / "by_lines").mkdir()
     text = "".join(f"{shlex.join([sys.executable, '-m', 'physanimator', *each])}\n" for each in words)
     parallel = shutil.which("parallel")
     command = (
         [parallel, "-j", str(jobs)] if parallel else ["xargs", "-P", str(jobs), "-d", "\n", "-I{}", "sh", "-c", "{}"]
     )
-    start = time.perf_counter()
-    subprocess.run(command, input=text, text=True, cwd=folder, env=_environment(folder), check=True)
-    return ("GNU parallel" if parallel else "xargs -P"), time.perf_counter() - start
+    return {"program": "GNU parallel" if parallel else "xargs -P", **_timed(command, folder, text)}
 
 
 def measured(count: int, frames: int, width: int, samples: Sequence[Path] = ()) -> dict[str, Any]:
@@ -87,7 +92,7 @@ def measured(count: int, frames: int, width: int, samples: Sequence[Path] = ()) 
         warm = [*words[0][:-1], "warm.mp4"]  # kernels are compiled, and files read, once
         subprocess.run([sys.executable, "-m", "physanimator", *warm], cwd=folder, env=_environment(folder), check=True)
         one, two = _shots(folder, "one", 1), _shots(folder, "two", 2)
-        program, lines = _by_lines(folder, words, 2)
+        lines = _by_lines(folder, words, 2)
         clips = [path.name for path in sorted((folder / "one").glob("*.mp4"))]
         same = [len({(folder / out / clip).read_bytes() for out in ("one", "two", "by_lines")}) == 1 for clip in clips]
         return {
@@ -95,12 +100,11 @@ def measured(count: int, frames: int, width: int, samples: Sequence[Path] = ()) 
             "frames": frames,
             "width": width,
             "same_bytes": len(clips) == count and all(same),
-            "one_worker_s": one,
-            "two_workers_s": two,
-            "scaling": one / two,
-            "against": program,
-            "against_s": lines,
-            "against_ratio": lines / two,
+            "one_worker": one,
+            "two_workers": two,
+            "lines": lines,
+            "scaling": one["seconds"] / two["seconds"],
+            "lines_to_two_workers": lines["seconds"] / two["seconds"],
         }
 
 

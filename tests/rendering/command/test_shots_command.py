@@ -184,6 +184,34 @@ def test_no_shot_writes_over_another_or_what_it_reads(folder: Path, one: str, tw
     assert any(words in each for each in told), told
 
 
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--write-commands", "list.toml"), "--write-commands must not be a file that this command reads"),
+        (("--write-commands", "girl.png"), "--write-commands must not be a file that shot a reads"),
+        (("--write-commands", "./a.svg"), "--write-commands must be unlike what shot b writes"),
+    ],
+)
+def test_what_is_written_besides_takes_no_files_place(
+    folder: Path, capsys: Output, words: tuple[str, str], told: str
+) -> None:
+    write_list(folder / "list.toml", ['name = "a"', 'name = "b"\nsave-svg = "A.svg"'])
+    before = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+    assert status(*SHOTS, *words) == 2
+    assert told in capsys.readouterr().err
+    assert {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()} == before
+
+
+def test_what_the_defaults_have_wrong_is_told_once(folder: Path, capsys: Output) -> None:
+    write_list(
+        folder / "list.toml", ['name = "a"', 'name = "b"', 'name = "c"\nfps = 0'], defaults="wind = 1e9\nsawy = 3"
+    )
+    assert status(*SHOTS) == 2
+    told = capsys.readouterr().err
+    assert told.count("sawy") == 1
+    assert "list.toml: line 5: options must be" in told
+
+
 def test_nothing_is_begun_where_one_shot_is_wrong(folder: Path, capsys: Output) -> None:
     write_list(folder / "list.toml", ['name = "a"', 'name = "b"\nframes = 0'])
     assert status(*SHOTS) == 2

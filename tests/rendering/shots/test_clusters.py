@@ -14,12 +14,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from command_status import status
 from shot_lists import begin, contents, draw, litter, until, write_list
 
 pytest.importorskip("distributed")
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="os.kill ends no other processes on Windows as SIGKILL does")
 
-LONG = "frames = 800"
+LONG = "frames = 500"
 DASK = "distributed.cli.dask_"
 
 
@@ -52,10 +53,9 @@ def cluster(folder: Path) -> Iterator[tuple[str, subprocess.Popen[str], subproce
 
 def animated_alone(folder: Path, *options: str) -> bytes:
     """A clip as ``animate`` makes it."""
-    done = begin(folder, "animate", "girl.png", "--mask", "hair.png", "-o", "alone.mp4", "--quiet", *options)
-    said, _ = done.communicate()
-    assert done.returncode == 0, said
-    return (folder / "alone.mp4").read_bytes()
+    names = [str(folder / name) for name in ("girl.png", "hair.png", "alone.mp4")]
+    assert status("animate", names[0], "--mask", names[1], "-o", names[2], "--quiet", *options) == 0
+    return Path(names[2]).read_bytes()
 
 
 def workers_of(client: subprocess.Popen[str]) -> list[int]:
@@ -72,7 +72,7 @@ def begun(out: Path, name: str) -> bool:
 
 
 def test_a_killed_workers_shot_runs_elsewhere_and_everything_is_done_once(folder: Path) -> None:
-    """Both workers are killed while they draw; six others shots are not concerned."""
+    """Both workers are killed while one draws a long shot, whose frames idle workers share afterwards."""
     quick = [f'name = "s{n}"\nwind = {1 + n / 10}' for n in range(6)]
     write_list(folder / "list.toml", [f'name = "long"\n{LONG}', *quick])
     client = begin(folder, "shots", "list.toml", "-o", "out", "--workers", "2")
@@ -84,7 +84,7 @@ def test_a_killed_workers_shot_runs_elsewhere_and_everything_is_done_once(folder
     ended = re.findall(r"^\[\d+/7\] (\w+): done", said, re.MULTILINE)
     assert sorted(ended) == ["long", *(f"s{n}" for n in range(6))]
     assert litter(folder / "out") == []
-    assert contents(folder / "out")["s3.mp4"] == animated_alone(folder, "--frames", "3", "--wind", "1.3")
+    assert contents(folder / "out")["long.mp4"] == animated_alone(folder, "--frames", "500")
 
 
 def test_files_are_shipped_and_a_killed_client_or_scheduler_leaves_only_whole_shots(
@@ -120,15 +120,6 @@ def test_files_are_shipped_and_a_killed_client_or_scheduler_leaves_only_whole_sh
     assert "the scheduler is gone" in said
     assert "3 shots: 0 done now, 2 done before, 1 not done" in said
     assert worker.wait(60) is not None
-
-
-def test_idle_workers_draw_frames_of_a_long_shot(folder: Path) -> None:
-    """The same bytes as by one process."""
-    write_list(folder / "list.toml", ['name = "a"'], defaults="frames = 200")
-    client = begin(folder, "shots", "list.toml", "-o", "out", "--workers", "2")
-    said, _ = client.communicate(timeout=100)
-    assert client.returncode == 0, said
-    assert contents(folder / "out")["a.mp4"] == animated_alone(folder, "--frames", "200")
 
 
 def _namespaces() -> str:
