@@ -92,7 +92,11 @@ def read_shot_record(path: str) -> ShotRecord | None:
         if data.pop("format") != _FORMAT or data.pop("format_version") != 1:
             return None
         files = tuple(WrittenFile(**each) for each in data.pop("files"))
-        return ShotRecord(files=files, said=tuple(map(str, data.pop("said"))), **data)
+        record = ShotRecord(files=files, said=tuple(map(str, data.pop("said"))), **data)
+        texts = (record.name, record.identity, record.machine, *(each.name for each in files))
+        numbers = (record.seconds, *(each.size for each in files))
+        right = all(isinstance(each, str) for each in texts) and all(isinstance(each, int | float) for each in numbers)
+        return record if right else None
     except (OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
 

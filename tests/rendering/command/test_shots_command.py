@@ -7,7 +7,9 @@ import os
 import re
 import shlex
 import subprocess
+from dataclasses import replace
 from pathlib import Path
+from unittest.mock import ANY
 
 import pytest
 from command_status import status
@@ -95,8 +97,18 @@ def test_the_record_tells_what_was_made_of_what(folder: Path) -> None:
     assert [each.name for each in record.files] == ["a.mp4"]
     assert record.seconds > 0
     assert record.machine
-    (folder / "out" / "a.mp4.shot.json").write_text("[1]")
-    assert read_shot_record(str(folder / "out" / "a.mp4.shot.json")) is None
+    place = folder / "out" / "a.mp4.shot.json"
+    text = place.read_text(encoding="utf-8")
+    for damaged in (
+        "[1]",
+        text[:-9],
+        text.replace('"seconds": ', '"seconds": "x", "s": '),
+        text.replace("a.mp4", "\\u0000"),
+    ):
+        place.write_text(damaged, encoding="utf-8")
+        assert read_shot_record(str(place)) is None or damaged.count("u0000")
+        assert status(*SHOTS) == 0  # it is done again
+        assert read_shot_record(str(place)) == replace(record, files=ANY, seconds=ANY)
 
 
 def test_a_csv_file_has_a_row_for_each_shot(folder: Path, capsys: Output) -> None:
