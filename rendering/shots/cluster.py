@@ -56,13 +56,18 @@ def local_cluster(workers: int, *, cards: int = 0) -> Iterator[Client]:
     Args:
         workers: how many processes.
         cards: graphics cards; the first processes have one each.
+
+    Raises:
+        OSError: the processes do not start.
     """
+    from dask.system import CPU_COUNT
     from distributed import Client, Nanny, Scheduler, SpecCluster
 
     from .worker_plugin import LeavesInterruptions
 
     require("--workers", workers, 1 <= workers <= _MOST_WORKERS, f"0 to {_MOST_WORKERS}")
     visible = [each for each in os.environ.get(_PER_CARD, "").split(",") if each] or [str(n) for n in range(cards)]
+    threads = {"OPENCV_FOR_THREADS_NUM": str(max(1, int(CPU_COUNT) // workers))}
     specs: dict[int, Any] = {}
     for number in range(max(workers, cards)):
         options: dict[str, Any] = {
@@ -72,9 +77,10 @@ def local_cluster(workers: int, *, cards: int = 0) -> Iterator[Client]:
             "dashboard": False,
             "silence_logs": logging.CRITICAL,
             "plugins": (LeavesInterruptions(),),
+            "env": threads,
         }
         if number < cards:
-            options |= {"resources": {GPU: 1}, "env": {_PER_CARD: visible[number]}}
+            options |= {"resources": {GPU: 1}, "env": {**threads, _PER_CARD: visible[number]}}
         specs[number] = {"cls": Nanny, "options": options}
     scheduler = {
         "host": "127.0.0.1",
@@ -86,7 +92,10 @@ def local_cluster(workers: int, *, cards: int = 0) -> Iterator[Client]:
     with _quiet(), ExitStack() as closing:
         with uninterrupted():
             specs_of_scheduler = {"cls": Scheduler, "options": scheduler}
-            made = SpecCluster(workers=specs, scheduler=specs_of_scheduler, silence_logs=logging.CRITICAL)
+            try:
+                made = SpecCluster(workers=specs, scheduler=specs_of_scheduler, silence_logs=logging.CRITICAL)
+            except RuntimeError as error:
+                raise OSError(f"Dask cannot start processes on this machine: {error}") from error
             closing.callback(_closed, made)
             client = Client(made, set_as_default=False)
             closing.callback(_closed, client)
