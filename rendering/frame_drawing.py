@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,9 +19,34 @@ from .neural import NetworkOptions
 from .pictures import as_uint8, over
 from .stages import StageProgress, stage_of
 
-__all__ = ["FrameDrawing"]
+__all__ = ["DrawsFrames", "FrameDrawing", "drawn_elsewhere", "frames_drawn_by"]
 
 Image = NDArray[Any]
+
+DrawsFrames = Callable[["LayeredRenderer | PixelArtRenderer", Sequence[int], Background], Iterator[Image] | None]
+"""Called with a renderer, numbers of its motion's frames and a background; gives those frames in turn, or None where it
+would rather not."""
+
+_drawn_by: ContextVar[DrawsFrames | None] = ContextVar("drawn_by", default=None)
+
+
+@contextmanager
+def frames_drawn_by(draw: DrawsFrames) -> Iterator[None]:
+    """Let somebody else draw the frames that come from the illustration's own pixels, on this thread.
+
+    Args:
+        draw: must give the very pixels that :func:`~physanimator.rendering.composite.shown_frame` does.
+    """
+    token = _drawn_by.set(draw)
+    try:
+        yield
+    finally:
+        _drawn_by.reset(token)
+
+
+def drawn_elsewhere() -> bool:
+    """Whether somebody else draws on this thread; see :func:`frames_drawn_by`."""
+    return _drawn_by.get() is not None
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +124,9 @@ class FrameDrawing:
     ) -> Iterator[Image]:
         """Frames of the illustration's own pixels, with holes painted where that is chosen."""
         if not self.networks.draws_opaque:
-            return (shown_frame(self.renderer, t, background) for t in self._known(numbers))
+            draw = _drawn_by.get()
+            elsewhere = None if draw is None else draw(self.renderer, numbers, background)
+            return elsewhere or (shown_frame(self.renderer, t, background) for t in self._known(numbers))
         from .neural.soft_inpainting import changes_of_holes, load_inpainting, painted_frames
 
         layers: Any = self.renderer

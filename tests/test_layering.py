@@ -89,13 +89,14 @@ MAY_IMPORT = {
         "rendering/artwork rendering/files rendering/networks rendering/neural rendering/pictures "
         "rendering/sketch rendering/sketch/drawings rendering/svd rendering/tooncrafter"
     ),
+    "rendering/shots": "__init__ physics rendering rendering/composite rendering/files",
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
         "physics/scene physics/simulation rendering rendering/artwork rendering/composite rendering/export "
         "rendering/figures "
         "rendering/files "
         "rendering/inbetweens rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "
-        "rendering/segmentation rendering/training"
+        "rendering/segmentation rendering/shots rendering/training"
     ),
     # nodes: the host
     "nodes/host": (
@@ -127,7 +128,7 @@ MAY_IMPORT = {
 NOT_INSIDE = {"physics": {"PIL", "av"} | HOST | NEURAL, "rendering": HOST, "nodes": set(), "": HOST}
 """Packages that no room of a house may import."""
 
-HEAVY = {"PIL", "av", "jsonschema", "psd_tools", "pythoncdt", "scipy", "taichi", "tqdm"} | NEURAL
+HEAVY = {"PIL", "av", "dask", "distributed", "jsonschema", "psd_tools", "pythoncdt", "scipy", "taichi", "tqdm"} | NEURAL
 
 LIGHT = {"numpy", "cv2"}
 """Packages outside the standard library that any module may import at its top."""

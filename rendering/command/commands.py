@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from contextlib import ExitStack
-from typing import Any
 
 from ... import __version__
 
@@ -16,6 +15,7 @@ def command_parser() -> argparse.ArgumentParser:
     from .dataset import add_dataset
     from .options import add_animate, add_demo, add_figure, add_layers, add_measure
     from .parsing import CommandParser, PictureParser
+    from .shots import add_shots
     from .training import add_training
 
     parser = CommandParser(
@@ -29,6 +29,7 @@ def command_parser() -> argparse.ArgumentParser:
         ("figure", _figure, add_figure, "draw a figure that explains the controls"),
         ("layers", _layers, add_layers, "list the layers of a PSD or OpenRaster file, and what would move"),
         ("measure", _measure, add_measure, "measure a clip against the motion that it should show"),
+        ("shots", None, add_shots, "animate a list of illustrations, on all cores or a cluster of machines"),
         ("schema", _schema, None, "print the JSON Schema of scene files"),
         ("dataset", None, add_dataset, "make, look at and pass on training data"),
         ("training", None, add_training, "export what was trained"),
@@ -51,6 +52,7 @@ def _schema(options: argparse.Namespace) -> None:
 
 def _demo(options: argparse.Namespace) -> None:
     from ...physics.simulation import begin_aside
+    from .animating import animate_and_write
     from .example import bundled_files, read_example
     from .networks import check_networks_used
     from .outputs import check_layers, check_outputs, check_sizes
@@ -62,7 +64,7 @@ def _demo(options: argparse.Namespace) -> None:
     image, masks, scene = read_example()
     check_layers(options, image)
     check_sizes(options, image)
-    _run(options, image, masks=masks, scene=scene)
+    animate_and_write(options, image, masks=masks, scene=scene)
 
 
 def _figure(options: argparse.Namespace) -> None:
@@ -102,27 +104,9 @@ def _figure(options: argparse.Namespace) -> None:
 
 
 def _animate(options: argparse.Namespace) -> None:
-    from .inputs import check_inputs, check_taken, read_inputs
-    from .networks import check_networks_used
-    from .outputs import check_layers, check_outputs, check_sizes
+    from .animating import run_animate
 
-    check_inputs(options)
-    check_outputs(options)
-    check_networks_used(options)
-    image, inputs = read_inputs(options)
-    check_taken(options, image)
-    check_layers(options, image)
-    check_sizes(options, _picture(image))
-    _run(options, image, **inputs)
-
-
-def _picture(image: Any) -> Any:
-    """The picture that a flat illustration is, or that layered artwork gives."""
-    import numpy as np
-
-    from ..parts import picture_of
-
-    return image if isinstance(image, np.ndarray) else picture_of(image)
+    run_animate(options)
 
 
 def _layers(options: argparse.Namespace) -> None:
@@ -163,42 +147,3 @@ def _measure(options: argparse.Namespace) -> None:
         )
         found = measured(options, animation, progress)
     show(table(found, as_json=options.json))
-
-
-def _run(options: argparse.Namespace, image: Any, **inputs: Any) -> None:
-    """Animate, write everything that was asked for, and report."""
-    from ...physics.motion import stillness
-    from ..composite import pixel_art_hint
-    from ..pipeline import animate
-    from .inputs import read_plate
-    from .messages import say, warn
-    from .networks import networks_of, timing_of
-    from .outputs import background_for, report, saving_of, write_outputs
-    from .watching import progress_of, watch_of
-
-    plate = read_plate(options)
-    background_for(options, _picture(image))
-    if not (options.pixel_art or options.quiet):
-        for sentence in pixel_art_hint(_picture(image), option="--pixel-art"):
-            warn(f"physanimator: hint: {sentence}")
-    save = saving_of(options, _picture(image))
-    with ExitStack() as bars:
-        progress = progress_of(options, bars)
-        animation = animate(
-            image,
-            timing=timing_of(options),
-            plate=plate,
-            pixel_art=options.pixel_art,
-            max_minutes=options.max_minutes,
-            watch=watch_of(options, progress, inputs.get("points", ())),
-            networks=networks_of(options),
-            save=save,
-            **inputs,
-        )
-        for sentence in stillness(animation.motion):
-            warn(f"physanimator: warning: {sentence}")
-        write_outputs(options, animation, progress, saved=save is not None)
-    if options.verbose:
-        report(animation)
-    if not options.quiet:
-        say(f"{options.output}: {len(animation)} frames at {animation.motion.frame_rate:g} frames a second")

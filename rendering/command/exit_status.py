@@ -6,8 +6,6 @@ from collections.abc import Sequence
 
 __all__ = ["main"]
 
-FAILED = 1
-BAD_INPUT = 2
 INTERRUPTED = 130
 NOBODY_READS = 141
 
@@ -39,8 +37,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _status(arguments: Sequence[str] | None) -> int:
     """Run a command, and say what went wrong."""
-    from ...physics.errors import PhysAnimatorError
     from .commands import command_parser
+    from .failures import failure_of
     from .messages import warn
     from .names import named_by_options
 
@@ -48,16 +46,12 @@ def _status(arguments: Sequence[str] | None) -> int:
     try:
         with named_by_options(options):
             options.run(options)
-    except PhysAnimatorError as error:
-        warn(f"physanimator: {error}")
-        return BAD_INPUT
     except BrokenPipeError:
         return NOBODY_READS
-    except OSError as error:
-        where = "" if error.filename is None else f"{error.filename}: "
-        warn(f"physanimator: {where}{error.strerror or error}")
-        return FAILED
-    except MemoryError:
-        warn("physanimator: the memory does not suffice for a picture of this size")
-        return FAILED
-    return 0
+    except Exception as error:
+        failure = failure_of(error)
+        if failure is None:
+            raise
+        warn(f"physanimator: {failure.message}")
+        return failure.status
+    return int(getattr(options, "status", 0))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -151,22 +150,24 @@ def _picture(path: str, option: str, *, alpha: bool = True) -> Any:
 def _artwork(path: str) -> Artwork:
     """Layered artwork, after saying on standard error what of it is not shown as its own program shows it."""
     from ..artwork import load_artwork
+    from .messages import warn
 
     with named_as("IMAGE", "artwork"):
         found = load_artwork(path)
     for sentence in found.warnings:
-        print(f"physanimator: warning: {sentence}", file=sys.stderr)
+        warn(f"physanimator: warning: {sentence}")
     return found
 
 
 def _mask(path: str, option: str, width: int, height: int) -> Any:
     """A mask, after saying on standard error what may not be meant so in it."""
     from ..pictures.mask_files import read_mask
+    from .messages import warn
 
     with named_as(option, "picture"):
         found = read_mask(path, width=width, height=height, name=option)
     for note in found.notes:
-        print(f"physanimator: warning: {note}", file=sys.stderr)
+        warn(f"physanimator: warning: {note}")
     return found.coverage
 
 

@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from contextvars import ContextVar
 from typing import IO, TYPE_CHECKING, Any
 
 from ...physics.errors import printable
@@ -13,11 +14,24 @@ from ...physics.errors import printable
 if TYPE_CHECKING:
     from ..stages import StageProgress
 
-__all__ = ["printable_streams", "progress_bars", "say", "show", "warn"]
+__all__ = ["gathered", "printable_streams", "progress_bars", "say", "show", "warn"]
+
+_gathering: ContextVar[list[str] | None] = ContextVar("gathering", default=None)
 
 _UNITS = {"mesh": "part", "prepare": "step", "svd": "step", "inpainting": "step", "tooncrafter": "step"}
 _UNITS |= {"spine": "layer", "gltf": "layer"}
 """What stages advance by, where not by frames."""
+
+
+@contextmanager
+def gathered() -> Iterator[list[str]]:
+    """Lines for a person, which go into the list that is given instead of to a terminal, on this thread."""
+    lines: list[str] = []
+    token = _gathering.set(lines)
+    try:
+        yield lines
+    finally:
+        _gathering.reset(token)
 
 
 @contextmanager
@@ -97,6 +111,10 @@ class _Tolerant:
 
 
 def _tell(text: str, stream: IO[str] | None) -> None:
+    lines = _gathering.get()
+    if lines is not None:
+        lines.append(printable(text))
+        return
     try:
         print(printable(text), file=stream, flush=True)
     except (OSError, ValueError):

@@ -202,10 +202,11 @@ def saving_of(options: argparse.Namespace, image: NDArray[Any]) -> Saving | None
         options: of the command.
         image: the illustration, shape [h, w, 3 or 4].
     """
+    from ..frame_drawing import drawn_elsewhere
     from ..options import Saving
 
     filled_in = options.interpolate > 1 or keyframes_of(options)
-    if filled_in or in_layers(options) or writing_order(options)[0] != "output":
+    if drawn_elsewhere() or filled_in or in_layers(options) or writing_order(options)[0] != "output":
         return None
     return Saving(options.output, background_for(options, image), options.width)
 

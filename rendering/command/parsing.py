@@ -7,9 +7,9 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import NoReturn
 
-from ...physics.errors import printable
+from ...physics.errors import InvalidInputError, printable
 
-__all__ = ["SEVERAL", "CommandParser", "PictureParser"]
+__all__ = ["SEVERAL", "CommandParser", "PictureParser", "RefusingParser"]
 
 SEVERAL = ("--mask", "--preset", "--collider")
 """Options that take several values at once."""
@@ -45,6 +45,18 @@ class CommandParser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Refuse the command."""
         self.exit(2, f"{self.prog.split()[0]}: {printable(_sentence(message))}\n")
+
+
+class RefusingParser(CommandParser):
+    """A parser that raises instead of ending the process."""
+
+    def error(self, message: str) -> NoReturn:
+        """Refuse the words.
+
+        Raises:
+            InvalidInputError: always.
+        """
+        raise InvalidInputError(_sentence(message))
 
 
 class PictureParser(CommandParser):

@@ -43,7 +43,8 @@ def watch_of(options: argparse.Namespace, progress: StageProgress, points: Seque
 
 
 def progress_of(options: argparse.Namespace, stack: ExitStack) -> StageProgress:
-    """What is called with every step: it draws bars, unless the user wants none, and hears signals."""
+    """What is called with every step: it draws bars, unless the user wants none, and hears signals and who gives up."""
+    from ...physics.interruption import checkpoint
     from ..files import hear_signals
     from .messages import progress_bars
 
@@ -51,6 +52,7 @@ def progress_of(options: argparse.Namespace, stack: ExitStack) -> StageProgress:
 
     def advance(stage: str, done: int, total: int) -> None:
         hear_signals()
+        checkpoint()
         if bars is not None:
             bars(stage, done, total)
 

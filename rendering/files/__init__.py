@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from .atomic import naming_place, putting_in_place, replacing
+from .atomic import is_full, naming_place, putting_in_place, replacing
 from .path_names import StrPath, is_folder_name, plain_name, same_name, suffix_of
 from .places import check_file_place, check_folder_place, check_replaceable, is_read_only, place_of
+from .record import WrittenFile, recorded
 from .recorded_folder import RecordedFiles, check_recorded_folder, write_recorded_folder
 from .regular import check_regular
 from .signals import ending_signals, hear_signals, ignore_signals, uninterrupted
 from .text_files import check_text_output, write_text
-from .unfinished import made_beside, remove_unfinished
+from .unfinished import made_beside, noting_unfinished, remove_noted, remove_unfinished
 
 __all__ = [
     "RecordedFiles",
     "StrPath",
+    "WrittenFile",
     "check_file_place",
     "check_folder_place",
     "check_recorded_folder",
@@ -24,12 +26,16 @@ __all__ = [
     "hear_signals",
     "ignore_signals",
     "is_folder_name",
+    "is_full",
     "is_read_only",
     "made_beside",
     "naming_place",
+    "noting_unfinished",
     "place_of",
     "plain_name",
     "putting_in_place",
+    "recorded",
+    "remove_noted",
     "remove_unfinished",
     "replacing",
     "same_name",

@@ -15,8 +15,9 @@ from .places import check_replaceable
 from .signals import uninterrupted
 from .unfinished import made_beside
 
-__all__ = ["naming_place", "putting_in_place", "replacing"]
+__all__ = ["is_full", "naming_place", "putting_in_place", "replacing"]
 
+_FULL = {getattr(errno, name, None) for name in ("ENOSPC", "EDQUOT", "EROFS")} - {None}
 _OF_THE_DISK = {getattr(errno, name, None) for name in ("ENOSPC", "EDQUOT", "EFBIG", "EIO", "EROFS")} - {None}
 
 
@@ -72,3 +73,8 @@ def naming_place(path: StrPath) -> Iterator[None]:
         if error.errno not in _OF_THE_DISK:
             raise
         raise OSError(error.errno, error.strerror, str(path)) from error
+
+
+def is_full(error: BaseException) -> bool:
+    """Whether an error says that a disk takes no more, so that the next result would fail as well."""
+    return isinstance(error, OSError) and error.errno in _FULL

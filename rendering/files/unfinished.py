@@ -7,16 +7,18 @@ import secrets
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from pathlib import Path
 
 from .signals import uninterrupted
 
-__all__ = ["made_beside", "remove_unfinished"]
+__all__ = ["made_beside", "noting_unfinished", "remove_noted", "remove_unfinished"]
 
 _TRIES = 200  # random names, before giving up
 _PREFIX = 5  # characters of the name that give way to a dot and a random number
 
 _unfinished: set[Path] = set()
+_note: ContextVar[Path | None] = ContextVar("note", default=None)
 
 
 @contextmanager
@@ -38,11 +40,49 @@ def made_beside(name: str, folder: Path, *, is_folder: bool = False) -> Iterator
         with uninterrupted():
             made = _made(name, folder, is_folder)
             _unfinished.add(made)
+            _write_down(made)
         yield made
     finally:
         with uninterrupted():
             if made is not None:
                 _remove(made)
+
+
+@contextmanager
+def noting_unfinished(note: Path) -> Iterator[None]:
+    """Write down what is made inside, on this thread, so that others can remove it should the process be killed.
+
+    Args:
+        note: a text file, gone at the end unless the process is killed before.
+    """
+    token = _note.set(note)
+    try:
+        yield
+    finally:
+        _note.reset(token)
+        with suppress(OSError):
+            note.unlink(missing_ok=True)
+
+
+def remove_noted(note: Path) -> None:
+    """Remove what a killed process has left, by what it wrote down, and the note itself."""
+    try:
+        names = note.read_text(encoding="utf-8", errors="surrogateescape").split("\0")
+    except OSError:
+        return
+    for name in names:
+        made = Path(name)
+        if made.is_absolute() and made.name.startswith(".") and os.path.lexists(made):
+            _remove(made)
+    with suppress(OSError):
+        note.unlink(missing_ok=True)
+
+
+def _write_down(made: Path) -> None:
+    note = _note.get()
+    if note is not None:
+        with note.open("a", encoding="utf-8", errors="surrogateescape") as file:
+            file.write(f"{os.path.abspath(made)}\0")
 
 
 def remove_unfinished() -> None:

@@ -58,6 +58,8 @@ def _save_smaller_artwork(path: Path, goal: Path) -> None:
 def _for_a_few_frames(command: PageCommand) -> list[str]:
     """The arguments, with a clip as short and as small as will show that they work."""
     arguments = list(command.words[1:])
+    if arguments[0] == "shots":
+        return [*arguments, "--workers", "0", "--quiet"]
     if arguments[0] not in {"animate", "demo"}:
         return arguments
     if "--loop" in arguments:

@@ -1,0 +1,55 @@
+"""Many shots: a list of them, checked before any begins, done by processes on one machine or many, nothing twice."""
+
+from __future__ import annotations
+
+from .cluster import check_installed, connected, local_cluster, usual_workers
+from .collisions import colliding_outputs
+from .document import ShotRow, read_rows
+from .engine import SchedulerLost, check_workers, outcomes_here, outcomes_of, workers_for
+from .farms import command_lines, openjd_template
+from .job import Animated, Job, Outcome
+from .option_words import OptionNames, Word, shot_name, words_of
+from .problems import Problem, merged
+from .report import write_report
+from .run_folder import NOTES, alone_in, forgetting
+from .shot import FileDigests, Shot, identity_of
+from .shot_record import ENDING, ShotRecord, is_finished, read_shot_record
+from .summary import summary_lines
+
+__all__ = [
+    "ENDING",
+    "NOTES",
+    "Animated",
+    "FileDigests",
+    "Job",
+    "OptionNames",
+    "Outcome",
+    "Problem",
+    "SchedulerLost",
+    "Shot",
+    "ShotRecord",
+    "ShotRow",
+    "Word",
+    "alone_in",
+    "check_installed",
+    "check_workers",
+    "colliding_outputs",
+    "command_lines",
+    "connected",
+    "forgetting",
+    "identity_of",
+    "is_finished",
+    "local_cluster",
+    "merged",
+    "openjd_template",
+    "outcomes_here",
+    "outcomes_of",
+    "read_rows",
+    "read_shot_record",
+    "shot_name",
+    "summary_lines",
+    "usual_workers",
+    "words_of",
+    "workers_for",
+    "write_report",
+]

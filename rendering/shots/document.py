@@ -1,0 +1,169 @@
+"""The list of shots: a TOML file with ``[defaults]`` and ``[[shot]]``, or a CSV file with one row a shot."""
+
+from __future__ import annotations
+
+import csv
+import io
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ...physics.errors import InvalidInputError, shown
+from ...physics.limits import MAX_DOCUMENT_BYTES
+from ..files import check_regular, suffix_of
+from .problems import Problem
+from .table_lines import TableLines, table_lines
+
+__all__ = ["ShotRow", "read_rows"]
+
+_SEVERAL = "|"  # between the values of a cell of a CSV file: a name of a file has none
+
+
+@dataclass(frozen=True)
+class ShotRow:
+    """One shot as the list has it.
+
+    Attributes:
+        number: from 1.
+        values: by the names of options with underscores; the defaults are among them.
+        lines: of the file, for each value.
+        line: of the file, where the shot begins.
+        as_text: whether all values are text, of which numbers and lists have to be made.
+    """
+
+    number: int
+    values: Mapping[str, Any]
+    lines: Mapping[str, int] = field(default_factory=dict)
+    line: int | None = None
+    as_text: bool = False
+
+
+def read_rows(path: str) -> tuple[list[ShotRow], list[Problem]]:
+    """The shots of a list, and what of it is no list of shots.
+
+    Args:
+        path: of a .toml or .csv file.
+
+    Raises:
+        InvalidInputError: the file cannot be read, or is neither.
+    """
+    suffix = suffix_of(path)
+    if suffix not in (".toml", ".csv"):
+        raise InvalidInputError(f"SHOTS must be a .toml or .csv file. Got: {path}")
+    text = _text(path)
+    return _rows_of_toml(text, path) if suffix == ".toml" else _rows_of_csv(text, path)
+
+
+def _text(path: str) -> str:
+    check_regular(path, "SHOTS")
+    try:
+        with Path(path).open("rb") as file:
+            content = file.read(MAX_DOCUMENT_BYTES + 1)
+        text = content.decode("utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not text in UTF-8"
+        raise InvalidInputError(f"SHOTS must be a readable text file. Got: {path}: {reason}") from None
+    if len(content) > MAX_DOCUMENT_BYTES:
+        raise InvalidInputError(f"SHOTS {path} must be at most {MAX_DOCUMENT_BYTES >> 20} MB of text. Got: more")
+    return text
+
+
+def _rows_of_toml(text: str, path: str) -> tuple[list[ShotRow], list[Problem]]:
+    if sys.version_info >= (3, 11):
+        import tomllib
+    else:
+        import tomli as tomllib
+
+    try:
+        document = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise InvalidInputError(f"SHOTS must be TOML. Got: {path}: {error}") from None
+    lines = table_lines(text)
+    problems = [
+        Problem(f"tables must be [defaults] and [[shot]]. Got: {shown(name)}", line=_first(lines.get(name)))
+        for name in document
+        if name not in ("defaults", "shot")
+    ]
+    defaults, shots = document.get("defaults", {}), document.get("shot", [])
+    if not isinstance(defaults, dict):
+        raise InvalidInputError(f"defaults must be a table, [defaults]. Got: {shown(defaults)}")
+    if not isinstance(shots, list) or not all(isinstance(each, dict) for each in shots):
+        raise InvalidInputError("shots must be tables, each [[shot]]. Got: [shot]")
+    if not shots:
+        raise InvalidInputError(f"SHOTS must have a table [[shot]] for each shot. Got: {path} with none")
+    heads = lines.get("shot", [])
+    heads = heads if len(heads) == len(shots) else [TableLines(0) for _ in shots]  # written in a way unknown here
+    common = (lines.get("defaults") or [TableLines(0)])[0]
+    rows = []
+    for number, (table, head) in enumerate(zip(shots, heads, strict=True), start=1):
+        usual, usual_lines = _named(defaults, common, problems if number == 1 else [], "[defaults]")
+        own, own_lines = _named(table, head, problems, str(table.get("name", number)))
+        values = {**usual, **own}
+        rows.append(ShotRow(number, values, {**usual_lines, **own_lines}, head.line or None))
+    return rows, problems
+
+
+def _first(tables: Sequence[TableLines] | None) -> int | None:
+    return tables[0].line if tables else None
+
+
+def _named(
+    table: Mapping[str, Any], head: TableLines, problems: list[Problem], shot: str
+) -> tuple[dict[str, Any], dict[str, int]]:
+    """The values of a table and their lines, by names with underscores."""
+    values: dict[str, Any] = {}
+    lines: dict[str, int] = {}
+    for key, value in table.items():
+        name = key.replace("-", "_")
+        if name in values:
+            problems.append(
+                Problem(f"{key} must be given once. Got: twice, with - and _", shot, key, head.line or None)
+            )
+        values[name] = value
+        if key in head.keys:
+            lines[name] = head.keys[key]
+    return values, lines
+
+
+def _rows_of_csv(text: str, path: str) -> tuple[list[ShotRow], list[Problem]]:
+    first = text.lstrip("\r\n").partition("\n")[0]
+    delimiter = max(",;\t", key=first.count)
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
+    rows: list[ShotRow] = []
+    problems: list[Problem] = []
+    names: list[str] = []
+    try:
+        for cells in reader:
+            if not any(cell.strip() for cell in cells):
+                continue
+            if not names:
+                names = [cell.strip().lstrip("-").replace("-", "_") for cell in cells]
+                problems += [
+                    Problem(f"every column must have its own name. Got: {shown(name)} twice", line=reader.line_num)
+                    for name in sorted({each for each in names if names.count(each) > 1})
+                ]
+                continue
+            rows.append(_row_of_cells(len(rows) + 1, names, cells, reader.line_num, problems))
+    except csv.Error as error:
+        raise InvalidInputError(f"SHOTS must be CSV. Got: {path}: {error} in line {reader.line_num}") from None
+    if not rows:
+        raise InvalidInputError(
+            f"SHOTS must have a row for each shot below the names of options. Got: {path} with none"
+        )
+    return rows, problems
+
+
+def _row_of_cells(
+    number: int, names: Sequence[str], cells: Sequence[str], line: int, problems: list[Problem]
+) -> ShotRow:
+    given = {name: cell.strip() for name, cell in zip(names, cells, strict=False) if cell.strip()}
+    if any(cell.strip() for cell in cells[len(names) :]):
+        told = f"rows must have at most {len(names)} cells, as the first has. Got: {len(cells)}"
+        problems.append(Problem(told, given.get("name", str(number)), line=line))
+    values = {
+        name: [each.strip() for each in cell.split(_SEVERAL)] if _SEVERAL in cell else cell
+        for name, cell in given.items()
+    }
+    return ShotRow(number, values, dict.fromkeys(values, line), line, as_text=True)
