@@ -84,6 +84,10 @@ MAY_IMPORT = {
         "rendering/inbetweens rendering/matting rendering/neural rendering/overlays rendering/pictures "
         "rendering/segmentation rendering/sketch"
     ),
+    "rendering/evaluation/columns": (
+        "physics physics/motion rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "
+        "rendering/sketch"
+    ),
     "rendering/training": (
         "__init__ physics physics/forces physics/material physics/motion physics/scene rendering "
         "rendering/artwork rendering/files rendering/networks rendering/neural rendering/pictures "
