@@ -125,6 +125,6 @@ def _list(plan: Plan) -> None:
 
 
 def _left_out(plan: Plan) -> list[str]:
-    return [
-        f"left out {each.method}{f' / {each.picture}' if each.picture else ''}: {each.why}" for each in plan.absent
-    ]
+    from ..evaluation.planning import left_out
+
+    return [f"left out {who}: {why}" for who, why in left_out(plan.absent)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import ClassVar
 
 from ...physics.checks import check_number, check_whole
 from ...physics.errors import InvalidInputError, require
@@ -33,7 +34,7 @@ class PictureOfSet:
         description: what is seen, as VideoScore is told.
     """
 
-    __pydantic_config__ = {"extra": "forbid", "strict": True}
+    __pydantic_config__: ClassVar = {"extra": "forbid", "strict": True}
 
     name: str
     image: str
@@ -49,7 +50,9 @@ class PictureOfSet:
         check_name(self.name)
         count = len(self.masks) + len(self.points)
         require("masks and points", count, count <= MAX_BODIES, f"at most {MAX_BODIES}")
-        require("description", f"{len(self.description)} letters", len(self.description) <= 2000, "at most 2000 letters")
+        require(
+            "description", f"{len(self.description)} letters", len(self.description) <= 2000, "at most 2000 letters"
+        )
 
     @property
     def files(self) -> tuple[str, ...]:
@@ -70,7 +73,7 @@ class Weights:
         lpips: of LPIPS.
     """
 
-    __pydantic_config__ = {"extra": "forbid", "strict": True}
+    __pydantic_config__: ClassVar = {"extra": "forbid", "strict": True}
 
     svd: str = ""
     lvcd: str = ""
@@ -118,7 +121,7 @@ class EvaluationSet:
         InvalidInputError: a value is out of its range, or names are not different.
     """
 
-    __pydantic_config__ = {"extra": "forbid", "strict": True}
+    __pydantic_config__: ClassVar = {"extra": "forbid", "strict": True}
 
     pictures: tuple[PictureOfSet, ...]
     methods: tuple[Method, ...] = ()

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError
-from ..figures import contact_sheet
+from ..figures.contact_sheet import contact_sheet
 from ..files import RecordedFiles, check_recorded_folder, write_recorded_folder
 from ..pictures import as_uint8, save_image
 from ..sketch import WarpMode

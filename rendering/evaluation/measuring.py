@@ -93,4 +93,3 @@ def as_json(value: Any) -> Any:
     if isinstance(value, Missing):
         return {"missing": value.name, "why": value.sentence}
     return None if value is None or not np.isfinite(value) else float(value)
-

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from types import MappingProxyType
-from typing import Any
+from typing import Any, ClassVar
 
 from ...physics.checks import check_number, check_whole
 from ...physics.errors import InvalidInputError, require
@@ -58,7 +58,7 @@ class Method:
         InvalidInputError: values do not go together.
     """
 
-    __pydantic_config__ = {"extra": "forbid", "strict": True}
+    __pydantic_config__: ClassVar = {"extra": "forbid", "strict": True}
 
     name: str
     draws: str = ""
@@ -117,7 +117,9 @@ class Method:
         chosen = {"renderer": self.renderer}
         if self.interpolate > 1:
             chosen["interpolate_with"] = self.interpolate_with
-        return tuple(name for name, (which, network, needed) in FILES.items() if needed and chosen.get(which) == network)
+        return tuple(
+            name for name, (which, network, needed) in FILES.items() if needed and chosen.get(which) == network
+        )
 
     def as_record(self) -> dict[str, Any]:
         """All that its clips depend on: their name is no part of it."""
@@ -126,7 +128,14 @@ class Method:
 
 _ALWAYS = {"name", "draws", "clips"}
 _USED_BY_CLIPS = {"follows"}
-_USED_BY_RENDERERS = {"interpolate", "interpolate_with", "sketch_blur", "sketch_warp", "mask_error", "mask_error_px"} | {
+_USED_BY_RENDERERS = {
+    "interpolate",
+    "interpolate_with",
+    "sketch_blur",
+    "sketch_warp",
+    "mask_error",
+    "mask_error_px",
+} | {
     "contact",
     "settings",
 }

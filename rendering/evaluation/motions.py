@@ -77,9 +77,7 @@ def _reference(
 
 
 @lru_cache(maxsize=2)
-def _at_rest(
-    picture: PictureOfSet, size: int, rate: float, mask_error: str, amount: float, seed: int
-) -> Animation:
+def _at_rest(picture: PictureOfSet, size: int, rate: float, mask_error: str, amount: float, seed: int) -> Animation:
     """The picture taken apart and its scene, by masks as they are or with an error."""
     shown = loaded(picture, size)
     masks = shown.masks

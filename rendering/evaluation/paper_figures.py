@@ -1,4 +1,4 @@
-"""The paper's own numbers, for reference: they are of its 20 pictures, so they do not compare with those of another set."""
+"""The paper's own numbers, for reference: they are of its own pictures, so they do not compare with those of others."""
 
 from __future__ import annotations
 

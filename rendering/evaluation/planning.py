@@ -19,7 +19,7 @@ from .methods import WARP, Method
 from .names import suggestion
 from .report_folder import ReportFolder
 
-__all__ = ["Absent", "Cell", "Plan", "column_weights", "planned", "restricted"]
+__all__ = ["Absent", "Cell", "Plan", "column_weights", "left_out", "planned", "restricted"]
 
 _WANTED = {
     "svd": "svd.safetensors (Stable Video Diffusion, image to video, 14 frames)",
@@ -42,6 +42,20 @@ class Absent:
     method: str
     picture: str
     why: str
+
+
+def left_out(absent: Sequence[Absent]) -> list[tuple[str, str]]:
+    """Who is left out and why, those with one reason together."""
+    found: dict[str, dict[str, list[str]]] = {}
+    for each in absent:
+        found.setdefault(each.why, {}).setdefault(each.method, []).extend([each.picture] * bool(each.picture))
+    told = []
+    for why, methods in found.items():
+        alike: dict[str, list[str]] = {}
+        for method, pictures in methods.items():
+            alike.setdefault(", ".join(pictures), []).append(method)
+        told += [(f"{', '.join(names)}{f' for {where}' if where else ''}", why) for where, names in alike.items()]
+    return told
 
 
 @dataclass(frozen=True)

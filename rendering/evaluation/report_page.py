@@ -9,6 +9,7 @@ from urllib.parse import quote
 
 from .columns import Column, Summary
 from .paper_figures import NOTE, PAPER_TABLES
+from .planning import left_out
 from .report_tables import shown_number
 from .results import ClipResult, MethodResult, Results, Value
 
@@ -18,6 +19,11 @@ _ARROWS = {"lower": " ↓", "higher": " ↑", None: ""}
 _ARROWS_SAY = {"lower": "lower is better", "higher": "higher is better", None: "neither is better"}
 _ASSETS = Path(__file__).parent / "page"
 _WIDTH = 100.0  # of a bar's drawing [%]
+_DASH = "&ndash;"
+_TOOLS = """<p class="tools"><label>Speed <select id="speed"><option value="1">1 &times;</option>
+<option value="0.5">1/2 &times;</option><option value="0.25">1/4 &times;</option></select></label>
+<label>Width <input id="width" type="range" min="120" max="960" value="300"></label>
+<kbd>space</kbd> plays and halts, <kbd>,</kbd> <kbd>.</kbd> go by a frame</p>"""
 _PAPER_HEADS = {"fid": "FID ↓", "vsvq": "VSVQ ↑", "vstc": "VSTC ↑", "vsdd": "VSDD ↑", "vsfc": "VSFC ↑"}
 
 
@@ -38,7 +44,8 @@ def as_html(results: Results, figures: Sequence[str] = ()) -> str:
         f"<header><h1>{escape(results.title)}</h1><p>{_facts(results)}</p></header>",
         *_notes(results),
         "<section><h2>Means over pictures</h2>",
-        "<p>With 95 % intervals from a bootstrap over pictures; the best of a column is bold, among methods with as many pictures.</p>",
+        "<p>With 95 % intervals from a bootstrap over pictures. The best of a column is bold, among methods with as"
+        " many pictures.</p>",
         *_table(results, columns),
         *_paper(),
         "</section><section><h2>Bars</h2><div class='charts'>",
@@ -69,9 +76,8 @@ def _notes(results: Results) -> Iterator[str]:
     titles = {each.key: each.title for each in results.columns}
     for key, name in results.missing.items():
         yield f"<li>Column <b>{escape(titles[key])}</b> is empty: {escape(name)} is not at hand.</li>"
-    for each in results.absent:
-        where = f" for {escape(each.picture)}" if each.picture else ""
-        yield f"<li><b>{escape(each.method)}</b>{where}: {escape(each.why)}.</li>"
+    for who, why in left_out(results.absent):
+        yield f"<li><b>{escape(who)}</b>: {escape(why)}.</li>"
     yield "</ul></details>"
 
 
@@ -92,12 +98,13 @@ def _table(results: Results, columns: Sequence[Column]) -> Iterator[str]:
 
 def _cell(results: Results, value: Value, best: bool) -> str:
     if isinstance(value, str):
-        return f'<td class="none" title="not at hand: {escape(value)}">–</td>'
+        return f'<td class="none" title="not at hand: {escape(value)}">{_DASH}</td>'
     if value is None or value.mean is None:
-        return '<td class="none">–</td>'
+        return f'<td class="none">{_DASH}</td>'
     number = shown_number(value.mean)
     number = f"<b>{number}</b>" if best else number
-    notes = [] if value.low is None or value.high is None else [f"{shown_number(value.low)} – {shown_number(value.high)}"]
+    known = value.low is not None and value.high is not None
+    notes = [f"{shown_number(value.low)} {_DASH} {shown_number(value.high)}"] if known else []
     notes += [note] if (note := results.few(value)) else []
     return f"<td>{number}{''.join(f'<br><small>{each}</small>' for each in notes)}</td>"
 
@@ -153,9 +160,7 @@ def _figures(figures: Sequence[str]) -> Iterator[str]:
 
 def _clips(results: Results) -> Iterator[str]:
     """For each picture and sample the clips of all methods."""
-    yield '<p class="tools"><label>Speed <select id="speed"><option value="1">1 ×</option><option value="0.5">½ ×</option>'
-    yield '<option value="0.25">¼ ×</option></select></label> <label>Width <input id="width" type="range" min="120"'
-    yield ' max="960" value="300"></label> <kbd>space</kbd> plays and halts, <kbd>,</kbd> <kbd>.</kbd> go by a frame</p>'
+    yield _TOOLS
     for picture in results.pictures:
         for sample in range(results.samples):
             found = [(row, each) for row in results.rows for each in row.clips if _is(each, picture, sample)]

@@ -11,6 +11,7 @@ from typing import Any
 from ... import __version__
 from .columns import Column, Summary
 from .paper_figures import NOTE, PAPER_TABLES
+from .planning import left_out
 from .results import Results, Value
 
 __all__ = ["as_clips_csv", "as_csv", "as_json", "as_latex", "shown_number"]
@@ -115,7 +116,7 @@ def as_latex(results: Results) -> str:
         lines.append(" & ".join([_tex(row.name), *cells]) + r" \\")
     lines += ["\\bottomrule", "\\end{tabular}"]
     lines += [f"% {_comment(f'{key} is empty: not at hand: {name}')}" for key, name in results.missing.items()]
-    lines += [f"% {_comment(f'left out: {each.method} {each.picture}: {each.why}')}" for each in results.absent]
+    lines += [f"% {_comment(f'left out: {who}: {why}')}" for who, why in left_out(results.absent)]
     return "\n".join([*lines, "", *_paper_tables()]) + "\n"
 
 

@@ -53,11 +53,10 @@ def run(
     remove_unfinished_clips(plan.folder.clips)
     todo = plan.todo
     count = min(processes, len(_groups(todo)))
-    finished = 0
     if progress is not None and todo:
         progress("clips", 0, len(todo))
-    for cell in _in_this_process(todo, plan, progress) if count <= 1 else _in_processes(todo, plan, count, progress):
-        finished += 1
+    made = _in_this_process(todo, plan, progress) if count <= 1 else _in_processes(todo, plan, count, progress)
+    for finished, cell in enumerate(made, start=1):
         if done is not None:
             done(cell)
         if progress is not None:
@@ -146,9 +145,7 @@ def _in_this_process(cells: Sequence[Cell], plan: Plan, progress: StageProgress 
         yield cell
 
 
-def _in_processes(
-    cells: Sequence[Cell], plan: Plan, processes: int, progress: StageProgress | None
-) -> Iterator[Cell]:
+def _in_processes(cells: Sequence[Cell], plan: Plan, processes: int, progress: StageProgress | None) -> Iterator[Cell]:
     context = multiprocessing.get_context("spawn")  # torch, Taichi and FFmpeg do not survive a fork
     stop, finished = context.Event(), context.Queue()
     pool = ProcessPoolExecutor(processes, context, _begin_worker, (plan, stop, finished))
@@ -209,5 +206,3 @@ def _work(cells: Sequence[Cell]) -> None:
             _here["finished"].put(cell.name)
     except KeyboardInterrupt:
         return
-
-
