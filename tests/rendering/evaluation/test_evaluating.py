@@ -26,6 +26,8 @@ from physanimator.rendering.evaluation.set_document import read_set
 from physanimator.rendering.pictures import load_image, load_mask, read_clip, save_image, write_animation
 from physanimator.rendering.pipeline import animate
 
+ROOT = Path(__file__).resolve().parents[3]
+
 
 def evaluate(*arguments: object) -> int:
     return main(["evaluate", *map(str, arguments), "--quiet"])
@@ -225,12 +227,14 @@ def test_a_damaged_measure_is_measured_again(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(os.name == "nt", reason="SIGKILL is of POSIX")
 def test_it_goes_on_after_being_killed(tmp_path: Path) -> None:
-    file = small_set(tmp_path / "set", more="samples = 4")
+    file = small_set(tmp_path / "set", more="samples = 3")
     report = tmp_path / "report"
-    process = subprocess.Popen(
-        [sys.executable, "-c", _EVALUATE, str(file), "-o", str(report), "--quiet", "--processes", "2"],
-        start_new_session=True,
-    )
+    package = tmp_path / "package"
+    package.mkdir()
+    (package / "physanimator").symlink_to(ROOT, target_is_directory=True)
+    command = [sys.executable, "-m", "physanimator", "evaluate", str(file), "-o", str(report), "--processes", "2"]
+    environment = os.environ | {"PYTHONPATH": str(package), "OMP_NUM_THREADS": "1"}
+    process = subprocess.Popen([*command, "--quiet"], env=environment, start_new_session=True)
     end = time.monotonic() + 120
     while not list(report.glob("measures/*/*.json")) and process.poll() is None and time.monotonic() < end:
         time.sleep(0.01)
@@ -248,15 +252,6 @@ def test_it_goes_on_after_being_killed(tmp_path: Path) -> None:
 
 def _folder(report: Path, cell) -> Path:  # type: ignore[no-untyped-def]
     return report / "clips" / cell.method.name / cell.picture.name / f"sample_{cell.sample}"
-
-
-_EVALUATE = f"""
-import runpy, sys
-runpy.run_path({str(Path(__file__).resolve().parents[2] / "conftest.py")!r})
-from physanimator.rendering.command import main
-if __name__ == "__main__":
-    sys.exit(main(["evaluate", *sys.argv[1:]]))
-"""
 
 
 @pytest.mark.parametrize("name", ["masks", "blur", "warp-weight"])
