@@ -82,11 +82,13 @@ def network_options(which: EvaluationSet, method: Method, sample: int) -> Networ
     usual = NetworkOptions()
     seed = (which.seed + sample) % _LARGEST_SEED
     told: dict[str, Any] = {}
-    for network in {method.renderer, method.interpolate_with if method.interpolate > 1 else ""}:
+    filled = [(method.interpolate_with, method.interpolate_settings)] if method.interpolate > 1 else []
+    for network, settings in [(method.renderer, method.settings), *filled]:
         name = f"{network}_options"
         if hasattr(usual, name):
-            settings = method.settings if network == method.renderer else {}
             told[name] = _settings(getattr(usual, name), {"seed": seed, **settings})
+        elif settings:
+            raise InvalidInputError(f"method {method.name!r} must have no settings, as {network} has none. Got: some")
     return NetworkOptions(
         **chosen,
         **files,

@@ -53,6 +53,7 @@ class Method:
         mask_error_px: by how much [px of a picture of 512 px].
         contact: False: bodies pass through each other, whatever the scene says.
         settings: of the renderer, such as ``{steps = 12}``.
+        interpolate_settings: of the model that fills frames in.
 
     Raises:
         InvalidInputError: values do not go together.
@@ -73,6 +74,7 @@ class Method:
     mask_error_px: float = 6.0
     contact: bool = True
     settings: dict[str, float | int | bool | str] = field(default_factory=dict, hash=False)
+    interpolate_settings: dict[str, float | int | bool | str] = field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
         check_name(self.name)
@@ -138,10 +140,12 @@ _USED_BY_RENDERERS = {
 } | {
     "contact",
     "settings",
+    "interpolate_settings",
 }
 _USED_BY = {
     WARP: {"weight", "mask_error", "mask_error_px", "contact"},
     "composite": _USED_BY_RENDERERS - {"sketch_blur", "sketch_warp", "settings"},
+    "inpainting": _USED_BY_RENDERERS - {"sketch_blur", "sketch_warp"},
 }
 
 
