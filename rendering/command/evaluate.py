@@ -10,8 +10,12 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ..evaluation.evaluation_set import EvaluationSet
     from ..evaluation.planning import Plan
+    from ..stages import StageProgress
 
 __all__ = ["add_evaluate"]
+
+_LONG = ("svd", "inpainting", "tooncrafter")
+"""Stages of a clip that take so long that they have bars of their own."""
 
 
 def add_evaluate(parser: argparse.ArgumentParser) -> None:
@@ -59,7 +63,6 @@ def _evaluate(options: argparse.Namespace) -> None:
     from ..evaluation.results import results_of
     from ..evaluation.running import measure_methods, run
     from .messages import say
-    from .watching import progress_of
 
     whole, output = _set(options), Path(options.output)
     wanted = [*ABLATIONS[options.figure]] if options.figure else options.method
@@ -69,7 +72,7 @@ def _evaluate(options: argparse.Namespace) -> None:
     if options.dry_run:
         return _list(plan)
     with ExitStack() as bars:
-        run(plan, processes=options.processes, progress=progress_of(options, bars))
+        run(plan, processes=options.processes, progress=_progress(options, bars))
     there = planned(whole, output, opened=True).there
     measure_methods(there)
     results = results_of(there)
@@ -110,6 +113,29 @@ def _set(options: argparse.Namespace) -> EvaluationSet:
     near, known = suggestion(options.figure, ABLATIONS), ", ".join(ABLATIONS)
     require("--figure", repr(options.figure), options.figure in ABLATIONS, f"one of {known}{near}")
     return replace(which, ablations=tuple(dict.fromkeys([*which.ablations, options.figure])))
+
+
+def _progress(options: argparse.Namespace, stack: ExitStack) -> StageProgress:
+    """A bar for all clips, and beneath it those of models, anew for each clip."""
+    from ..files import hear_signals
+    from .watching import progress_of
+
+    clips = progress_of(options, stack)
+    of_clip = stack.enter_context(ExitStack())
+    inner: StageProgress = progress_of(options, of_clip)
+
+    def advance(stage: str, done: int, total: int) -> None:
+        nonlocal inner
+        if stage == "clips":
+            of_clip.close()
+            inner = progress_of(options, of_clip)
+            clips(stage, done, total)
+        elif stage in _LONG:
+            inner(stage, done, total)
+        else:
+            hear_signals()
+
+    return advance
 
 
 def _list(plan: Plan) -> None:

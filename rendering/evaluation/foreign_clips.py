@@ -7,10 +7,11 @@ from pathlib import Path
 
 from ...physics.errors import InvalidInputError
 from ..pictures import read_clip
+from ..pictures.frame_rates import FRAME_RATES
 from .evaluation_set import EvaluationSet, PictureOfSet
 from .methods import Method
 
-__all__ = ["check_foreign_clips", "clip_names", "foreign_clip"]
+__all__ = ["check_foreign_clips", "clip_names", "foreign_clip", "foreign_rate"]
 
 _ENDINGS = (".mp4", ".webm", ".mkv", ".mov", ".avi", ".gif", ".webp", ".apng")
 
@@ -50,6 +51,37 @@ def check_foreign_clips(which: EvaluationSet, method: Method) -> None:
     """
     if not os.path.isdir(method.clips):
         raise InvalidInputError(f"clips of method {method.name!r} must be a folder. Got: no {method.clips}")
+    seen: dict[Path, str] = {}
     for picture in which.pictures:
         for sample in range(which.samples):
-            next(read_clip(foreign_clip(method, picture, sample)))
+            place, name = foreign_clip(method, picture, sample), f"{picture.name}, sample {sample}"
+            if place in seen:
+                raise InvalidInputError(
+                    f"clips {method.clips} must hold one for each sample. Got: {place.name} for {seen[place]} and for"
+                    f" {name}"
+                )
+            seen[place] = name
+            next(read_clip(place))
+
+
+def foreign_rate(which: EvaluationSet, method: Method, place: Path) -> float:
+    """Frames a second of a clip: as said of the method, as its file says, or as the set has it.
+
+    Args:
+        which: the set.
+        method: of the clip.
+        place: the clip.
+    """
+    if method.rate:
+        return method.rate
+    import av
+
+    found = None
+    if place.is_file():
+        try:
+            with av.open(str(place.absolute()), options={"protocol_whitelist": "file"}) as container:
+                found = container.streams.video[0].average_rate
+        except (av.FFmpegError, IndexError, OSError):  # such as animated WebP, which FFmpeg does not read
+            found = None
+    slowest, fastest = FRAME_RATES
+    return float(found) if found and slowest <= found <= fastest else which.rate

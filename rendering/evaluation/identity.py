@@ -30,14 +30,14 @@ def clip_recipe(which: EvaluationSet, picture: PictureOfSet, sample: int, method
     """
     facts = {"sample": sample, "rate": which.rate, "format": _CLIPS_FORMAT, "physanimator": __version__}
     if method.clips:
-        return {**facts, "clip": _digest(foreign_clip(method, picture, sample))}
+        return {**facts, "clip": digest_of_file(foreign_clip(method, picture, sample)), "method_rate": method.rate}
     named = dict.fromkeys((*method.weights, *_helpers(method)))
     weights = {key: digest_of_file(place) for key in named if (place := which.weights.of(key)) is not None}
     return {
         **facts,
         "method": method.as_record(),
         "picture": {
-            "files": [_digest(Path(each)) for each in picture.files],
+            "files": [digest_of_file(Path(each)) for each in picture.files],
             "parts": [len(picture.masks), len(picture.points), *map(bool, (picture.scene, picture.plate))],
             "presets": list(picture.presets),
         },
@@ -58,10 +58,6 @@ def _helpers(method: Method) -> tuple[str, ...]:
 def digest_of_recipe(recipe: Any) -> str:
     """The hash of a JSON value."""
     return hashlib.sha256(json.dumps(recipe, sort_keys=True).encode()).hexdigest()
-
-
-def _digest(place: Path) -> str:
-    return digest_of_file(place)
 
 
 def digest_of_file(place: Path) -> str:

@@ -43,6 +43,7 @@ class Method:
         draws: one of ``DRAWS``.
         clips: folder with somebody else's clips instead: a video or a folder of frames for each picture and sample.
         follows: those clips show our motion, as those of trajectory-guided models do: what is measured along it is.
+        rate: of those clips [frames/s]; 0 for what their files say, and for folders of frames the set's.
         interpolate: frames from keyframe to keyframe, between which frames are filled in; 1: none are.
         interpolate_with: who fills them in.
         sketch_blur: standard deviation of the sketches' blur [px].
@@ -65,6 +66,7 @@ class Method:
     draws: str = ""
     clips: str = ""
     follows: bool = False
+    rate: float = 0.0
     interpolate: int = 1
     interpolate_with: str = "tooncrafter"
     sketch_blur: float = 0.8
@@ -93,6 +95,7 @@ class Method:
             known = [each for each in choices if each]
             require(name, repr(value), value in choices, f"one of {', '.join(known)}{suggestion(value, known)}")
         check_whole("interpolate", self.interpolate, 1, 1000, unit=" frames")
+        check_number("rate", self.rate, 0, 240, unit=" frames a second")
         check_number("sketch_blur", self.sketch_blur, 0, 100, unit=" px")
         check_number("mask_error_px", self.mask_error_px, 0, 200, unit=" px")
 
@@ -129,7 +132,7 @@ class Method:
 
 
 _ALWAYS = {"name", "draws", "clips"}
-_USED_BY_CLIPS = {"follows"}
+_USED_BY_CLIPS = {"follows", "rate"}
 _USED_BY_RENDERERS = {
     "interpolate",
     "interpolate_with",

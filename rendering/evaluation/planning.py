@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from ... import __version__
 from ...physics.errors import InvalidInputError
 from ..neural.checking import check_networks
 from .clip_files import check_clip_place, kept_clip
@@ -169,7 +170,7 @@ def planned(which: EvaluationSet, output: Path, *, opened: bool = False) -> Plan
     weights = column_weights(which)
     if not opened:
         weights.check()
-    columns = digest_of_recipe([[each.key for each in COLUMNS], weights.hashes(), which.device])
+    columns = digest_of_recipe([__version__, [each.key for each in COLUMNS], weights.hashes(), which.device])
     cells = []
     for picture in which.pictures:
         shown, drawn = loaded(picture, which.size), []

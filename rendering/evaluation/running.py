@@ -16,6 +16,7 @@ from ..stages import StageProgress
 from .clip_files import KeptClip, kept_clip, remove_unfinished_clips, write_clip
 from .columns import COLUMNS, method_values
 from .drawing import drawn_frames
+from .foreign_clips import foreign_clip, foreign_rate
 from .identity import clip_recipe
 from .measuring import as_json, clip_of, measured_clip
 from .motions import reference_of
@@ -92,8 +93,9 @@ def _drawn(cell: Cell, plan: Plan, progress: StageProgress | None) -> KeptClip:
     place.parent.mkdir(parents=True, exist_ok=True)
     frames = drawn_frames(which, cell.picture, cell.sample, cell.method, progress=progress)
     recipe = clip_recipe(which, cell.picture, cell.sample, cell.method)
-    rate = which.rate
-    if not cell.method.clips:
+    if cell.method.clips:
+        rate = foreign_rate(which, cell.method, foreign_clip(cell.method, cell.picture, cell.sample))
+    else:
         rate = reference_of(which, cell.picture, cell.sample, contact=cell.method.contact).motion.frame_rate
     write_clip(place, frames, rate, cell.key, recipe)
     kept = kept_clip(place, cell.key)
