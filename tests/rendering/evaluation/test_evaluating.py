@@ -148,7 +148,7 @@ def test_a_method_without_weights_is_left_out_with_the_name_of_the_file(
     assert evaluate(file, "-o", tmp_path / "report", "--dry-run") == 0
     said = capsys.readouterr().out
     assert "left out sketch-guided: not at hand: weights.svd: svd.safetensors" in said
-    assert "left out composite-no-contact / flag: its scene has no contact" in said
+    assert "left out composite-no-contact for flag, bush: its scene has no contact" in said
     assert not (tmp_path / "report").exists()
 
 
