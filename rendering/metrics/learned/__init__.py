@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from .files import FID_FILE, VIDEO_SCORE_FOLDER, require_file
+from .files import FID_FILE, LPIPS_FOLDER, VIDEO_SCORE_FOLDER, MetricFile, require_file
 from .videoscore import video_score
 
 __all__ = [
     "FID_FILE",
+    "LPIPS_FOLDER",
     "VIDEO_SCORE_FOLDER",
+    "MetricFile",
     "require_file",
     "video_score",
 ]
