@@ -198,6 +198,7 @@ def draw() -> list[Sheet]:
 
 
 SCENE = {
+    "contact": {},
     "bodies": [
         {"name": "tail", "layer": 0, "material": {"preset": "hair", "sway_frequency": 0.8}},
         {"name": "scarf", "layer": 1, "material": {"preset": "cloth", "sway_frequency": 0.9}},

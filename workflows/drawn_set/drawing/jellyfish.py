@@ -7,6 +7,7 @@ from paint import Array, Sheet, mixed, spline, tapered
 
 SIZE = (640, 880)
 QUALITY = 90
+SOLID = 3.0  # times as opaque as the parts are their masks, as people paint masks of what shines through
 
 
 def sea() -> Sheet:

@@ -67,7 +67,8 @@ def make(name: str, out: Path, *, layered: bool = True) -> None:
     save_picture(picture if finish is None else finish(picture), folder, getattr(module, "QUALITY", None))
     for part, mask in masks.items():
         grown = np.maximum(mask, cv2.GaussianBlur(mask, (3, 3), 0))
-        levels = (np.rint(grown / 17) * 17).astype(np.uint8)  # 16 of them, which makes small files
+        grown = np.minimum(255, grown * getattr(module, "SOLID", 1.0))
+        levels = (np.rint(grown / 5) * 5).astype(np.uint8)  # 52 of them, which makes small files
         Image.fromarray(levels).save(folder / f"mask_{part.replace(' ', '_')}.png", optimize=True)
     width, height = module.SIZE
     scene = {"version": 2, "width": width, "height": height, "frame_rate": 24, **module.SCENE}
