@@ -19,8 +19,8 @@ from .drawing import drawn_frames
 from .foreign_clips import foreign_clip, foreign_rate
 from .identity import clip_recipe
 from .measuring import as_json, clip_of, measured_clip
-from .motions import reference_of
-from .planning import Cell, Plan, column_weights
+from .motions import Impossible, reference_of
+from .planning import IMPOSSIBLE, Cell, Plan, column_weights
 
 __all__ = ["measure_methods", "run"]
 
@@ -82,6 +82,8 @@ def _make(cell: Cell, plan: Plan, progress: StageProgress | None) -> None:
         values = measured_clip(
             which, cell.picture, cell.sample, cell.method, kept, column_weights(which), progress=advance
         )
+    except Impossible as error:
+        values = {IMPOSSIBLE: str(error)}
     except InvalidInputError as error:
         raise InvalidInputError(f"{cell.name}: {error}") from error
     file = folder.measures(cell.method.name, cell.picture.name, cell.sample)
