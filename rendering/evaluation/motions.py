@@ -111,7 +111,9 @@ def _at_rest(picture: PictureOfSet, size: int, rate: float, mask_error: str, amo
 
 
 def _animated(shown: LoadedPicture, masks: Any, **how: Any) -> Animation:
-    flat = {} if shown.layered else {"masks": list(masks), "plate": shown.plate, "in_front": shown.in_front}
+    flat: dict[str, Any] = (
+        {} if shown.layered else {"masks": list(masks), "plate": shown.plate, "in_front": shown.in_front}
+    )
     return animate(shown.image, **flat, **how)
 
 

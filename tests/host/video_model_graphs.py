@@ -169,7 +169,7 @@ def wan_tracks() -> tuple[Group, ...]:
 
 def differential_diffusion() -> tuple[Group, ...]:
     """Warped frames whose holes an image model paints, each frame by itself, under a soft mask."""
-    size = {"frames": 33, "width": 768, "height": 432, "grow": 8}
+    size = {"frames": 61, "width": 640, "height": 352, "grow": 8}
     given = ours("given", "WarpedVideo", 0, "", size, image="example.image", motion="simulate.motion")
     soft = (
         core("holes", "MaskToImage", mask="given.control_masks"),

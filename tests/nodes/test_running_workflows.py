@@ -27,7 +27,7 @@ LENGTHS = {
     "wan_vace": 13,
 }
 SIZES = {
-    "differential_diffusion": (432, 768),
+    "differential_diffusion": (352, 640),
     "wan_first_last_frame": (480, 832),
     "wan_lines": (480, 832),
     "wan_tracks": (370, 640),
