@@ -175,8 +175,8 @@ SCENE = {
     "bodies": [{"name": "banner", "attach": "left", "material": {"preset": "cloth", "sway_frequency": 0.7}}],
     "strokes": [
         {"kind": "wind", "path": [[150, 110], [330, 190], [520, 80], [720, 200], [950, 110]],
-         "radius": 180, "speed": 700, "strength": 2.2, "interval": 0.9},
+         "radius": 180, "speed": 700, "strength": 3.3, "interval": 0.9},
         {"kind": "wind", "path": [[150, 260], [330, 190], [520, 300], [720, 200], [950, 300]],
-         "radius": 160, "speed": 620, "strength": 1.8, "start": 0.2, "interval": 1.1},
+         "radius": 160, "speed": 620, "strength": 2.7, "start": 0.2, "interval": 1.1},
     ],
 }  # fmt: skip

@@ -209,8 +209,8 @@ SCENE = {
     ],
     "strokes": [
         {"kind": "wind", "path": [[330, 350], [470, 290], [620, 380], [790, 300]], "radius": 140, "speed": 520,
-         "strength": 1.6, "interval": 1.0},
-        {"kind": "wind", "path": [[480, 600], [600, 450], [760, 420]], "radius": 150, "speed": 420, "strength": 1.3,
+         "strength": 3.5, "interval": 1.0},
+        {"kind": "wind", "path": [[480, 600], [600, 450], [760, 420]], "radius": 150, "speed": 420, "strength": 2.9,
          "start": 0.2, "interval": 1.4},
     ],
 }  # fmt: skip

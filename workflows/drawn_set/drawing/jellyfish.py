@@ -72,7 +72,7 @@ def tentacles() -> Sheet:
 
 def arms() -> Sheet:
     """The frilled arms in the middle."""
-    sheet = Sheet("arms", *SIZE, moves=True)
+    sheet = Sheet("tentacles", *SIZE, moves=True)
     for k, (x, long, lean) in enumerate(((286, 370, -76), (308, 460, -18), (336, 430, 44), (354, 340, 84))):
         path = spline(_wavy(x, 246, long, lean, 17, 1.2 * k))
         t = np.linspace(0, 1, len(path))
@@ -129,10 +129,7 @@ def draw() -> list[Sheet]:
 
 
 SCENE = {
-    "bodies": [
-        {"name": "tentacles", "layer": 0, "attach": "top", "material": {"preset": "ribbon", "sway_frequency": 0.5}},
-        {"name": "arms", "layer": 1, "attach": "top", "material": {"preset": "jelly", "sway_frequency": 0.6}},
-    ],
+    "bodies": [{"name": "tentacles", "attach": "top", "material": {"preset": "ribbon", "sway_frequency": 0.5}}],
     "strokes": [
         {"kind": "wind", "path": [[60, 380], [330, 470], [640, 400]], "radius": 150, "speed": 330, "strength": 0.9,
          "interval": 1.6},

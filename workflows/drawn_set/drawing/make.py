@@ -28,7 +28,8 @@ def composed(sheets: list[Sheet]) -> tuple[Any, dict[str, Any]]:
         for name in seen:
             seen[name] = seen[name] * (1 - share[..., 0])
         if sheet.moves:
-            seen[sheet.name] = share[..., 0].copy()
+            before = seen.get(sheet.name, np.zeros_like(share[..., 0]))  # two layers of one name are one part
+            seen[sheet.name] = np.minimum(1, before + share[..., 0])
     assert picture is not None
     masks = {name: np.rint(255 * np.clip(mask, 0, 1)).astype(np.uint8) for name, mask in seen.items()}
     return np.rint(np.clip(picture, 0, 255)).astype(np.uint8), masks

@@ -186,10 +186,10 @@ SCENE = {
     ],
     "strokes": [
         {"kind": "wind", "path": [[170, 470], [300, 420], [430, 520], [620, 470]], "radius": 150, "speed": 560,
-         "strength": 1.9, "interval": 0.9},
+         "strength": 3.4, "interval": 0.9},
         {"kind": "wind", "path": [[170, 620], [300, 570], [430, 670], [640, 600]], "radius": 150, "speed": 500,
-         "strength": 1.8, "start": 0.15, "interval": 1.0},
-        {"kind": "wind", "path": [[200, 250], [300, 230], [420, 270]], "radius": 100, "speed": 460, "strength": 1.8,
+         "strength": 3.2, "start": 0.15, "interval": 1.0},
+        {"kind": "wind", "path": [[200, 250], [300, 230], [420, 270]], "radius": 100, "speed": 460, "strength": 3.2,
          "start": 0.1, "interval": 0.8},
     ],
 }  # fmt: skip

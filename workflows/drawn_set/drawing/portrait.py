@@ -43,7 +43,7 @@ def _bristles(sheet: Sheet, path: Array, wide: float, tone: Array, opacity: floa
 
 def far_hair() -> Sheet:
     """The hair behind the neck."""
-    sheet = Sheet("far hair", *SIZE, moves=True)
+    sheet = Sheet("hair", *SIZE, moves=True)
     _mass(sheet, FAR, ("#2a1420", "#4a2028", "#6e2f2c"), 150)
     return sheet
 
@@ -187,22 +187,17 @@ def draw() -> list[Sheet]:
 
 
 SCENE = {
-    "bodies": [
-        {"name": "far hair", "layer": 0, "material": {"preset": "hair", "sway_frequency": 0.7}},
-        {"name": "hair", "layer": 1, "material": {"preset": "hair", "sway_frequency": 0.75}},
-    ],
+    "bodies": [{"name": "hair", "material": {"preset": "hair", "sway_frequency": 0.75}}],
     "rig_points": [
-        {"position": [440, 390], "body": 0, "motion": {"type": "pinned"},
-         "region": {"type": "polygon", "points": [[390, 280], [470, 320], [500, 440], [470, 520], [400, 460]]}},
-        {"position": [400, 200], "body": 1, "motion": {"type": "pinned"},
-         "region": {"type": "polygon", "points": [[240, 60], [500, 60], [560, 190], [520, 330], [460, 400], [400, 400], [240, 320]]}},
+        {"position": [400, 200], "body": 0, "motion": {"type": "pinned"},
+         "region": {"type": "polygon", "points": [[240, 60], [500, 60], [560, 190], [520, 330], [490, 440], [500, 560], [440, 560], [400, 400], [240, 320]]}},
     ],
     "strokes": [
         {"kind": "wind", "path": [[400, 170], [520, 110], [650, 260], [820, 200]], "radius": 150, "speed": 600,
-         "strength": 1.8, "interval": 0.9},
+         "strength": 2.3, "interval": 0.9},
         {"kind": "wind", "path": [[430, 380], [540, 300], [660, 430], [820, 360]], "radius": 150, "speed": 540,
-         "strength": 1.7, "start": 0.15, "interval": 1.0},
+         "strength": 2.2, "start": 0.15, "interval": 1.0},
         {"kind": "wind", "path": [[430, 540], [540, 480], [640, 600], [800, 540]], "radius": 150, "speed": 500,
-         "strength": 1.6, "start": 0.3, "interval": 1.2},
+         "strength": 2.1, "start": 0.3, "interval": 1.2},
     ],
 }  # fmt: skip

@@ -8,6 +8,7 @@ from paint import FINE, Array, Sheet, mixed, spline, tapered
 
 SIZE = (880, 620)
 QUALITY = 86
+SOLID = 3.0  # times as opaque as the washes are their masks, as people paint masks
 PAPER = "#faf6ea"
 
 
@@ -92,8 +93,8 @@ def _leaf(sheet: Sheet, root: Array, side: float, long: float, chance: np.random
 
 
 def draw() -> list[Sheet]:
-    back = twigs("back twigs", 5, 17, ("#a9bd6a", "#8fae70", "#c9cd86"))
-    front = twigs("front twigs", 11, 14, ("#7f9f45", "#5f8a46", "#b3b552"))
+    back = twigs("twigs", 5, 17, ("#a9bd6a", "#8fae70", "#c9cd86"))
+    front = twigs("twigs", 11, 14, ("#7f9f45", "#5f8a46", "#b3b552"))
     return [scenery(), back, front]
 
 
@@ -107,10 +108,7 @@ def finish(picture: Array) -> Array:
 
 
 SCENE = {
-    "bodies": [
-        {"name": "back twigs", "layer": 0, "attach": "top", "material": {"preset": "leaf", "sway_frequency": 0.4}},
-        {"name": "front twigs", "layer": 1, "attach": "top", "material": {"preset": "leaf", "sway_frequency": 0.45}},
-    ],
+    "bodies": [{"name": "twigs", "attach": "top", "material": {"preset": "leaf", "sway_frequency": 0.45}}],
     "strokes": [
         {"kind": "wind", "path": [[180, 260], [420, 330], [650, 240], [900, 320]], "radius": 200, "speed": 480,
          "strength": 1.2, "interval": 1.3},

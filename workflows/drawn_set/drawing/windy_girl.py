@@ -257,12 +257,12 @@ SCENE = {
     ],
     "strokes": [
         {"kind": "wind", "path": [[230, 250], [360, 310], [490, 220], [620, 340], [760, 260]], "radius": 150,
-         "speed": 560, "strength": 2.0, "interval": 0.8},
+         "speed": 560, "strength": 2.6, "interval": 0.8},
         {"kind": "wind", "path": [[240, 400], [380, 360], [500, 460], [650, 400]], "radius": 150, "speed": 500,
-         "strength": 1.7, "start": 0.1, "interval": 1.0},
+         "strength": 2.2, "start": 0.1, "interval": 1.0},
         {"kind": "wind", "path": [[220, 590], [360, 540], [480, 630], [640, 560]], "radius": 150, "speed": 480,
-         "strength": 1.8, "start": 0.2, "interval": 1.1},
+         "strength": 2.3, "start": 0.2, "interval": 1.1},
         {"kind": "wind", "path": [[340, 170], [440, 210], [540, 150], [680, 190]], "radius": 90, "speed": 480,
-         "strength": 2.2, "interval": 0.7},
+         "strength": 2.9, "interval": 0.7},
     ],
 }  # fmt: skip
