@@ -108,7 +108,11 @@ def finish(picture: Array) -> Array:
 
 
 SCENE = {
-    "bodies": [{"name": "twigs", "attach": "top", "material": {"preset": "leaf", "sway_frequency": 0.45}}],
+    "bodies": [{"name": "twigs", "material": {"preset": "leaf", "sway_frequency": 0.45}}],
+    "rig_points": [
+        {"position": [500, 36], "body": 0, "motion": {"type": "pinned"},
+         "region": {"type": "polygon", "points": [[225, 0], [225, 90], [300, 62], [365, 50], [560, 54], [770, 46], [780, 0]]}},
+    ],
     "strokes": [
         {"kind": "wind", "path": [[180, 260], [420, 330], [650, 240], [900, 320]], "radius": 200, "speed": 480,
          "strength": 1.2, "interval": 1.3},
