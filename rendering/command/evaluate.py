@@ -82,7 +82,7 @@ def _evaluate(options: argparse.Namespace) -> None:
             say(f"{place}: drawn")
     write_report(there.folder, results)
     if not options.quiet:
-        for sentence in _left_out(plan):
+        for sentence in _left_out(there):
             say(sentence)
         say(f"{plan.folder.place / 'report.html'}: {len(there.cells)} clips of {len(there.methods)} methods")
     return None

@@ -78,7 +78,7 @@ def network_options(which: EvaluationSet, method: Method, sample: int) -> Networ
     if which.weights.lines and method.renderer == "svd":
         chosen["extractor"] = "informative"
     used = {name for name, (which_choice, network, _) in FILES.items() if chosen.get(which_choice) == network}
-    files = {name: which.weights.of(name) for name in used}
+    files: dict[str, Any] = {name: which.weights.of(name) for name in used}
     usual = NetworkOptions()
     seed = (which.seed + sample) % _LARGEST_SEED
     told: dict[str, Any] = {}

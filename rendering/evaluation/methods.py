@@ -11,7 +11,7 @@ from ...physics.checks import check_number, check_whole
 from ...physics.errors import InvalidInputError, require
 from ..neural import CHOICES
 from ..neural.options import FILES
-from ..sketch import WARP_MODES
+from ..sketch import WARP_MODES, WarpMode
 from .mask_errors import MASK_ERRORS
 from .names import check_name, suggestion
 
@@ -70,7 +70,7 @@ class Method:
     interpolate: int = 1
     interpolate_with: str = "tooncrafter"
     sketch_blur: float = 0.8
-    sketch_warp: str = "layered"
+    sketch_warp: WarpMode = "layered"
     weight: str = "layered"
     mask_error: str = ""
     mask_error_px: float = 6.0

@@ -23,10 +23,23 @@ from .loaded_pictures import LoadedPicture, loaded
 from .mask_errors import spoiled
 from .methods import Method
 
-__all__ = ["animation_of", "reference_of", "sample_scene"]
+__all__ = ["Impossible", "animation_of", "check_motion", "reference_of", "sample_scene"]
 
 # Samples beyond the first: strength within a factor, direction within an angle [degrees], of what the scene says.
 _STRONGER, _TURNED = 1.5, 20.0
+
+
+class Impossible(InvalidInputError):
+    """Spoiled masks leave nothing that could be animated; the message says why."""
+
+
+def check_motion(which: EvaluationSet, picture: PictureOfSet) -> None:
+    """Refuse a picture whose parts or scene cannot be animated, before any work.
+
+    Raises:
+        InvalidInputError: the message names the picture.
+    """
+    _at_rest(picture, which.size, which.rate, "", 0.0, 0)
 
 
 def reference_of(
@@ -90,14 +103,17 @@ def _at_rest(picture: PictureOfSet, size: int, rate: float, mask_error: str, amo
     try:
         found = _animated(shown, masks, scene=document, preset=one, timing=timing)
     except InvalidInputError as error:
-        spoiled_by = f" with masks {mask_error}" if mask_error else ""
-        raise InvalidInputError(f"picture {picture.name!r}{spoiled_by}: {error}") from error
+        if mask_error:
+            raise Impossible(f"its masks, {mask_error} by {amount:g} px, cannot be animated: {error}") from error
+        raise InvalidInputError(f"picture {picture.name!r}: {error}") from error
     loop = None if shown.scene is None else shown.scene.get("loop")
     return replace(found, scene=replace(found.scene, loop=loop))
 
 
 def _animated(shown: LoadedPicture, masks: Any, **how: Any) -> Animation:
-    flat = {} if shown.layered else {"masks": list(masks), "plate": shown.plate, "in_front": shown.in_front}
+    flat: dict[str, Any] = (
+        {} if shown.layered else {"masks": list(masks), "plate": shown.plate, "in_front": shown.in_front}
+    )
     return animate(shown.image, **flat, **how)
 
 

@@ -17,10 +17,14 @@ from .foreign_clips import check_foreign_clips
 from .identity import clip_recipe, digest_of_recipe
 from .loaded_pictures import loaded
 from .methods import WARP, Method
+from .motions import check_motion
 from .names import suggestion
 from .report_folder import ReportFolder
 
-__all__ = ["Absent", "Cell", "Plan", "column_weights", "left_out", "planned", "restricted"]
+__all__ = ["IMPOSSIBLE", "Absent", "Cell", "Plan", "column_weights", "left_out", "planned", "restricted"]
+
+IMPOSSIBLE = "impossible"
+"""In a clip's measures: why there is no clip."""
 
 _WANTED = {
     "svd": "svd.safetensors (Stable Video Diffusion, image to video, 14 frames)",
@@ -171,16 +175,14 @@ def planned(which: EvaluationSet, output: Path, *, opened: bool = False) -> Plan
     if not opened:
         weights.check()
     columns = digest_of_recipe([__version__, [each.key for each in COLUMNS], weights.hashes(), which.device])
-    cells = []
+    cells: list[Cell] = []
     for picture in which.pictures:
-        shown, drawn = loaded(picture, which.size), []
-        for method in usable:
-            if why := unusable_for(method, picture, shown):
-                absent.append(Absent(method.name, picture.name, why))
-            else:
-                drawn.append(method)
-        samples = range(which.samples)
-        cells += [_cell(which, folder, picture, sample, method, columns) for sample in samples for method in drawn]
+        found = _cells(which, folder, picture, usable, columns)
+        absent += [each for each in found if isinstance(each, Absent)]
+        of_picture = [each for each in found if isinstance(each, Cell)]
+        if not opened and any(not (each.kept or each.method.clips) for each in of_picture):
+            check_motion(which, picture)
+        cells += of_picture
     return Plan(which, folder, tuple(cells), tuple(absent), columns)
 
 
@@ -217,14 +219,30 @@ def _usable(which: EvaluationSet, opened: bool) -> tuple[list[Absent], list[Meth
     return absent, usable
 
 
+def _cells(
+    which: EvaluationSet, folder: ReportFolder, picture: PictureOfSet, methods: Sequence[Method], columns: str
+) -> list[Cell | Absent]:
+    """The clips of a picture, those of one sample together, and what has none."""
+    shown = loaded(picture, which.size)
+    why_not = {each.name: unusable_for(each, picture, shown) for each in methods}
+    found: list[Cell | Absent] = [Absent(name, picture.name, why) for name, why in why_not.items() if why]
+    for sample in range(which.samples):
+        for method in methods:
+            if not why_not[method.name]:
+                found.append(_cell(which, folder, picture, sample, method, columns))
+    return found
+
+
 def _cell(
     which: EvaluationSet, folder: ReportFolder, picture: PictureOfSet, sample: int, method: Method, columns: str
-) -> Cell:
+) -> Cell | Absent:
     key = digest_of_recipe(clip_recipe(which, picture, sample, method))
     place = folder.clip(method.name, picture.name, sample)
     check_clip_place(place)
     kept = kept_clip(place, key) is not None
     file = folder.measures(method.name, picture.name, sample)
     folder.check_measures(file)
-    measured = folder.read_measures(file, f"{key} {columns}") is not None
-    return Cell(method, picture, sample, key, kept, measured)
+    values = folder.read_measures(file, f"{key} {columns}")
+    if values is not None and IMPOSSIBLE in values:
+        return Absent(method.name, picture.name, str(values[IMPOSSIBLE]))
+    return Cell(method, picture, sample, key, kept, values is not None)

@@ -103,8 +103,9 @@ def _cell(results: Results, value: Value, best: bool) -> str:
         return f'<td class="none">{_DASH}</td>'
     number = shown_number(value.mean)
     number = f"<b>{number}</b>" if best else number
-    known = value.low is not None and value.high is not None
-    notes = [f"{shown_number(value.low)} {_DASH} {shown_number(value.high)}"] if known else []
+    notes = []
+    if value.low is not None and value.high is not None:
+        notes.append(f"{shown_number(value.low)} {_DASH} {shown_number(value.high)}")
     notes += [note] if (note := results.few(value)) else []
     return f"<td>{number}{''.join(f'<br><small>{each}</small>' for each in notes)}</td>"
 

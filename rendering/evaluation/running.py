@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import signal
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -14,13 +14,13 @@ from ...physics.checks import check_whole
 from ...physics.errors import InvalidInputError
 from ..stages import StageProgress
 from .clip_files import KeptClip, kept_clip, remove_unfinished_clips, write_clip
-from .columns import COLUMNS, method_values
+from .columns import COLUMNS, ClipOfPicture, method_values
 from .drawing import drawn_frames
 from .foreign_clips import foreign_clip, foreign_rate
 from .identity import clip_recipe
 from .measuring import as_json, clip_of, measured_clip
-from .motions import reference_of
-from .planning import Cell, Plan, column_weights
+from .motions import Impossible, reference_of
+from .planning import IMPOSSIBLE, Cell, Plan, column_weights
 
 __all__ = ["measure_methods", "run"]
 
@@ -82,6 +82,8 @@ def _make(cell: Cell, plan: Plan, progress: StageProgress | None) -> None:
         values = measured_clip(
             which, cell.picture, cell.sample, cell.method, kept, column_weights(which), progress=advance
         )
+    except Impossible as error:
+        values = {IMPOSSIBLE: str(error)}
     except InvalidInputError as error:
         raise InvalidInputError(f"{cell.name}: {error}") from error
     file = folder.measures(cell.method.name, cell.picture.name, cell.sample)
@@ -128,17 +130,25 @@ def _summary(value: Any) -> Any:
     return {"mean": value.mean, "low": value.low, "high": value.high, "count": value.count}
 
 
-class _Clips:
+class _Clips(Collection[ClipOfPicture]):
     """The clips of a method, read one after another, as often as they are asked for."""
 
     def __init__(self, plan: Plan, cells: Sequence[Cell]) -> None:
         self._plan, self._cells = plan, cells
 
-    def __iter__(self) -> Iterator[Any]:
+    def __len__(self) -> int:
+        return len(self._cells)
+
+    def __contains__(self, clip: object) -> bool:
+        return any(clip is each for each in self)
+
+    def __iter__(self) -> Iterator[ClipOfPicture]:
         for cell in self._cells:
-            kept = kept_clip(self._plan.folder.clip(cell.method.name, cell.picture.name, cell.sample), cell.key)
-            if kept is not None:
-                yield clip_of(self._plan.which, cell.picture, cell.sample, cell.method, kept)
+            place = self._plan.folder.clip(cell.method.name, cell.picture.name, cell.sample)
+            kept = kept_clip(place, cell.key)
+            if kept is None:
+                raise InvalidInputError(f"{place} must stay as it was written. Got: another content")
+            yield clip_of(self._plan.which, cell.picture, cell.sample, cell.method, kept)
 
 
 def _in_this_process(cells: Sequence[Cell], plan: Plan, progress: StageProgress | None) -> Iterator[Cell]:

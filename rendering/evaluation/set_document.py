@@ -113,15 +113,11 @@ def _placed(found: EvaluationSet, folder: Path) -> EvaluationSet:
     def each_at(given: Iterable[str]) -> tuple[str, ...]:
         return tuple(map(at, given))
 
-    pictures = tuple(
-        replace(
-            each,
-            masks=each_at(each.masks),
-            points=each_at(each.points),
-            **{name: at(getattr(each, name)) for name in _PATHS_OF_PICTURES},
-        )
-        for each in found.pictures
-    )
+    def of_picture(each: PictureOfSet) -> PictureOfSet:
+        single: dict[str, Any] = {name: at(getattr(each, name)) for name in _PATHS_OF_PICTURES}
+        return replace(each, masks=each_at(each.masks), points=each_at(each.points), **single)
+
+    pictures = tuple(map(of_picture, found.pictures))
     methods = tuple(replace(each, clips=at(each.clips)) if each.clips else each for each in found.methods)
     weights = replace(found.weights, **{name: at(str(path)) for name, path in found.weights.named.items()})
     return replace(found, pictures=pictures, methods=methods, weights=weights)

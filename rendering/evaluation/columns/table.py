@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from .column import Column
-from .dynamic_degree import DYNAMIC_DEGREE
 from .fid import FID
-from .flow_warp_error import FLOW_WARP_ERROR
 from .hole_ratio import HOLE_RATIO
 from .loop_residual import LOOP_RESIDUAL
 from .lpips import LPIPS
+from .seen_flow import DYNAMIC_DEGREE, FLOW_WARP_ERROR
 from .simulated_flow_error import SIMULATED_FLOW_ERROR
 from .sketch_adherence import SKETCH_ADHERENCE
 from .static_drift import STATIC_DRIFT

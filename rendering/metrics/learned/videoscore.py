@@ -160,7 +160,10 @@ def _question(folder: Path) -> str:
     if not file.exists():
         return _QUESTION
     check_regular(file, PROMPT_FILE)
-    return file.read_text(encoding="utf-8").strip() + " "
+    try:
+        return file.read_text(encoding="utf-8").strip() + " "
+    except (OSError, ValueError) as error:
+        raise InvalidInputError(f"{file} must be text in UTF-8. Got: {error}") from error
 
 
 def _grader() -> Any:

@@ -148,7 +148,7 @@ def test_a_method_without_weights_is_left_out_with_the_name_of_the_file(
     assert evaluate(file, "-o", tmp_path / "report", "--dry-run") == 0
     said = capsys.readouterr().out
     assert "left out sketch-guided: not at hand: weights.svd: svd.safetensors" in said
-    assert "left out composite-no-contact / flag: its scene has no contact" in said
+    assert "left out composite-no-contact for flag, bush: its scene has no contact" in said
     assert not (tmp_path / "report").exists()
 
 
@@ -268,4 +268,25 @@ def test_a_figure_that_is_none(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert "did you mean masks?" in capsys.readouterr().err
     assert evaluate(file, "-o", tmp_path / "report", "--method", "composit") == 2
     assert "did you mean composite?" in capsys.readouterr().err
+    assert not (tmp_path / "report").exists()
+
+
+def test_a_spoiled_mask_of_which_nothing_is_left_is_left_out(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    gone = '"composite", {name = "gone", draws = "composite", mask_error = "shrunk", mask_error_px = 180}'
+    file = small_set(tmp_path / "set", methods=gone)
+    assert main(["evaluate", str(file), "-o", str(tmp_path / "report"), "--picture", "flag"]) == 0
+    assert "left out gone for flag: its masks, shrunk by 180 px, cannot be animated" in capsys.readouterr().out
+    assert evaluate(file, "-o", tmp_path / "report", "--picture", "flag", "--dry-run") == 0
+    assert "1 of 1 clips are kept" in capsys.readouterr().out
+
+
+def test_a_scene_of_other_bodies_is_refused_before_the_work(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = small_set(tmp_path / "set", methods='"composite"')
+    scene = file.parent / "flag" / "scene.json"
+    told = json.loads(scene.read_text())
+    scene.write_text(json.dumps(told | {"bodies": told["bodies"] * 3}))
+    assert evaluate(file, "-o", tmp_path / "report") == 2
+    assert "picture 'flag': " in capsys.readouterr().err
     assert not (tmp_path / "report").exists()
