@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -92,7 +93,9 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         " agree (Krippendorff's alpha: 1 all, 0 as by chance). Raters who miss catch trials are left out; of several"
         " files of one rater the last answers count."
     )
-    parser.add_argument("answers", metavar="ANSWERS.json", nargs="+", help="files that raters saved; the key may be one")
+    parser.add_argument(
+        "answers", metavar="ANSWERS.json", nargs="+", help="files that raters saved; the key may be one"
+    )
     parser.add_argument(
         "--key", metavar="PAGE.key.json", help="of the study (default: found beside the answers or a folder above)"
     )
@@ -108,6 +111,22 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--csv", metavar="OUT.csv", help="write a line a question and pair of methods as well")
 
 
+_NAMES = ("questions", "question", "against", "pairs", "catch", "limit", "fps", "width", "language", "least-caught")
+
+
+@contextmanager
+def _named() -> Iterator[None]:
+    """Let errors about values name the options that gave them."""
+    from ...physics.errors import InvalidInputError
+
+    try:
+        yield
+    except InvalidInputError as error:
+        if str(error).partition(" must ")[0] not in _NAMES:
+            raise
+        raise InvalidInputError(f"--{error}") from error
+
+
 def _make(options: argparse.Namespace) -> None:
     from ...physics.errors import require
     from ..evaluation.study import StudyOptions, make_study, method_clips, questions_of
@@ -118,29 +137,28 @@ def _make(options: argparse.Namespace) -> None:
 
     require("--language", options.language, options.language in LANGUAGES, f"one of {', '.join(LANGUAGES)}")
     methods = method_clips(options.clips)
-    trials = trials_of(
-        methods,
-        against=options.against,
-        most=options.pairs,
-        catch=options.catch,
-        practice=options.practice,
-        seed=options.seed,
-    )
-    chosen = StudyOptions(
-        questions_of(options.questions, options.question, language=options.language),
-        language=options.language,
-        title=options.title,
-        rate=options.fps,
-        longest=options.width,
-        limit=options.limit,
-        beside=options.beside,
-    )
+    with _named():
+        trials = trials_of(
+            methods,
+            against=options.against,
+            most=options.pairs,
+            catch=options.catch,
+            practice=options.practice,
+            seed=options.seed,
+        )
+        chosen = StudyOptions(
+            questions_of(options.questions, options.question, language=options.language),
+            language=options.language,
+            title=options.title,
+            rate=options.fps,
+            longest=options.width,
+            limit=options.limit,
+            beside=options.beside,
+        )
     page = Path(options.output)
     with ExitStack() as bars:
         stages = progress_of(options, bars)
-        study = make_study(
-            page, methods, trials, chosen, progress=lambda done, total: stages("encode", done, total)
-        )
+        study = make_study(page, methods, trials, chosen, progress=lambda done, total: stages("encode", done, total))
     if not options.quiet:
         counts = {kind: sum(each.kind == kind for each in trials) for kind in ("pair", "catch")}
         size = page.stat().st_size / 1e6
@@ -159,7 +177,8 @@ def _results(options: argparse.Namespace) -> None:
         with named_as("--csv", "the name"):
             check_text_output(options.csv, ".csv")
     key, files = read_files([Path(each) for each in options.answers], options.key and Path(options.key))
-    results: StudyResults = results_of(key, files, against=options.against, least_caught=options.least_caught)
+    with _named():
+        results: StudyResults = results_of(key, files, against=options.against, least_caught=options.least_caught)
     if options.csv is not None:
         write_text(options.csv, results_csv(results))
     show(results_json(results) if options.json else results_text(results))

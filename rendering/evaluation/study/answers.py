@@ -68,7 +68,9 @@ def read_files(paths: Sequence[Path], key: Path | None = None) -> tuple[StudyKey
         raise InvalidInputError("ANSWERS must be at least one file that a rater saved. Got: none")
     first_path, first = given[0]
     for path, each in given:
-        _require(each.get("format") == ANSWERS_FORMAT, path, "hold answers that a study's page saved", each.get("format"))
+        _require(
+            each.get("format") == ANSWERS_FORMAT, path, "hold answers that a study's page saved", each.get("format")
+        )
         _require(each.get("version") == 1, path, "be of version 1", each.get("version"))
         same = each.get("study") == first.get("study")
         _require(same, path, f"belong to the same study as {first_path.name}", each.get("study"))
@@ -88,7 +90,9 @@ def _document(path: Path) -> dict[str, Any]:
     except FileNotFoundError:
         raise InvalidInputError(f"ANSWERS must be files. Got: {printable(str(path))}, which is not there") from None
     except (OSError, UnicodeDecodeError, ValueError, RecursionError):
-        raise InvalidInputError(f"{printable(str(path))} must be a file of JSON. Got: one that cannot be read") from None
+        raise InvalidInputError(
+            f"{printable(str(path))} must be a file of JSON. Got: one that cannot be read"
+        ) from None
     _require(isinstance(document, dict), path, "hold answers that a study's page saved", document)
     return document  # type: ignore[no-any-return]
 
@@ -138,7 +142,9 @@ def _answers(path: Path, document: dict[str, Any], key: StudyKey) -> AnswerFile:
         _require(isinstance(row, dict), path, "hold answers with trial, question and choice", row)
         trial, question, choice = (row.get(name) for name in ("trial", "question", "choice"))
         _require(isinstance(trial, str) and trial in key.trials, path, "answer trials of its study", trial)
-        _require(isinstance(question, str) and question in key.questions, path, "answer questions of its study", question)
+        _require(
+            isinstance(question, str) and question in key.questions, path, "answer questions of its study", question
+        )
         _require(choice in ("left", "right"), path, "choose left or right", choice)
         _require((trial, question) not in choices, path, "answer each question of a trial once", (trial, question))
         choices[trial, question] = str(choice)

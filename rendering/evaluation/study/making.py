@@ -157,9 +157,7 @@ def _encoded(
     for number, (source, seed) in enumerate(needed.values()):
         checkpoint()
         path = folder / f"clip_{number:04}.mp4"
-        write_video(
-            source, path, rate=frame_rate_of(source, options.rate), longest=options.longest, broken_by=seed
-        )
+        write_video(source, path, rate=frame_rate_of(source, options.rate), longest=options.longest, broken_by=seed)
         total += path.stat().st_size * (1 if options.beside else 4) // (1 if options.beside else 3)
         if not options.beside and total > options.limit * 1e6:
             raise InvalidInputError(

@@ -135,9 +135,7 @@ def _merged(files: Iterable[AnswerFile]) -> dict[str, tuple[int, dict[tuple[str,
     return found
 
 
-def _checked(
-    key: StudyKey, rater: str, files: int, choices: dict[tuple[str, str], str], least: float
-) -> RaterCheck:
+def _checked(key: StudyKey, rater: str, files: int, choices: dict[tuple[str, str], str], least: float) -> RaterCheck:
     kinds = {t.id: t.kind for t in key.trials.values()}
     catches = [(key.trials[trial], side) for (trial, _), side in choices.items() if kinds[trial] == "catch"]
     caught = sum((trial.left if side == "left" else trial.right) != BROKEN for trial, side in catches)

@@ -47,7 +47,8 @@ def results_text(results: StudyResults) -> str:
     several = [each for each in results.raters if each.files > 1]
     lines += ["", f"raters: {len(results.raters)}, of whom {len(dropped)} dropped by catch trials"]
     lines += [
-        f"dropped: {printable(each.rater)}, {each.caught} of {each.catch_answers} catch answers right" for each in dropped
+        f"dropped: {printable(each.rater)}, {each.caught} of {each.catch_answers} catch answers right"
+        for each in dropped
     ]
     if several:
         lines.append(f"raters with several files, of which the last answers count: {len(several)}")
