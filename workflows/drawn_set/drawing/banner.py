@@ -30,7 +30,9 @@ def _cloud(sheet: Sheet, x: float, y: float, size: float, seed: int) -> None:
             ring = np.linspace(0, 2 * np.pi, 40, endpoint=False)
             middle = (px + dx * size, py + dy * size)
             inner = radius - 0.35 * abs(dy) * size
-            sheet.fill(np.stack([middle[0] + inner * np.cos(ring), middle[1] + inner * np.sin(ring)], 1), colour, sharp=True)
+            sheet.fill(
+                np.stack([middle[0] + inner * np.cos(ring), middle[1] + inner * np.sin(ring)], 1), colour, sharp=True
+            )
 
 
 def _puffs(chance: np.random.Generator) -> list[tuple[float, float, float]]:
@@ -46,10 +48,22 @@ def tower() -> Sheet:
     wall = np.array([(60, 660), (72, 404), (300, 404), (312, 660)], float)
     sheet.fill(wall, sheet.gradient([(0, "#e9dcc4"), (0.55, "#cdb79a"), (1, "#8f7c78")], (60, 0), (312, 0)), sharp=True)
     crown = [(44, 404), (44, 352), (50, 300), (92, 300), (92, 334), (126, 334), (126, 300), (170, 300), (170, 334)]
-    crown += [(204, 334), (204, 300), (248, 300), (248, 334), (282, 334), (282, 300), (324, 300), (330, 352), (328, 404)]
+    crown += [
+        (204, 334),
+        (204, 300),
+        (248, 300),
+        (248, 334),
+        (282, 334),
+        (282, 300),
+        (324, 300),
+        (330, 352),
+        (328, 404),
+    ]
     top = np.array(crown, float)
     sheet.fill(top, sheet.gradient([(0, "#f3e9d6"), (0.55, "#d8c3a5"), (1, "#9a8680")], (44, 0), (330, 0)), sharp=True)
-    sheet.fill([(44, 388), (328, 388), (328, 416), (304, 420), (66, 420)], "#7d6a70", sharp=True, opacity=0.55, inside=True)
+    sheet.fill(
+        [(44, 388), (328, 388), (328, 416), (304, 420), (66, 420)], "#7d6a70", sharp=True, opacity=0.55, inside=True
+    )
     for row in range(6):
         y = 356 + 44 * row
         sheet.line([(40, y), (332, y + 1)], 2.0, "#6d5a64", opacity=0.8, inside=True)
@@ -57,7 +71,9 @@ def tower() -> Sheet:
             x = 40 + 52 * k + (row % 2) * 26
             sheet.line([(x, y), (x + 1, y + 44)], 1.8, "#6d5a64", opacity=0.7, inside=True)
             tone = "#fff6e2" if (3 * k + 5 * row) % 4 else "#b39a8a"
-            sheet.fill([(x + 4, y + 4), (x + 48, y + 4), (x + 48, y + 40), (x + 4, y + 40)], tone, opacity=0.22, inside=True)
+            sheet.fill(
+                [(x + 4, y + 4), (x + 48, y + 4), (x + 48, y + 40), (x + 4, y + 40)], tone, opacity=0.22, inside=True
+            )
     slit = np.array([(176, 500), (184, 478), (196, 478), (204, 500), (204, 572), (176, 572)], float)
     sheet.fill(slit, "#40324a", sharp=True)
     for shape in (wall, top, slit):
@@ -128,7 +144,10 @@ def flag() -> Sheet:
         wide = 0.075 + 0.02 * np.sin(3 * band + k)
         left, right = cloth(middle - wide - 0.03 * band, band), cloth(middle + wide * 0.7 - 0.05 * band, band)
         sheet.fill(np.vstack([left, right[::-1]]), shade, sharp=True, opacity=0.30, inside=True)
-        high = cloth(middle + 0.20 - 0.045 * band, band), cloth(middle + 0.235 - 0.04 * band - 0.02 * np.sin(3 * band), band)
+        high = (
+            cloth(middle + 0.20 - 0.045 * band, band),
+            cloth(middle + 0.235 - 0.04 * band - 0.02 * np.sin(3 * band), band),
+        )
         sheet.fill(np.vstack([high[0], high[1][::-1]]), light, sharp=True, opacity=0.26, inside=True)
     sheet.outline(edge, 5, INK)
     for middle in (0.055, 0.44, 0.85):
@@ -164,7 +183,9 @@ def _shape(sheet: Sheet, angle: Array, radius: Array, colour: str) -> None:
 def _star(sheet: Sheet, u: float, v: float, size: float, colour: str) -> None:
     angle = np.linspace(0, 2 * np.pi, 10, endpoint=False) - np.pi / 2
     radius = size * np.where(np.arange(10) % 2, 0.42, 1.0)
-    sheet.fill(cloth(u + radius * np.cos(angle) * 0.62, v + 1.5 * radius * np.sin(angle)), colour, sharp=True, inside=True)
+    sheet.fill(
+        cloth(u + radius * np.cos(angle) * 0.62, v + 1.5 * radius * np.sin(angle)), colour, sharp=True, inside=True
+    )
 
 
 def draw() -> list[Sheet]:

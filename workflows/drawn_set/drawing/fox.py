@@ -32,13 +32,19 @@ def night() -> Sheet:
 
 def _disc(sheet: Sheet, x: float, y: float, size: float, colour: str, opacity: float, blur: float) -> None:
     ring = np.linspace(0, 2 * np.pi, 60, endpoint=False)
-    sheet.fill(np.stack([x + size * np.cos(ring), y + size * np.sin(ring)], 1), colour, sharp=True, opacity=opacity, blur=blur)
+    sheet.fill(
+        np.stack([x + size * np.cos(ring), y + size * np.sin(ring)], 1), colour, sharp=True, opacity=opacity, blur=blur
+    )
 
 
 def _fir(sheet: Sheet, x: float, y: float, tall: float, tone: str) -> None:
     for k in range(4):
         top, wide = y - tall * (1 - 0.2 * k), tall * (0.12 + 0.07 * k)
-        sheet.fill([(x, top), (x + wide, top + 0.36 * tall), (x - wide, top + 0.36 * tall)], mixed(tone, "#0d1233", 0.1 * k), sharp=True)
+        sheet.fill(
+            [(x, top), (x + wide, top + 0.36 * tall), (x - wide, top + 0.36 * tall)],
+            mixed(tone, "#0d1233", 0.1 * k),
+            sharp=True,
+        )
 
 
 def hill() -> Sheet:
@@ -64,7 +70,9 @@ def _fur(sheet: Sheet, curve: Array, colours: tuple[str, str], long: float, lean
         out = np.array([along[k, 1], -along[k, 0]])
         tip = curve[k] + long * sheet.chance.uniform(0.5, 1.15) * (out * 0.7 + along[k] * lean)
         root = curve[k] - out * 5
-        sheet.line([root, (root + tip) / 2 + out * 1.5, tip], 7, mixed(*colours, sheet.chance.random()), taper=tapered(0, 1))
+        sheet.line(
+            [root, (root + tip) / 2 + out * 1.5, tip], 7, mixed(*colours, sheet.chance.random()), taper=tapered(0, 1)
+        )
 
 
 def _strokes(sheet: Sheet, spine: Array, wide: float, colour: str, count: int, opacity: float) -> None:
@@ -88,8 +96,22 @@ def tail() -> Sheet:
     _fur(sheet, spine + across, ("#c9551f", "#a33c17"), 17, 1.1)
     _fur(sheet, spine - across, ("#f08a3a", "#d9642a"), -17, -1.1)
     sheet.fill(edge, "#dd6a26", sharp=True)
-    sheet.fill(np.vstack([spine + 0.05 * across, (spine + 1.05 * across)[::-1]]), "#a8401a", sharp=True, opacity=0.7, blur=7, inside=True)
-    sheet.fill(np.vstack([spine - 1.05 * across, (spine - 0.45 * across)[::-1]]), "#f7a457", sharp=True, opacity=0.75, blur=5, inside=True)
+    sheet.fill(
+        np.vstack([spine + 0.05 * across, (spine + 1.05 * across)[::-1]]),
+        "#a8401a",
+        sharp=True,
+        opacity=0.7,
+        blur=7,
+        inside=True,
+    )
+    sheet.fill(
+        np.vstack([spine - 1.05 * across, (spine - 0.45 * across)[::-1]]),
+        "#f7a457",
+        sharp=True,
+        opacity=0.75,
+        blur=5,
+        inside=True,
+    )
     tip = int(0.74 * len(spine))
     white = np.vstack([(spine - 1.15 * across)[tip:], (spine + 1.15 * across)[tip:][::-1]])
     zigzag = [spine[tip - (10 if k % 2 else -2)] + across[tip] * s for k, s in enumerate(np.linspace(1.1, -1.1, 9))]
@@ -113,18 +135,44 @@ def body() -> Sheet:
         closed=True,
     )  # fmt: skip
     _fur(sheet, back, ("#c9551f", "#b04a1e"), 12, 0.9, 0.8)
-    sheet.fill(back, sheet.gradient([(0, "#ef8738"), (0.6, "#d4602a"), (1, "#8d351c")], (240, 300), (440, 600)), sharp=True)
-    sheet.fill([(236, 300), (292, 320), (306, 400), (286, 500), (262, 560), (226, 470), (222, 360)], "#fbeedd", blur=2.5, inside=True)
-    sheet.fill([(380, 440), (430, 480), (446, 570), (400, 612), (334, 606), (318, 540), (340, 470)], "#c2531f", opacity=0.8, blur=3, inside=True)
+    sheet.fill(
+        back, sheet.gradient([(0, "#ef8738"), (0.6, "#d4602a"), (1, "#8d351c")], (240, 300), (440, 600)), sharp=True
+    )
+    sheet.fill(
+        [(236, 300), (292, 320), (306, 400), (286, 500), (262, 560), (226, 470), (222, 360)],
+        "#fbeedd",
+        blur=2.5,
+        inside=True,
+    )
+    sheet.fill(
+        [(380, 440), (430, 480), (446, 570), (400, 612), (334, 606), (318, 540), (340, 470)],
+        "#c2531f",
+        opacity=0.8,
+        blur=3,
+        inside=True,
+    )
     for k in range(16):
         x, y = 248 + 50 * sheet.chance.random(), 330 + 190 * sheet.chance.random()
-        sheet.line([(x, y), (x + 3, y + 14), (x - 2, y + 26)], 4, "#dcbfb4", taper=tapered(0.2, 1), opacity=0.5, inside=True)
+        sheet.line(
+            [(x, y), (x + 3, y + 14), (x - 2, y + 26)], 4, "#dcbfb4", taper=tapered(0.2, 1), opacity=0.5, inside=True
+        )
     spine = spline([(330, 310), (380, 390), (420, 480), (430, 570)])
     _strokes(sheet, spine, 15, "#ffbd78", 70, 0.3)
     _strokes(sheet, spine - (30, -10), 20, "#8f3413", 60, 0.25)
     for dx, tone in ((38, "#7d3018"), (0, "#5b2416")):
-        leg = [(240 + dx, 440), (282 + dx, 440), (276 + dx, 540), (280 + dx, 606), (238 + dx, 614), (222 + dx, 606), (244 + dx, 590), (246 + dx, 520)]
-        sheet.fill(leg, sheet.gradient([(0, "#e07a30"), (0.45, "#c2531f"), (0.75, tone), (1, "#35182a")], (0, 440), (0, 610)))
+        leg = [
+            (240 + dx, 440),
+            (282 + dx, 440),
+            (276 + dx, 540),
+            (280 + dx, 606),
+            (238 + dx, 614),
+            (222 + dx, 606),
+            (244 + dx, 590),
+            (246 + dx, 520),
+        ]
+        sheet.fill(
+            leg, sheet.gradient([(0, "#e07a30"), (0.45, "#c2531f"), (0.75, tone), (1, "#35182a")], (0, 440), (0, 610))
+        )
     sheet.fill([(350, 584), (430, 588), (436, 616), (330, 620)], "#4a2018")
     _head(sheet)
     return sheet
@@ -138,15 +186,35 @@ def _head(sheet: Sheet) -> None:
         sheet.fill(ear, "#d4602a", sharp=True)
         sheet.line([ear[0], ear[1], ear[2]], 6, "#5b2416", smooth=False)
         sheet.fill(inner, "#3b1a26", sharp=True)
-    head = spline([(238, 152), (280, 138), (326, 156), (348, 200), (344, 248), (312, 276), (262, 284), (216, 276), (168, 270), (160, 260), (186, 244), (210, 208)], closed=True)
+    head = spline(
+        [
+            (238, 152),
+            (280, 138),
+            (326, 156),
+            (348, 200),
+            (344, 248),
+            (312, 276),
+            (262, 284),
+            (216, 276),
+            (168, 270),
+            (160, 260),
+            (186, 244),
+            (210, 208),
+        ],
+        closed=True,
+    )
     _fur(sheet, head[len(head) // 4 : len(head) * 6 // 10], ("#e07a30", "#fbeedd"), 20, 0.5)
-    sheet.fill(head, sheet.gradient([(0, "#f59a48"), (0.7, "#db6a2b"), (1, "#a8401a")], (220, 140), (340, 280)), sharp=True)
+    sheet.fill(
+        head, sheet.gradient([(0, "#f59a48"), (0.7, "#db6a2b"), (1, "#a8401a")], (220, 140), (340, 280)), sharp=True
+    )
     cheek = [(164, 262), (206, 246), (250, 232), (296, 236), (336, 232), (322, 270), (262, 288), (206, 282)]
     sheet.fill(cheek, "#fbeedd", blur=1.5, inside=True)
     sheet.fill([(250, 262), (330, 244), (320, 284), (262, 292)], "#c9a9b4", opacity=0.5, blur=5, inside=True)
     for k in range(9):
         x, y = 318 + 3 * k % 14, 220 + 7 * k
-        sheet.line([(x, y), (x + 16, y + 6), (x + 34 - k, y + 16)], 8, ("#fbeedd", "#f3dcc6")[k % 2], taper=tapered(0, 1))
+        sheet.line(
+            [(x, y), (x + 16, y + 6), (x + 34 - k, y + 16)], 8, ("#fbeedd", "#f3dcc6")[k % 2], taper=tapered(0, 1)
+        )
     sheet.fill([(154, 254), (174, 248), (180, 262), (166, 272), (154, 266)], "#23131d")
     sheet.fill([(160, 254), (168, 252), (168, 257), (161, 258)], "#9a8796")
     sheet.line([(170, 272), (196, 278), (222, 274)], 3, "#5b2416", taper=tapered(0.2, 0.6))
@@ -154,17 +222,42 @@ def _head(sheet: Sheet) -> None:
     sheet.line([(268, 212), (278, 202)], 3, "#23131d", taper=tapered(0.1, 0.9))
     for k in range(5):
         y = 262 + 3 * k
-        sheet.line([(206, y), (180 - 6 * k, y + 18), (150 - 4 * k, y + 20 + 6 * k)], 1.3, "#f4e6d6", taper=tapered(0, 1), opacity=0.8)
+        sheet.line(
+            [(206, y), (180 - 6 * k, y + 18), (150 - 4 * k, y + 20 + 6 * k)],
+            1.3,
+            "#f4e6d6",
+            taper=tapered(0, 1),
+            opacity=0.8,
+        )
 
 
 def scarf() -> Sheet:
     sheet = Sheet("scarf", *SIZE, moves=True)
     for lift, long, tone, shade in ((22, 0.35, "#9c1f35", "#6a1230"), (0, 0.5, "#d0304a", "#8c1838")):
-        top = [(330, 300 + lift), (390, 288 + lift), (452, 312 + lift), (470 + 60 * long, 300 + lift), (490 + 110 * long, 322 + lift * 1.6)]
-        low = [(484 + 108 * long, 372 + lift * 1.6), (462 + 64 * long, 352 + lift), (444, 362 + lift), (388, 336 + lift), (332, 336 + lift)]
+        top = [
+            (330, 300 + lift),
+            (390, 288 + lift),
+            (452, 312 + lift),
+            (470 + 60 * long, 300 + lift),
+            (490 + 110 * long, 322 + lift * 1.6),
+        ]
+        low = [
+            (484 + 108 * long, 372 + lift * 1.6),
+            (462 + 64 * long, 352 + lift),
+            (444, 362 + lift),
+            (388, 336 + lift),
+            (332, 336 + lift),
+        ]
         shape = np.vstack([spline(top), spline(low)])
         sheet.fill(shape, tone, sharp=True)
-        sheet.fill(np.vstack([spline(np.array(low) - (0, 14)), spline(low)[::-1]]), shade, sharp=True, opacity=0.7, blur=2, inside=True)
+        sheet.fill(
+            np.vstack([spline(np.array(low) - (0, 14)), spline(low)[::-1]]),
+            shade,
+            sharp=True,
+            opacity=0.7,
+            blur=2,
+            inside=True,
+        )
         for k in (0, 1):
             p, q = np.array(top[3 + k]), np.array(low[1 - k])
             for off in (0, 13):
@@ -173,8 +266,21 @@ def scarf() -> Sheet:
         for s in np.linspace(0.04, 0.96, 9):
             a = np.array(top[-1]) * (1 - s) + np.array(low[0]) * s
             sheet.line([a - (4, 0), a + (14, 2), a + (24, 6)], 4, tone, taper=tapered(0, 0.4))
-        sheet.line([(340, 318 + lift), (400, 306 + lift), (456, 334 + lift), (500, 326 + lift)], 4, shade, taper=tapered(0.2, 0.8), inside=True)
-        sheet.line([(350, 308 + lift), (396, 296 + lift), (440, 312 + lift)], 5, "#ff8a8f", taper=tapered(0.4, 0.6), opacity=0.7, inside=True)
+        sheet.line(
+            [(340, 318 + lift), (400, 306 + lift), (456, 334 + lift), (500, 326 + lift)],
+            4,
+            shade,
+            taper=tapered(0.2, 0.8),
+            inside=True,
+        )
+        sheet.line(
+            [(350, 308 + lift), (396, 296 + lift), (440, 312 + lift)],
+            5,
+            "#ff8a8f",
+            taper=tapered(0.4, 0.6),
+            opacity=0.7,
+            inside=True,
+        )
     return sheet
 
 
@@ -184,7 +290,14 @@ def collar() -> Sheet:
     ring = [(226, 282), (262, 290), (320, 276), (350, 268), (362, 300), (344, 330), (290, 350), (244, 342), (226, 316)]
     sheet.fill(ring, sheet.gradient([(0, "#e0455a"), (1, "#8c1838")], (240, 280), (350, 345)))
     for k in range(4):
-        sheet.line([(234 + 8 * k, 296 + 10 * k), (290, 312 + 9 * k), (352, 284 + 12 * k)], 3, "#7a1230", taper=tapered(0.3, 0.4), opacity=0.7, inside=True)
+        sheet.line(
+            [(234 + 8 * k, 296 + 10 * k), (290, 312 + 9 * k), (352, 284 + 12 * k)],
+            3,
+            "#7a1230",
+            taper=tapered(0.3, 0.4),
+            opacity=0.7,
+            inside=True,
+        )
     sheet.fill([(318, 286), (350, 280), (362, 312), (344, 338), (318, 326)], "#c22a44")
     sheet.line([(326, 294), (346, 300), (350, 324)], 3, "#7a1230", taper=tapered(0.3, 0.5))
     return sheet

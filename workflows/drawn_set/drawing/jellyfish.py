@@ -12,7 +12,9 @@ SOLID = 3.0  # times as opaque as the parts are their masks, as people paint mas
 
 def sea() -> Sheet:
     sheet = Sheet("sea", *SIZE)
-    sheet.cover(sheet.gradient([(0, "#2f8fb8"), (0.35, "#15507f"), (0.75, "#0b2450"), (1, "#070f2b")], (420, 0), (220, 880)))
+    sheet.cover(
+        sheet.gradient([(0, "#2f8fb8"), (0.35, "#15507f"), (0.75, "#0b2450"), (1, "#070f2b")], (420, 0), (220, 880))
+    )
     for k, x in enumerate((120, 250, 330, 470, 600)):
         wide = 26 + 12 * (k % 3)
         ray = [(x - wide, -30), (x + wide, -30), (x - 240 + 3.4 * wide, 990), (x - 300 - 2 * wide, 990)]
@@ -26,7 +28,9 @@ def sea() -> Sheet:
         tall = sheet.chance.uniform(40, 130) + 60 * abs(x / 320 - 1)
         bend = sheet.chance.uniform(-30, 30)
         path = [(x, 890), (x + 0.3 * bend, 880 - tall / 2), (x + bend, 880 - tall)]
-        sheet.line(path, 13, mixed("#06122e", "#12406a", sheet.chance.random() * 0.6), taper=tapered(0.05, 1.0), blur=1.2)
+        sheet.line(
+            path, 13, mixed("#06122e", "#12406a", sheet.chance.random() * 0.6), taper=tapered(0.05, 1.0), blur=1.2
+        )
     _small(sheet, 520, 640, 46)
     _small(sheet, 110, 560, 30)
     return sheet
@@ -34,7 +38,9 @@ def sea() -> Sheet:
 
 def _disc(sheet: Sheet, x: float, y: float, size: float, colour: str, opacity: float, blur: float) -> None:
     ring = np.linspace(0, 2 * np.pi, 24, endpoint=False)
-    sheet.fill(np.stack([x + size * np.cos(ring), y + size * np.sin(ring)], 1), colour, sharp=True, opacity=opacity, blur=blur)
+    sheet.fill(
+        np.stack([x + size * np.cos(ring), y + size * np.sin(ring)], 1), colour, sharp=True, opacity=opacity, blur=blur
+    )
 
 
 def _small(sheet: Sheet, x: float, y: float, size: float) -> None:
@@ -42,7 +48,12 @@ def _small(sheet: Sheet, x: float, y: float, size: float) -> None:
     for k in range(6):
         at = x + size * (k - 2.5) * 0.26
         sheet.line(
-            [(at, y), (at + 6, y + size), (at - 6, y + 2 * size)], 3, "#7fb4e0", taper=tapered(0, 1), opacity=0.3, blur=1
+            [(at, y), (at + 6, y + size), (at - 6, y + 2 * size)],
+            3,
+            "#7fb4e0",
+            taper=tapered(0, 1),
+            opacity=0.3,
+            blur=1,
         )
     dome = [(x - size, y + 4), (x - 0.85 * size, y - 0.6 * size), (x, y - size), (x + 0.85 * size, y - 0.6 * size), (x + size, y + 4), (x, y + 0.3 * size)]  # fmt: skip
     sheet.fill(dome, "#6fa8dc", opacity=0.34, blur=2)

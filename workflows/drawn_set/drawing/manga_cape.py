@@ -23,17 +23,30 @@ def sky() -> Sheet:
     sheet.cover(PAPER)
     x, y = sheet.grid()
     moon = np.hypot(x - 196, y - 214)
-    level = 0.62 - 0.00062 * y - 0.42 * np.exp(-((moon - 140) / 120) ** 2)
+    level = 0.62 - 0.00062 * y - 0.42 * np.exp(-(((moon - 140) / 120) ** 2))
     _tone(sheet, np.where(moon < 128, 0, np.clip(level, 0.05, 0.7)), inside=False)
     ring = np.linspace(0, 2 * np.pi, 200)
     sheet.line(np.stack([196 + 128 * np.cos(ring), 214 + 128 * np.sin(ring)], 1), 2.2, INK, smooth=False)
     for px, py, wide in ((470, 330, 150), (110, 420, 130), (600, 470, 120)):
-        puffs = [(px + wide * a, py - 0.28 * wide * b, 0.2 * wide * c) for a, b, c in ((-0.8, 0, 1), (-0.45, 0.5, 1.4), (0, 0.8, 1.7), (0.45, 0.4, 1.4), (0.85, 0, 1.0))]
+        puffs = [
+            (px + wide * a, py - 0.28 * wide * b, 0.2 * wide * c)
+            for a, b, c in ((-0.8, 0, 1), (-0.45, 0.5, 1.4), (0, 0.8, 1.7), (0.45, 0.4, 1.4), (0.85, 0, 1.0))
+        ]
         for grow, colour in ((2.2, INK), (0, PAPER)):
             for a, b, r in puffs:
                 circle = np.linspace(0, 2 * np.pi, 50)
-                sheet.fill(np.stack([a + (r + grow) * np.cos(circle), b + (r + grow) * np.sin(circle)], 1), colour, sharp=True)
-            sheet.fill([(px - wide - grow, py - 4), (px + wide + grow, py - 4), (px + 1.15 * wide, py + 22 + grow), (px - 1.15 * wide, py + 22 + grow)], colour)
+                sheet.fill(
+                    np.stack([a + (r + grow) * np.cos(circle), b + (r + grow) * np.sin(circle)], 1), colour, sharp=True
+                )
+            sheet.fill(
+                [
+                    (px - wide - grow, py - 4),
+                    (px + wide + grow, py - 4),
+                    (px + 1.15 * wide, py + 22 + grow),
+                    (px - 1.15 * wide, py + 22 + grow),
+                ],
+                colour,
+            )
         for k in range(9):
             a = px + wide * (k / 4.5 - 0.9)
             sheet.line([(a, py + 14), (a + 14, py + 4), (a + 30, py)], 2, INK, taper=tapered(0.2, 0.8))
@@ -41,21 +54,45 @@ def sky() -> Sheet:
         a, b = sheet.chance.uniform(-80, 600), sheet.chance.uniform(30, 700)
         if np.hypot(a + 60 - 196, b - 214) > 190:
             long = sheet.chance.uniform(60, 190)
-            sheet.line([(a, b), (a + long, b - 0.05 * long)], sheet.chance.uniform(1, 2.2), PAPER, taper=tapered(0.5, 0.5))
+            sheet.line(
+                [(a, b), (a + long, b - 0.05 * long)], sheet.chance.uniform(1, 2.2), PAPER, taper=tapered(0.5, 0.5)
+            )
     return sheet
 
 
 def cliff() -> Sheet:
     sheet = Sheet("cliff", *SIZE)
-    edge = [(-20, 758), (70, 736), (150, 744), (250, 726), (360, 732), (430, 744), (470, 770), (452, 812), (480, 850), (470, 900), (-20, 900)]
+    edge = [
+        (-20, 758),
+        (70, 736),
+        (150, 744),
+        (250, 726),
+        (360, 732),
+        (430, 744),
+        (470, 770),
+        (452, 812),
+        (480, 850),
+        (470, 900),
+        (-20, 900),
+    ]
     shape = np.array(edge, float)
     sheet.fill(shape, PAPER, sharp=True)
-    sheet.fill([(-20, 800), (120, 784), (210, 800), (300, 778), (400, 800), (452, 812), (480, 850), (470, 900), (-20, 900)], INK, sharp=True)
+    sheet.fill(
+        [(-20, 800), (120, 784), (210, 800), (300, 778), (400, 800), (452, 812), (480, 850), (470, 900), (-20, 900)],
+        INK,
+        sharp=True,
+    )
     for k in range(120):
         x = sheet.chance.uniform(-10, 452)
         y = float(np.interp(x, [p[0] for p in edge[:7]], [p[1] for p in edge[:7]]))
         long = sheet.chance.uniform(20, 62)
-        sheet.line([(x, y + sheet.chance.uniform(8, 40)), (x - 5, y + long), (x + 3, y + long + 22)], 2.8, INK, taper=tapered(0.2, 0.7), inside=True)
+        sheet.line(
+            [(x, y + sheet.chance.uniform(8, 40)), (x - 5, y + long), (x + 3, y + long + 22)],
+            2.8,
+            INK,
+            taper=tapered(0.2, 0.7),
+            inside=True,
+        )
     for k in range(60):
         x, y = sheet.chance.uniform(0, 450), sheet.chance.uniform(806, 880)
         sheet.line([(x, y), (x - 4, y + 16), (x + 5, y + 34)], 2, PAPER, taper=tapered(0.4, 0.6), inside=True)
@@ -68,7 +105,18 @@ def cliff() -> Sheet:
 
 
 TOP = [(214, 352), (236, 338), (262, 336), (290, 344), (306, 356)]
-HEM = [(196, 664), (226, 690), (262, 664), (306, 706), (352, 668), (404, 712), (454, 656), (510, 684), (556, 622), (604, 620)]
+HEM = [
+    (196, 664),
+    (226, 690),
+    (262, 664),
+    (306, 706),
+    (352, 668),
+    (404, 712),
+    (454, 656),
+    (510, 684),
+    (556, 622),
+    (604, 620),
+]
 
 
 def cape() -> Sheet:
@@ -96,7 +144,12 @@ def cape() -> Sheet:
             sheet.line([a, a + (9, -10), a + (26 - k, -34 + 2 * k)], 2.6, INK, taper=tapered(0.1, 0.9), inside=True)
     for k in range(0, 10, 2):
         a = np.array(HEM[k], float)
-        sheet.line([a, a * 0.85 + np.array([262, 380]) * 0.15 + (4, 0), a * 0.66 + np.array([262, 380]) * 0.34], 3.4, INK, taper=tapered(0.1, 0.9))
+        sheet.line(
+            [a, a * 0.85 + np.array([262, 380]) * 0.15 + (4, 0), a * 0.66 + np.array([262, 380]) * 0.34],
+            3.4,
+            INK,
+            taper=tapered(0.1, 0.9),
+        )
     trim = spline(HEM) - (3, 13)
     sheet.line(trim, 2.4, INK, inside=True, smooth=False)
     for s in np.linspace(0.03, 0.97, 34):
@@ -114,11 +167,23 @@ def figure() -> Sheet:
     sheet.outline(np.vstack([spline([a, b]) for a, b in zip(blade, np.roll(blade, -1, axis=0), strict=True)]), 3.4, INK)
     sheet.line([(182, 572), (70, 746)], 2, INK)
     for x in (224, 286):
-        leg = [(x, 600), (x + 44, 600), (x + 38, 690), (x + 36, 740), (x + 44, 752), (x - 10, 752), (x - 2, 736), (x + 4, 690)]
+        leg = [
+            (x, 600),
+            (x + 44, 600),
+            (x + 38, 690),
+            (x + 36, 740),
+            (x + 44, 752),
+            (x - 10, 752),
+            (x - 2, 736),
+            (x + 4, 690),
+        ]
         sheet.fill(leg, INK)
         sheet.line([(x + 9, 664), (x + 8, 738)], 3.5, PAPER, taper=tapered(0.4, 0.4), inside=True)
         sheet.line([(x - 2, 690), (x + 20, 698), (x + 42, 690)], 3, PAPER, inside=True)
-    arm = spline([(222, 372), (202, 420), (190, 490), (186, 548), (172, 566), (184, 582), (204, 560), (214, 500), (230, 440)], closed=True)
+    arm = spline(
+        [(222, 372), (202, 420), (190, 490), (186, 548), (172, 566), (184, 582), (204, 560), (214, 500), (230, 440)],
+        closed=True,
+    )
     sheet.fill(arm, INK)
     sheet.line([(200, 440), (194, 500), (188, 548)], 4, PAPER, taper=tapered(0.5, 0.4), inside=True)
     sheet.line([(166, 554), (200, 584)], 8, INK)
@@ -130,12 +195,16 @@ def head() -> Sheet:
     """The head, the collar and the shoulder guards, before the cape."""
     sheet = Sheet("head", *SIZE)
     for side, x in ((-1, 214), (1, 308)):
-        guard = spline([(x - 34, 376), (x - 30, 348), (x, 334), (x + 30, 346), (x + 34, 374), (x + 4, 390)], closed=True)
+        guard = spline(
+            [(x - 34, 376), (x - 30, 348), (x, 334), (x + 30, 346), (x + 34, 374), (x + 4, 390)], closed=True
+        )
         sheet.fill(guard, PAPER, sharp=True)
         sheet.fill([(x - 2, 350), (x + 34, 350), (x + 40, 380), (x + 2, 394)], INK, inside=True)
         sheet.line([(x - 26, 366), (x, 356), (x + 28, 364)], 2.4, PAPER if side > 0 else INK, inside=True)
         sheet.outline(guard, 4.5, INK)
-    collar = spline([(226, 352), (224, 318), (240, 306), (262, 312), (286, 304), (300, 318), (298, 352), (262, 362)], closed=True)
+    collar = spline(
+        [(226, 352), (224, 318), (240, 306), (262, 312), (286, 304), (300, 318), (298, 352), (262, 362)], closed=True
+    )
     sheet.fill(collar, PAPER, sharp=True)
     sheet.fill([(262, 306), (302, 304), (304, 356), (266, 362)], INK, inside=True, opacity=1)
     sheet.outline(collar, 4.5, INK)

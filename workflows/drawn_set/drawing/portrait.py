@@ -26,7 +26,9 @@ def ground() -> Sheet:
         angle, long = sheet.chance.normal(-0.5, 0.5), sheet.chance.uniform(40, 110)
         d = long * np.array([np.cos(angle), np.sin(angle)])
         bow = sheet.chance.uniform(-10, 10)
-        _bristles(sheet, np.array([(x, y), (x + d[0] / 2 - bow, y + d[1] / 2 + bow), (x + d[0], y + d[1])]), 22, tone, 0.5, k)
+        _bristles(
+            sheet, np.array([(x, y), (x + d[0] / 2 - bow, y + d[1] / 2 + bow), (x + d[0], y + d[1])]), 22, tone, 0.5, k
+        )
     return sheet
 
 
@@ -50,18 +52,74 @@ def far_hair() -> Sheet:
 
 def bust() -> Sheet:
     sheet = Sheet("bust", *SIZE)
-    neck = spline([(338, 440), (344, 520), (334, 584), (300, 640), (300, 740), (540, 740), (530, 620), (476, 560), (456, 470), (452, 380)], closed=True)
-    sheet.fill(neck, sheet.gradient([(0, "#e9b692"), (0.5, "#c98a70"), (1, "#6e3f48")], (320, 560), (500, 600)), sharp=True, blur=0.8)
-    sheet.fill([(330, 470), (400, 470), (452, 420), (470, 520), (420, 540), (350, 530)], "#7c3f46", opacity=0.6, blur=14, inside=True)
-    sheet.line([(372, 500), (366, 570), (340, 632)], 12, "#f6cfae", taper=tapered(0.4, 0.5), opacity=0.5, blur=5, inside=True)
-    dress = spline([(180, 760), (196, 690), (250, 648), (316, 620), (372, 664), (440, 650), (500, 600), (590, 640), (660, 700), (690, 760)], closed=True)
-    sheet.fill(dress, sheet.gradient([(0, "#3f7f86"), (0.5, "#245260"), (1, "#122838")], (220, 640), (640, 720)), sharp=True, blur=1)
+    neck = spline(
+        [
+            (338, 440),
+            (344, 520),
+            (334, 584),
+            (300, 640),
+            (300, 740),
+            (540, 740),
+            (530, 620),
+            (476, 560),
+            (456, 470),
+            (452, 380),
+        ],
+        closed=True,
+    )
+    sheet.fill(
+        neck,
+        sheet.gradient([(0, "#e9b692"), (0.5, "#c98a70"), (1, "#6e3f48")], (320, 560), (500, 600)),
+        sharp=True,
+        blur=0.8,
+    )
+    sheet.fill(
+        [(330, 470), (400, 470), (452, 420), (470, 520), (420, 540), (350, 530)],
+        "#7c3f46",
+        opacity=0.6,
+        blur=14,
+        inside=True,
+    )
+    sheet.line(
+        [(372, 500), (366, 570), (340, 632)], 12, "#f6cfae", taper=tapered(0.4, 0.5), opacity=0.5, blur=5, inside=True
+    )
+    dress = spline(
+        [
+            (180, 760),
+            (196, 690),
+            (250, 648),
+            (316, 620),
+            (372, 664),
+            (440, 650),
+            (500, 600),
+            (590, 640),
+            (660, 700),
+            (690, 760),
+        ],
+        closed=True,
+    )
+    sheet.fill(
+        dress,
+        sheet.gradient([(0, "#3f7f86"), (0.5, "#245260"), (1, "#122838")], (220, 640), (640, 720)),
+        sharp=True,
+        blur=1,
+    )
     for k in range(150):
         x = sheet.chance.uniform(200, 660)
         y = 640 + 90 * sheet.chance.random() + 0.0012 * (x - 420) ** 2 * 0.6
         d = np.array([sheet.chance.uniform(14, 44), sheet.chance.uniform(10, 40)])
-        tone = mixed(mixed("#62a8a6", "#2f6671", (x - 200) / 300 if x < 500 else 1.0), "#0f2332", sheet.chance.random() * 0.6)
-        sheet.line([(x, y), (x + d[0] / 2, y + d[1] * 0.4), tuple((x, y) + d)], 9, tone, taper=tapered(0.2, 0.4), opacity=0.45, blur=0.6, inside=True)
+        tone = mixed(
+            mixed("#62a8a6", "#2f6671", (x - 200) / 300 if x < 500 else 1.0), "#0f2332", sheet.chance.random() * 0.6
+        )
+        sheet.line(
+            [(x, y), (x + d[0] / 2, y + d[1] * 0.4), tuple((x, y) + d)],
+            9,
+            tone,
+            taper=tapered(0.2, 0.4),
+            opacity=0.45,
+            blur=0.6,
+            inside=True,
+        )
     _face(sheet)
     return sheet
 
@@ -71,35 +129,79 @@ def _face(sheet: Sheet) -> None:
     skin = sheet.gradient([(0, "#ffe3c4"), (0.4, "#f3bd98"), (0.75, "#cf8a72"), (1, "#8d5054")], (246, 320), (452, 400))
     sheet.fill(face, skin, sharp=True, blur=0.5)
     soft = {"inside": True}
-    sheet.fill([(330, 470), (400, 420), (450, 330), (470, 420), (400, 500), (320, 516)], "#8a4a50", opacity=0.55, blur=16, **soft)  # type: ignore[arg-type]
+    sheet.fill(
+        [(330, 470), (400, 420), (450, 330), (470, 420), (400, 500), (320, 516)],
+        "#8a4a50",
+        opacity=0.55,
+        blur=16,
+        **soft,
+    )  # type: ignore[arg-type]
     sheet.fill([(296, 366), (336, 352), (362, 384), (330, 414), (298, 402)], "#e8775f", opacity=0.42, blur=16, **soft)  # type: ignore[arg-type]
     sheet.fill([(284, 290), (310, 286), (340, 300), (316, 322), (288, 318)], "#a85f5a", opacity=0.45, blur=8, **soft)  # type: ignore[arg-type]
     sheet.fill([(258, 370), (276, 366), (284, 376), (272, 386), (258, 380)], "#b0605a", opacity=0.5, blur=4, **soft)  # type: ignore[arg-type]
-    sheet.line([(280, 296), (268, 324), (254, 352)], 9, "#fff3df", taper=tapered(0.4, 0.4), opacity=0.7, blur=3, inside=True)
+    sheet.line(
+        [(280, 296), (268, 324), (254, 352)], 9, "#fff3df", taper=tapered(0.4, 0.4), opacity=0.7, blur=3, inside=True
+    )
     sheet.fill([(286, 200), (318, 186), (326, 230), (300, 262), (282, 250)], "#fff0d8", opacity=0.55, blur=12, **soft)  # type: ignore[arg-type]
     sheet.fill([(278, 462), (300, 468), (296, 488), (276, 482)], "#ffe9d0", opacity=0.5, blur=6, **soft)  # type: ignore[arg-type]
     sheet.fill([(255, 399), (272, 396), (292, 408), (284, 414), (264, 412)], "#b8443f", opacity=0.9, blur=1.2, **soft)  # type: ignore[arg-type]
     sheet.fill([(262, 416), (286, 415), (290, 420), (276, 434), (262, 430)], "#d8635a", opacity=0.9, blur=1.4, **soft)  # type: ignore[arg-type]
-    sheet.line([(262, 413), (276, 414), (296, 411)], 3, "#6a2430", taper=tapered(0.3, 0.5), opacity=0.9, blur=0.6, inside=True)
+    sheet.line(
+        [(262, 413), (276, 414), (296, 411)], 3, "#6a2430", taper=tapered(0.3, 0.5), opacity=0.9, blur=0.6, inside=True
+    )
     sheet.fill([(266, 422), (276, 421), (272, 427)], "#ffb9a6", opacity=0.8, blur=1.2, **soft)  # type: ignore[arg-type]
     # the closed eye and its brow
-    sheet.line([(290, 306), (300, 316), (318, 318), (336, 308)], 5.5, "#33161f", taper=tapered(0.35, 0.35), opacity=0.95, blur=0.4)
-    for x, y, dx, dy in ((292, 309, -13, 7), (298, 314, -11, 11), (306, 317, -7, 13), (315, 318, -2, 13), (324, 315, 4, 12)):
-        sheet.line([(x, y), (x + 0.6 * dx, y + 0.7 * dy), (x + dx, y + dy)], 2.0, "#33161f", taper=tapered(0, 1), opacity=0.9, blur=0.3)
-    sheet.line([(288, 300), (306, 296), (328, 298), (342, 306)], 3, "#8a4a4c", taper=tapered(0.4, 0.5), opacity=0.7, blur=0.8)
-    sheet.line([(284, 268), (304, 256), (330, 258), (352, 270)], 8, "#4a2028", taper=tapered(0.25, 0.7), opacity=0.85, blur=1)
+    sheet.line(
+        [(290, 306), (300, 316), (318, 318), (336, 308)],
+        5.5,
+        "#33161f",
+        taper=tapered(0.35, 0.35),
+        opacity=0.95,
+        blur=0.4,
+    )
+    for x, y, dx, dy in (
+        (292, 309, -13, 7),
+        (298, 314, -11, 11),
+        (306, 317, -7, 13),
+        (315, 318, -2, 13),
+        (324, 315, 4, 12),
+    ):
+        sheet.line(
+            [(x, y), (x + 0.6 * dx, y + 0.7 * dy), (x + dx, y + dy)],
+            2.0,
+            "#33161f",
+            taper=tapered(0, 1),
+            opacity=0.9,
+            blur=0.3,
+        )
+    sheet.line(
+        [(288, 300), (306, 296), (328, 298), (342, 306)], 3, "#8a4a4c", taper=tapered(0.4, 0.5), opacity=0.7, blur=0.8
+    )
+    sheet.line(
+        [(284, 268), (304, 256), (330, 258), (352, 270)], 8, "#4a2028", taper=tapered(0.25, 0.7), opacity=0.85, blur=1
+    )
     sheet.fill([(264, 372), (272, 369), (276, 374), (268, 377)], "#6a2c34", opacity=0.8, blur=1.2, **soft)  # type: ignore[arg-type]
     _ear(sheet)
     for _ in range(90):
         x, y = sheet.chance.uniform(290, 440), sheet.chance.uniform(200, 480)
         tone = mixed("#ffe0c0", "#a85f5a", np.clip((x - 280) / 170 + 0.1 * sheet.chance.normal(), 0, 1))
-        sheet.line([(x, y), (x + 8, y + 14), (x + 10, y + 30)], 9, tone, taper=tapered(0.3, 0.5), opacity=0.16, blur=1.5, inside=True)
+        sheet.line(
+            [(x, y), (x + 8, y + 14), (x + 10, y + 30)],
+            9,
+            tone,
+            taper=tapered(0.3, 0.5),
+            opacity=0.16,
+            blur=1.5,
+            inside=True,
+        )
 
 
 def _ear(sheet: Sheet) -> None:
     ear = [(414, 300), (436, 296), (446, 318), (438, 346), (424, 366), (412, 356), (410, 326)]
     sheet.fill(ear, "#d98f76", blur=1)
-    sheet.line([(418, 310), (434, 306), (438, 324), (430, 344)], 4, "#8d4548", taper=tapered(0.3, 0.5), opacity=0.8, blur=1)
+    sheet.line(
+        [(418, 310), (434, 306), (438, 324), (430, 344)], 4, "#8d4548", taper=tapered(0.3, 0.5), opacity=0.8, blur=1
+    )
     sheet.fill([(420, 366), (426, 372), (422, 384), (415, 380), (415, 370)], "#5fb0a8", blur=0.5)
     sheet.fill([(417, 371), (420, 370), (419, 374)], "#e8fff8", blur=0.4)
 
@@ -124,13 +226,34 @@ NEAR = [
 def hair() -> Sheet:
     """The hair in front, combed back over the ear."""
     sheet = Sheet("hair", *SIZE, moves=True)
-    crown = [(312, 190), (326, 146), (372, 108), (440, 102), (510, 134), (548, 190), (540, 280), (500, 340), (452, 372), (420, 330), (404, 262), (368, 216)]
+    crown = [
+        (312, 190),
+        (326, 146),
+        (372, 108),
+        (440, 102),
+        (510, 134),
+        (548, 190),
+        (540, 280),
+        (500, 340),
+        (452, 372),
+        (420, 330),
+        (404, 262),
+        (368, 216),
+    ]
     sheet.fill(crown, "#542430", blur=2)
     _mass(sheet, NEAR, ("#3f1a24", "#86392f", "#c9703f"), 420)
     for knots in ([(318, 182), (300, 214), (300, 262), (316, 300)], [(326, 178), (290, 206), (276, 250), (262, 280)]):
         for k in range(7):
             path = spline(knots) + sheet.chance.normal(0, 2.2, 2)
-            sheet.line(path, 3.6, mixed("#542430", "#c9703f", k / 7), taper=tapered(0.15, 0.9), opacity=0.85, blur=0.4, smooth=False)
+            sheet.line(
+                path,
+                3.6,
+                mixed("#542430", "#c9703f", k / 7),
+                taper=tapered(0.15, 0.9),
+                opacity=0.85,
+                blur=0.4,
+                smooth=False,
+            )
     return sheet
 
 

@@ -28,38 +28,94 @@ def scenery() -> Sheet:
     sheet.cover(PAPER)
     x = np.linspace(-30, 910, 80)
     sky = np.vstack([np.stack([x, 262 + 16 * np.sin(x / 60)], 1), [(910, -40), (-30, -40)]])
-    _wash(sheet, sky, sheet.gradient([(0, "#7fb3d6"), (0.55, "#c9dfe6"), (1, "#f6dcc0")], (0, 0), (0, 280)), 0.75, 14, 0.1)
+    _wash(
+        sheet, sky, sheet.gradient([(0, "#7fb3d6"), (0.55, "#c9dfe6"), (1, "#f6dcc0")], (0, 0), (0, 280)), 0.75, 14, 0.1
+    )
     for y, high, tone, strength in ((250, 46, "#9bb0c9", 0.6), (286, 34, "#86a8a0", 0.65), (318, 22, "#7d9f6c", 0.7)):
         ridge = y + high * (0.5 * np.sin(x / 130 + y) + 0.3 * np.sin(x / 47 + 2 * y))
         _wash(sheet, np.vstack([np.stack([x, ridge], 1), [(910, 372), (-30, 372)]]), tone, strength, 2.5)
     pond = np.vstack([np.stack([x, 366 + 5 * np.sin(x / 70)], 1), [(910, 660), (-30, 660)]])
-    _wash(sheet, pond, sheet.gradient([(0, "#cfe0dd"), (0.4, "#93bcc4"), (1, "#4c8197")], (0, 370), (0, 620)), 0.85, 2, 0.1)
+    _wash(
+        sheet,
+        pond,
+        sheet.gradient([(0, "#cfe0dd"), (0.4, "#93bcc4"), (1, "#4c8197")], (0, 370), (0, 620)),
+        0.85,
+        2,
+        0.1,
+    )
     for _ in range(46):
         px, py = sheet.chance.uniform(0, 880), 384 + 210 * sheet.chance.random()
         wide = 14 + (py - 370) * 0.3 * sheet.chance.random()
         tone = ("#f2f5ee", "#5d8f6c", "#38697f")[int(sheet.chance.integers(3))]
-        sheet.line([(px - wide, py), (px, py + 2), (px + wide, py)], 2 + (py - 370) / 60, tone, taper=tapered(0.5, 0.5), opacity=0.35, blur=1.2)
+        sheet.line(
+            [(px - wide, py), (px, py + 2), (px + wide, py)],
+            2 + (py - 370) / 60,
+            tone,
+            taper=tapered(0.5, 0.5),
+            opacity=0.35,
+            blur=1.2,
+        )
     for px, py, size in ((470, 520, 24), (540, 548, 32), (618, 510, 20), (700, 560, 30)):
         ring = np.linspace(0.5, 2 * np.pi - 0.1, 40)
         pad = np.vstack([np.stack([px + size * np.cos(ring), py + 0.36 * size * np.sin(ring)], 1), [(px, py)]])
         _wash(sheet, pad, "#5f9a5c", 0.75, 0.6, 0.5)
     for dx, dy in ((0, 0), (-8, 3), (8, 3), (-4, -4), (4, -4)):
-        sheet.fill([(548 + dx, 528 + dy), (553 + dx, 536 + dy), (548 + dx, 544 + dy), (543 + dx, 536 + dy)], "#e58aa2", opacity=0.75, blur=0.6)
+        sheet.fill(
+            [(548 + dx, 528 + dy), (553 + dx, 536 + dy), (548 + dx, 544 + dy), (543 + dx, 536 + dy)],
+            "#e58aa2",
+            opacity=0.75,
+            blur=0.6,
+        )
     bank = spline([(-40, 470), (70, 452), (190, 458), (290, 486), (350, 540), (360, 660), (-40, 660)], closed=True)
     _wash(sheet, bank, sheet.gradient([(0, "#8fae58"), (1, "#4a6f3f")], (0, 450), (0, 620)), 0.92, 2)
     for _ in range(260):
         px = sheet.chance.uniform(-5, 345)
         py = 474 + 0.0007 * (px - 60) ** 2 + sheet.chance.uniform(0, 120)
         tone = mixed("#a9c46a", "#3d6340", sheet.chance.random())
-        sheet.line([(px, py), (px + 3, py - 12), (px + 9, py - 24)], 3, tone, taper=tapered(0, 1), opacity=0.6, blur=0.4)
-    trunk = spline([(86, 510), (112, 440), (120, 340), (108, 220), (84, 110), (60, -30), (150, -30), (160, 90), (178, 210), (180, 340), (194, 440), (238, 516), (160, 500)], closed=True)
-    _wash(sheet, trunk, sheet.gradient([(0, "#6d5a4c"), (0.5, "#8c7460"), (1, "#4a3c3a")], (90, 0), (190, 0)), 0.95, 1.0)
+        sheet.line(
+            [(px, py), (px + 3, py - 12), (px + 9, py - 24)], 3, tone, taper=tapered(0, 1), opacity=0.6, blur=0.4
+        )
+    trunk = spline(
+        [
+            (86, 510),
+            (112, 440),
+            (120, 340),
+            (108, 220),
+            (84, 110),
+            (60, -30),
+            (150, -30),
+            (160, 90),
+            (178, 210),
+            (180, 340),
+            (194, 440),
+            (238, 516),
+            (160, 500),
+        ],
+        closed=True,
+    )
+    _wash(
+        sheet, trunk, sheet.gradient([(0, "#6d5a4c"), (0.5, "#8c7460"), (1, "#4a3c3a")], (90, 0), (190, 0)), 0.95, 1.0
+    )
     for k in range(26):
         px = 112 + 60 * sheet.chance.random()
         py = sheet.chance.uniform(10, 420)
-        sheet.line([(px - 8, py), (px, py + 30), (px + 4, py + 64)], 4, ("#3e3230", "#b39a80")[k % 2], taper=tapered(0.4, 0.7), opacity=0.4, blur=0.6, inside=True)
-    for path, wide in (([(142, 300), (150, 190), (178, 112), (240, 62), (360, 26), (560, 34), (760, 22)], 34), ([(128, 230), (112, 130), (60, 52), (-30, 12)], 30), ([(360, 30), (430, 4), (520, -20)], 16)):
-        sheet.line(path, wide, "#5f4d43", taper=lambda t: np.minimum(1, 0.2 + 3 * t) * (1 - 0.72 * t), opacity=0.92, blur=0.8)
+        sheet.line(
+            [(px - 8, py), (px, py + 30), (px + 4, py + 64)],
+            4,
+            ("#3e3230", "#b39a80")[k % 2],
+            taper=tapered(0.4, 0.7),
+            opacity=0.4,
+            blur=0.6,
+            inside=True,
+        )
+    for path, wide in (
+        ([(142, 300), (150, 190), (178, 112), (240, 62), (360, 26), (560, 34), (760, 22)], 34),
+        ([(128, 230), (112, 130), (60, 52), (-30, 12)], 30),
+        ([(360, 30), (430, 4), (520, -20)], 16),
+    ):
+        sheet.line(
+            path, wide, "#5f4d43", taper=lambda t: np.minimum(1, 0.2 + 3 * t) * (1 - 0.72 * t), opacity=0.92, blur=0.8
+        )
     return sheet
 
 
@@ -82,14 +138,18 @@ def twigs(name: str, seed: int, count: int, tones: tuple[str, str, str]) -> Shee
     return sheet
 
 
-def _leaf(sheet: Sheet, root: Array, side: float, long: float, chance: np.random.Generator, tones: tuple[str, str, str]) -> None:
+def _leaf(
+    sheet: Sheet, root: Array, side: float, long: float, chance: np.random.Generator, tones: tuple[str, str, str]
+) -> None:
     angle = np.pi / 2 - side * chance.uniform(0.35, 0.75)
     tip = root + long * np.array([np.cos(angle), np.sin(angle)])
     middle = (root + tip) / 2 + (0, 2)
     tone = mixed(tones[int(chance.integers(3))], tones[0], 0.3 * chance.random())
     strength = chance.uniform(0.55, 0.95)
     sheet.line([root, middle, tip], 8.5, tone, taper=tapered(0.5, 0.6, 0.05), opacity=strength, blur=0.45)
-    sheet.line([root, middle, tip], 3.2, mixed(tone, "#24452f", 0.5), taper=tapered(0.5, 0.6, 0.05), opacity=0.35, blur=0.6)
+    sheet.line(
+        [root, middle, tip], 3.2, mixed(tone, "#24452f", 0.5), taper=tapered(0.5, 0.6, 0.05), opacity=0.35, blur=0.6
+    )
 
 
 def draw() -> list[Sheet]:
@@ -108,7 +168,11 @@ def finish(picture: Array) -> Array:
 
 
 SCENE = {
-    "bodies": [{"name": "twigs", "attach": "top", "material": {"preset": "leaf", "sway_frequency": 0.45}}],
+    "bodies": [{"name": "twigs", "material": {"preset": "leaf", "sway_frequency": 0.45}}],
+    "rig_points": [
+        {"position": [500, 36], "body": 0, "motion": {"type": "pinned"},
+         "region": {"type": "polygon", "points": [[225, 0], [225, 90], [300, 62], [365, 50], [560, 54], [770, 46], [780, 0]]}},
+    ],
     "strokes": [
         {"kind": "wind", "path": [[180, 260], [420, 330], [650, 240], [900, 320]], "radius": 200, "speed": 480,
          "strength": 1.2, "interval": 1.3},
