@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["printable_streams", "progress_bars", "say", "show", "warn"]
 
 _UNITS = {"mesh": "part", "prepare": "step", "svd": "step", "inpainting": "step", "tooncrafter": "step"}
-_UNITS |= {"spine": "layer", "gltf": "layer"}
+_UNITS |= {"spine": "layer", "gltf": "layer", "clips": "clip"}
 """What stages advance by, where not by frames."""
 
 
