@@ -28,24 +28,22 @@ _KEYS = {
 
 
 class _Grades:
-    """Keeps the 16 frames at most that are looked at, and grades them at the end."""
+    """Looks at 16 frames at most, in the size that their system gave them."""
 
     def __init__(self, clip: ClipOfPicture, weights: ColumnWeights) -> None:
-        from ...metrics.learned.videoscore import frames_looked_at
-
         assert weights.video_score is not None  # else the columns are missing
+        self._clip = clip
         self._model = _loaded(weights.video_score, weights.device)
-        self._description = clip.description
-        self._chosen = set(frames_looked_at(len(clip.frames), clip.rate))
-        self._number, self._kept = 0, list[NDArray[np.uint8]]()
 
     def add(self, frame: NDArray[np.uint8]) -> None:
-        if self._number in self._chosen:
-            self._kept.append(frame)
-        self._number += 1
+        """Those of the picture's size are not looked at."""
 
     def values(self) -> Mapping[str, float | None]:
-        grades = self._model.grades(self._kept, self._description)
+        from ...metrics.learned.videoscore import frames_looked_at
+
+        chosen = set(frames_looked_at(len(self._clip.frames), self._clip.rate))
+        kept = [frame for number, frame in enumerate(self._clip.frames) if number in chosen]
+        grades = self._model.grades(kept, self._clip.description)
         return {key: grades[name] for key, name in _KEYS.items()}
 
 

@@ -9,7 +9,14 @@ from pathlib import Path
 from typing import Any
 
 from ....physics.errors import InvalidInputError, require
-from ...metrics.learned import FID_FILE, LPIPS_FOLDER, VIDEO_SCORE_FOLDER, MetricFile, require_file
+from ...metrics.learned import (
+    FID_FILE,
+    LPIPS_FOLDER,
+    VIDEO_SCORE_FOLDER,
+    MetricFile,
+    check_video_score,
+    require_file,
+)
 
 __all__ = ["NO_WEIGHTS", "WANTED", "ColumnWeights"]
 
@@ -80,8 +87,6 @@ class ColumnWeights:
 
             load_lpips(self.lpips)
         if self.video_score is not None:
-            from ...metrics.learned.videoscore import check_video_score
-
             check_video_score(self.video_score)
 
     def hashes(self) -> dict[str, str]:

@@ -121,17 +121,18 @@ def test_video_score_fills_four_columns_from_one_look(tmp_path: Path, monkeypatc
     from random_video_score import write_video_score_folder
 
     folder = write_video_score_folder(tmp_path)
-    asked: list[tuple[int, str]] = []
+    asked: list[tuple[list[tuple[int, ...]], str]] = []
     grades = VideoScore.grades
 
     def counted(self: VideoScore, pictures: Any, description: str) -> dict[str, float]:
-        asked.append((len(pictures), description))
+        asked.append(([each.shape for each in pictures], description))
         return grades(self, pictures, description)
 
     monkeypatch.setattr(VideoScore, "grades", counted)
-    clip = ClipOfPicture([picture(k) for k in range(30)], 24.0, picture(0), description="a fox")
+    larger = np.zeros((80, 112, 3), np.uint8)
+    clip = ClipOfPicture([picture(k) for k in range(30)], 24.0, larger, description="a fox")
     found = clip_values(clip, weights=ColumnWeights(video_score=folder, device="cpu"))
-    assert asked == [(10, "a fox")]
+    assert asked == [([(40, 56, 3)] * 10, "a fox")]
     known = grades(VideoScore.load(folder), [picture(k) for k in range(0, 30, 3)], "a fox")
     names = ("visual_quality", "temporal_consistency", "dynamic_degree", "factual_consistency")
     assert [found[key] for key in ("vsvq", "vstc", "vsdd", "vsfc")] == [known[name] for name in names]
