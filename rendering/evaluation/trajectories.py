@@ -1,6 +1,6 @@
-"""A motion as the input of the paper's trajectory-led baselines: Drag Anything (Wu et al. 2024) and Motion-I2V (Shi et al. 2024).
+"""A motion as the input of the paper's baselines that follow trajectories.
 
-The paper takes the trajectories of these two from its own animations, so that all methods are asked for the same
+They are Drag Anything (Wu et al. 2024) and Motion-I2V (Shi et al. 2024). The paper takes their trajectories from its own animations, so that all methods are asked for the same
 motion (section 4). Both are written as the public demo scripts read them.
 """
 
@@ -189,7 +189,9 @@ def _covering(picture: NDArray[Any], width: int, height: int, how: int) -> NDArr
     """Scaled until it covers the size, and cut to its middle."""
     rows, columns = picture.shape[:2]
     ratio = max(width / columns, height / rows)
-    large = cv2.resize(picture, (max(width, round(columns * ratio)), max(height, round(rows * ratio))), interpolation=how)
+    large = cv2.resize(
+        picture, (max(width, round(columns * ratio)), max(height, round(rows * ratio))), interpolation=how
+    )
     top, left = (large.shape[0] - height) // 2, (large.shape[1] - width) // 2
     return np.ascontiguousarray(large[top : top + height, left : left + width])
 

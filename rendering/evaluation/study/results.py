@@ -179,8 +179,16 @@ def _preference(question: str, method: str, other: str, votes: Sequence[bool]) -
     interval = test.proportion_ci(confidence_level=0.95, method="exact")
     share = sum(votes) / len(votes)
     return Preference(
-        question, method, other, sum(votes), len(votes), share, float(interval.low), float(interval.high), float(test.pvalue)
-    )  # fmt: skip
+        question,
+        method,
+        other,
+        sum(votes),
+        len(votes),
+        share,
+        float(interval.low),
+        float(interval.high),
+        float(test.pvalue),
+    )
 
 
 def _agreement(key: StudyKey, raters: Sequence[dict[tuple[str, str], str]], question: str) -> float | None:

@@ -174,9 +174,9 @@ def test_careless_raters_are_dropped_and_files_of_one_rater_are_one() -> None:
 
 def test_agreement_is_krippendorffs() -> None:
     # The worked example, with gaps, of Wikipedia's article on Krippendorff's alpha: 0.691 for nominal data.
-    a = "* * * * * 3 4 1 2 1 1 3 3 * 3".split()
-    b = "1 * 2 1 3 3 4 3 * * * * * * *".split()
-    c = "* * 2 1 3 4 4 * 2 1 1 3 3 * 4".split()
+    a = list("*****34121133*3")
+    b = list("1*213343*******")
+    c = list("**21344*21133*4")
     units = [[value for value in each if value != "*"] for each in zip(a, b, c, strict=True)]
     assert krippendorff_alpha(units) == pytest.approx(0.691, abs=1e-3)
     assert krippendorff_alpha([["x"], []]) is None
