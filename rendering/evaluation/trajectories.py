@@ -1,7 +1,8 @@
 """A motion as the input of the paper's baselines that follow trajectories.
 
-They are Drag Anything (Wu et al. 2024) and Motion-I2V (Shi et al. 2024). The paper takes their trajectories from its own animations, so that all methods are asked for the same
-motion (section 4). Both are written as the public demo scripts read them.
+They are Drag Anything (Wu et al. 2024) and Motion-I2V (Shi et al. 2024). The paper takes their trajectories from its
+own animations, so that all methods are asked for the same motion (section 4). Both are written as the public demo
+scripts read them.
 """
 
 from __future__ import annotations
