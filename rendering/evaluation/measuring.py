@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...physics.progress import Progress
 from .clip_files import KeptClip
-from .columns import ClipOfPicture, ColumnWeights, Missing, clip_values
+from .columns import COLUMNS, ClipOfPicture, Column, ColumnWeights, Missing, clip_values
 from .evaluation_set import EvaluationSet, PictureOfSet
 from .loaded_pictures import loaded
 from .methods import Method
@@ -77,6 +78,7 @@ def measured_clip(
     kept: KeptClip,
     weights: ColumnWeights,
     *,
+    columns: Sequence[Column] = COLUMNS,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
     """The values of a clip by column, as a JSON value: a number, None, or ``{"missing": file, "why": sentence}``.
@@ -84,7 +86,7 @@ def measured_clip(
     Raises:
         InvalidInputError: the clip does not fit its picture.
     """
-    found = clip_values(clip_of(which, picture, sample, method, kept), weights=weights, progress=progress)
+    found = clip_values(clip_of(which, picture, sample, method, kept), columns, weights, progress=progress)
     return {key: as_json(value) for key, value in found.items()}
 
 

@@ -14,10 +14,10 @@ from ...physics.checks import check_whole
 from ...physics.errors import InvalidInputError
 from ..stages import StageProgress
 from .clip_files import KeptClip, kept_clip, remove_unfinished_clips, write_clip
-from .columns import COLUMNS, ClipOfPicture, method_values
+from .columns import COLUMNS, ClipOfPicture, Column, method_values
 from .drawing import drawn_frames
 from .foreign_clips import foreign_clip, foreign_rate
-from .identity import clip_recipe
+from .identity import clip_recipe, digest_of_recipe
 from .measuring import as_json, clip_of, measured_clip
 from .motions import Impossible, reference_of
 from .planning import IMPOSSIBLE, Cell, Plan, column_weights
@@ -54,6 +54,7 @@ def run(
     remove_unfinished_clips(plan.folder.clips)
     todo = plan.todo
     count = min(processes, len(_groups(todo)))
+    later = _by_networks(plan) if count > 1 else ()
     if progress is not None and todo:
         progress("clips", 0, len(todo))
     made = _in_this_process(todo, plan, progress) if count <= 1 else _in_processes(todo, plan, count, progress)
@@ -62,6 +63,37 @@ def run(
             done(cell)
         if progress is not None:
             progress("clips", finished, len(todo))
+    for cell in todo if later else ():
+        _complete(cell, plan, later, progress)
+
+
+def _by_networks(plan: Plan) -> tuple[Column, ...]:
+    """Columns whose networks are at hand: so large that only one process may hold them."""
+    weights = column_weights(plan.which)
+    return tuple(each for each in COLUMNS if each.weights and any(weights.place(key) for key in each.weights))
+
+
+def _complete(cell: Cell, plan: Plan, later: Sequence[Column], progress: StageProgress | None) -> None:
+    """Add what networks measure to what another process has measured of a clip."""
+    which, folder, method = plan.which, plan.folder, cell.method
+    file = folder.measures(method.name, cell.picture.name, cell.sample)
+    values = folder.read_measures(file, _partial_key(cell, plan))
+    kept = kept_clip(folder.clip(method.name, cell.picture.name, cell.sample), cell.key)
+    if values is None or kept is None:
+        return
+    advance = None if progress is None else lambda done, total: progress("measure", done, total)
+    more = measured_clip(
+        which, cell.picture, cell.sample, method, kept, column_weights(which), columns=later, progress=advance
+    )
+    folder.write_measures(file, _key(cell, plan), values | more)
+
+
+def _key(cell: Cell, plan: Plan) -> str:
+    return f"{cell.key} {plan.weights_key}"
+
+
+def _partial_key(cell: Cell, plan: Plan) -> str:
+    return f"{_key(cell, plan)} without networks"
 
 
 def _groups(cells: Sequence[Cell]) -> list[list[Cell]]:
@@ -72,38 +104,48 @@ def _groups(cells: Sequence[Cell]) -> list[list[Cell]]:
     return list(found.values())
 
 
-def _make(cell: Cell, plan: Plan, progress: StageProgress | None) -> None:
-    """Draw a clip if it is missing, and measure it."""
+def _make(cell: Cell, plan: Plan, progress: StageProgress | None, *, later: Sequence[Column] = ()) -> None:
+    """Draw a clip if it is missing, and measure it, but for columns that come later."""
     which, folder = plan.which, plan.folder
+    columns = [each for each in COLUMNS if each not in later]
+    key = _partial_key(cell, plan) if later else _key(cell, plan)
     place = folder.clip(cell.method.name, cell.picture.name, cell.sample)
     try:
         kept = kept_clip(place, cell.key) or _drawn(cell, plan, progress)
         advance = None if progress is None else lambda done, total: progress("measure", done, total)
+        weights = column_weights(which)
         values = measured_clip(
-            which, cell.picture, cell.sample, cell.method, kept, column_weights(which), progress=advance
+            which, cell.picture, cell.sample, cell.method, kept, weights, columns=columns, progress=advance
         )
     except Impossible as error:
-        values = {IMPOSSIBLE: str(error)}
+        key, values = _key(cell, plan), {IMPOSSIBLE: str(error)}
     except InvalidInputError as error:
         raise InvalidInputError(f"{cell.name}: {error}") from error
     file = folder.measures(cell.method.name, cell.picture.name, cell.sample)
-    folder.write_measures(file, f"{cell.key} {plan.weights_key}", values)
+    folder.write_measures(file, key, values)
 
 
 def _drawn(cell: Cell, plan: Plan, progress: StageProgress | None) -> KeptClip:
     which, place = plan.which, plan.folder.clip(cell.method.name, cell.picture.name, cell.sample)
     place.parent.mkdir(parents=True, exist_ok=True)
-    frames = drawn_frames(which, cell.picture, cell.sample, cell.method, progress=progress)
     recipe = clip_recipe(which, cell.picture, cell.sample, cell.method)
     if cell.method.clips:
         rate = foreign_rate(which, cell.method, foreign_clip(cell.method, cell.picture, cell.sample))
     else:
         rate = reference_of(which, cell.picture, cell.sample, contact=cell.method.contact).motion.frame_rate
-    write_clip(place, frames, rate, cell.key, recipe)
+    write_clip(place, _unchanged(cell, plan, progress), rate, cell.key, recipe)
     kept = kept_clip(place, cell.key)
     if kept is None:
         raise InvalidInputError(f"{place} must stay as it was written. Got: another content")
     return kept
+
+
+def _unchanged(cell: Cell, plan: Plan, progress: StageProgress | None) -> Iterator[Any]:
+    """The frames, unless a file that they are made from was changed meanwhile."""
+    facts = plan.which, cell.picture, cell.sample, cell.method
+    yield from drawn_frames(*facts, progress=progress)
+    if digest_of_recipe(clip_recipe(*facts)) != cell.key:
+        raise InvalidInputError("files must stay as they are while they are drawn. Got: one that was changed")
 
 
 def measure_methods(plan: Plan) -> None:
@@ -200,7 +242,7 @@ def _begin_worker(plan: Plan, stop: Any, finished: Any) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, lambda *_: stop.set())
     cv2.setNumThreads(1)
-    _here.update(plan=plan, stop=stop, finished=finished)
+    _here.update(plan=plan, stop=stop, finished=finished, later=_by_networks(plan))
 
 
 def _heard(*_: Any) -> None:
@@ -214,7 +256,7 @@ def _work(cells: Sequence[Cell]) -> None:
     try:
         for cell in cells:
             _heard()
-            _make(cell, _here["plan"], _heard)
+            _make(cell, _here["plan"], _heard, later=_here["later"])
             _here["finished"].put(cell.name)
     except KeyboardInterrupt:
         return

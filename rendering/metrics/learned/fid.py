@@ -85,14 +85,16 @@ def frechet_distance(first: Features, second: Features, *, counts: Sequence[int]
     """
     (mean, root), (other_mean, other_root) = _moments(first), _moments(second, counts)
     away = mean - other_mean
+    traces = float(sum((each * each).sum() for each in (root, other_root)))
+    if min(len(root), len(other_root)) > root.shape[1]:
+        root, other_root = (np.asarray(np.linalg.qr(each, mode="r")) for each in (root, other_root))
     # The trace of (C1 C2)^(1/2) is the sum of the singular values of A B^T, with C1 = A^T A and C2 = B^T B.
     shared = np.linalg.svd(root @ other_root.T, compute_uv=False).sum()
-    return float(max(0.0, away @ away + (root * root).sum() + (other_root * other_root).sum() - 2 * shared))
+    return float(max(0.0, away @ away + traces - 2 * shared))
 
 
 def _moments(sample: Features, counts: Sequence[int] | None = None) -> tuple[Features, Features]:
-    """A sample's mean, and A with A^T A its covariance, shape [n or k, k], the smaller of both."""
+    """A sample's mean, and A with A^T A its covariance, shape [n, k]."""
     often = np.ones(len(sample)) if counts is None else np.asarray(counts, dtype=np.float64)
     mean = often @ sample / often.sum()
-    root = (sample - mean) * np.sqrt(often / (often.sum() - 1))[:, None]
-    return mean, root if len(root) <= root.shape[1] else np.asarray(np.linalg.qr(root, mode="r"))
+    return mean, (sample - mean) * np.sqrt(often / (often.sum() - 1))[:, None]

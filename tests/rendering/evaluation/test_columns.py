@@ -78,6 +78,18 @@ def test_a_shifted_copy_drifts_by_its_difference() -> None:
     assert value("static_drift", clip([shifted] * 3, moving=still)) == pytest.approx(difference, rel=1e-5)
 
 
+def test_outlines_beside_a_moving_part_do_not_drift() -> None:
+    moving = np.zeros((HEIGHT, WIDTH), bool)
+    moving[30:70, 20:60] = True
+    changed = frame(0)
+    changed[28:72, 18:62] = 0
+    assert value("static_drift", clip([changed], moving=moving)) == 0
+    changed[0, 0] ^= 255
+    drift = value("static_drift", clip([changed], moving=moving))
+    assert drift is not None
+    assert drift > 0
+
+
 def test_a_picture_that_slides_moves_by_its_speed_and_has_no_flow_warp_error() -> None:
     wide = texture(HEIGHT, WIDTH + 40, 3)
     sliding = clip([wide[:, STEP * t : STEP * t + WIDTH] for t in range(FRAMES)])
@@ -100,7 +112,15 @@ def test_flicker_is_the_flow_warp_error() -> None:
 
 
 def test_what_is_hidden_in_the_next_frame_is_no_error() -> None:
-    assert value("flow_warp_error", clip(following())) == pytest.approx(0, abs=0.01)
+    """A square of one colour goes over a sloping background, which it covers and uncovers."""
+    slope = np.repeat(np.linspace(0, 120, WIDTH, dtype=np.uint8)[None, :, None], HEIGHT, axis=0)
+    frames = [np.repeat(slope, 3, axis=2) for _ in range(3)]
+    for t, each in enumerate(frames):
+        each[30:70, 20 + 12 * t : 60 + 12 * t] = texture(40, 40, 2) // 4 + 190
+    hidden = 2 * 12 * 40 / (HEIGHT * WIDTH) * 150 / 255
+    error = value("flow_warp_error", clip(frames))
+    assert error is not None
+    assert error < hidden / 4
 
 
 def test_clips_that_follow_a_simulation_are_measured_as_measure_does() -> None:
@@ -122,7 +142,9 @@ def test_frames_that_do_not_follow_the_simulation_have_its_error() -> None:
 
 
 def test_a_shorter_clip_is_compared_with_the_begin_of_the_motion() -> None:
-    assert value("simulated_flow_error", clip(following()[:3], motion=motion())) == pytest.approx(0, abs=1e-5)
+    short = clip_values(clip(following()[:3], motion=motion()))
+    assert short["simulated_flow_error"] == pytest.approx(0, abs=1e-5)
+    assert short["hole_ratio"] == pytest.approx((0 + 3 + 6) / 3 * 40 / (HEIGHT * WIDTH), rel=0.05)
     with pytest.raises(InvalidInputError, match=r"motion must be of at least the clip's 7 frames\. Got: 6 frames"):
         clip([frame(0)] * 7, motion=motion())
 
@@ -169,9 +191,20 @@ def test_frames_are_read_once_with_progress_that_may_stop() -> None:
         clip_values(ClipOfPicture(frames, RATE, frame(0)), progress=stop)
 
 
+def test_frames_that_end_early_are_said() -> None:
+    class Short(Decoded):
+        def __len__(self) -> int:
+            return FRAMES + 1
+
+    with pytest.raises(InvalidInputError, match=r"frames must be the 7 that they say\. Got: 6"):
+        clip_values(ClipOfPicture(Short(), RATE, frame(0)))
+
+
 def test_columns_can_be_chosen() -> None:
     chosen = [column for column in COLUMNS if column.key in ("static_drift", "fid")]
     assert list(clip_values(clip(following()), chosen)) == ["static_drift"]
+    one_of_two = [column for column in COLUMNS if column.key == "dynamic_degree"]
+    assert list(clip_values(clip(following()), one_of_two)) == ["dynamic_degree"]
 
 
 def test_every_key_is_told_once_for_a_clip_or_for_a_method() -> None:
@@ -195,6 +228,14 @@ def test_every_key_is_told_once_for_a_clip_or_for_a_method() -> None:
 def test_what_does_not_fit_is_one_sentence(known: dict[str, Any], sentence: str) -> None:
     with pytest.raises(InvalidInputError, match=sentence):
         ClipOfPicture(**{"frames": following(), "rate": RATE, "picture": frame(0), **known})
+
+
+def test_lines_beside_the_sketch_are_as_far_from_it_as_they_are() -> None:
+    drawn = np.full((HEIGHT, WIDTH, 3), 255, np.uint8)
+    drawn[:, 80:82] = 0
+    sketch = np.roll(extract_sketch(drawn), 4, axis=1)
+    found = clip_values(ClipOfPicture([drawn], RATE, drawn, sketches=[sketch]))["sketch_adherence"]
+    assert found == pytest.approx(4, abs=0.5)
 
 
 def test_too_few_sketches_are_said() -> None:

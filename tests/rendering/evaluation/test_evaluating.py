@@ -18,7 +18,9 @@ import pytest
 from evaluation_sets import small_set
 from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.command import main
+from physanimator.rendering.evaluation import running
 from physanimator.rendering.evaluation.clip_files import EXACT, SHOWN, kept_clip
+from physanimator.rendering.evaluation.columns import COLUMNS
 from physanimator.rendering.evaluation.planning import planned
 from physanimator.rendering.evaluation.report_folder import REPORT_FILES
 from physanimator.rendering.evaluation.running import run
@@ -290,3 +292,35 @@ def test_a_scene_of_other_bodies_is_refused_before_the_work(tmp_path: Path, caps
     assert evaluate(file, "-o", tmp_path / "report") == 2
     assert "picture 'flag': " in capsys.readouterr().err
     assert not (tmp_path / "report").exists()
+
+
+def test_columns_that_one_process_alone_may_measure_are_added_later(tmp_path: Path) -> None:
+    plan = planned(read_set(small_set(tmp_path / "set", methods='"composite"')), tmp_path / "report")
+    plan.folder.open()
+    later = [each for each in COLUMNS if each.key in ("dynamic_degree", "static_drift")]
+    cell = plan.cells[0]
+    running._make(cell, plan, None, later=later)
+    again = planned(plan.which, plan.folder.place).cells[0]
+    assert again.kept
+    assert not again.measured
+    running._complete(cell, plan, later, None)
+    assert planned(plan.which, plan.folder.place).cells[0].measured
+    file = plan.folder.measures("composite", "flag", 0)
+    added = json.loads(file.read_text())["values"]
+    file.unlink()
+    running._make(cell, plan, None)
+    assert json.loads(file.read_text())["values"] == added
+
+
+def test_a_file_that_changes_while_it_is_drawn_stops_the_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = planned(read_set(small_set(tmp_path / "set", methods='"composite"')), tmp_path / "report")
+    drawn = running.drawn_frames
+
+    def changing(*facts: object, **more: object) -> object:
+        yield from drawn(*facts, **more)
+        (tmp_path / "set" / "flag" / "scene.json").write_text("{}")
+
+    monkeypatch.setattr(running, "drawn_frames", changing)
+    with pytest.raises(InvalidInputError, match="must stay as they are"):
+        run(plan)
+    assert not list((tmp_path / "report").rglob(EXACT))
