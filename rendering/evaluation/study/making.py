@@ -24,10 +24,10 @@ from ...files import (
     write_text,
 )
 from ...pictures import read_clip
-from .clip_folders import MethodClips
+from .clip_folders import BROKEN, MethodClips
 from .page_text import page_text
 from .questions import Question
-from .trials import BROKEN, Trial
+from .trials import Trial
 from .videos import frame_rate_of, write_video
 from .words import LANGUAGES, WORDS
 

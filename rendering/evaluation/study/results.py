@@ -9,12 +9,9 @@ from dataclasses import dataclass
 from ....physics.errors import InvalidInputError
 from .agreement import krippendorff_alpha
 from .answers import AnswerFile, StudyKey
-from .trials import BROKEN
+from .clip_folders import ALL, BROKEN
 
 __all__ = ["Preference", "RaterCheck", "StudyResults", "results_of"]
-
-ALL = "(all)"
-"""Stands for all methods that one was compared with."""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,8 @@ from physanimator.rendering.command import main
 from physanimator.rendering.evaluation.study import MethodClips, StudyKey, method_clips, read_files, results_of
 from physanimator.rendering.evaluation.study.agreement import krippendorff_alpha
 from physanimator.rendering.evaluation.study.answers import AnswerFile
-from physanimator.rendering.evaluation.study.trials import BROKEN, Trial, trials_of
+from physanimator.rendering.evaluation.study.clip_folders import BROKEN
+from physanimator.rendering.evaluation.study.trials import Trial, trials_of
 from physanimator.rendering.evaluation.study.words import WORDS
 from physanimator.rendering.pictures import write_animation
 
@@ -127,14 +128,22 @@ def test_a_page_beyond_its_limit_is_refused(
     assert not (tmp_path / "p.key.json").exists()
 
 
-@pytest.mark.parametrize("given", [["only"], ["a", "nowhere"], ["a", "empty"], ["a", "a"]])
+@pytest.mark.parametrize(
+    "given", [["only"], ["a", "nowhere"], ["a", "empty"], ["a", "a"], ["a", "=only"], ["a", "(broken)=only"]]
+)
 def test_folders_that_cannot_be_compared_are_refused(given: list[str], tmp_path: Path) -> None:
     for name in ("only", "a", "empty"):
         (tmp_path / name).mkdir()
     clip(tmp_path / "a" / "x.mp4", 30)
     clip(tmp_path / "only" / "x.mp4", 30)
-    with pytest.raises(InvalidInputError, match="CLIPS must be"):
-        method_clips([str(tmp_path / each) for each in given])
+    with pytest.raises(InvalidInputError, match="CLIPS must"):
+        method_clips(
+            [
+                f"{name}={tmp_path / path}" if "=" in each else str(tmp_path / each)
+                for each in given
+                for name, _, path in [each.partition("=")]
+            ]
+        )
 
 
 def key_of(count: int = 10) -> StudyKey:
