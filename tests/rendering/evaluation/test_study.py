@@ -91,6 +91,22 @@ def test_clips_beside_the_page_are_h264_that_browsers_play(folders: list[str], t
     assert (tmp_path / "page_clips" / "clip_0000.mp4").read_bytes() == b"mine"
 
 
+def test_the_key_of_another_study_is_never_replaced(folders: list[str], tmp_path: Path) -> None:
+    page, key = tmp_path / "page.html", tmp_path / "page.key.json"
+    make = ["study", "make", *folders, "-o", str(page), "--quiet", "--catch", "0"]
+    assert main(make) == 0
+    first, text = key.read_bytes(), page.read_bytes()
+    assert main(make) == 0
+    assert (key.read_bytes(), page.read_bytes()) == (first, text)
+    assert main([*make, "--seed", "5"]) == 2
+    clip(Path(folders[0], "lamp.mp4"), 200)
+    assert main(make) == 2
+    key.write_text("mine")
+    assert main(make) == 2
+    assert key.read_text() == "mine"
+    assert page.read_bytes() == text
+
+
 def refused(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
     assert main(arguments) == 2
     said = capsys.readouterr().err.strip().splitlines()[-1]
@@ -106,6 +122,7 @@ def refused(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
         (["--language", "xx"], "--language must be one of en, ja, zh, ko"),
         (["--against", "nobody"], "--against must be one of"),
         (["--pairs", "0"], "--pairs must be at least 1"),
+        (["-o", "page.htm"], "--output must end in .html"),
         (["--limit", "nan"], "--limit must be"),
         (["--fps", "0"], "--fps must be"),
     ],
