@@ -48,6 +48,14 @@ def add_evaluate(parser: argparse.ArgumentParser) -> None:
         help="draw an ablation as REPORT/figures/ABLATION.png, its methods included: inpainting, blur, masks, contact,"
         " warp-weight, interpolation",
     )
+    parser.add_argument(
+        "--trajectories",
+        action="append",
+        default=[],
+        metavar="FORMAT",
+        help="write the motion of each clip as another system's input to REPORT/trajectories/, and draw nothing:"
+        " drag-anything or motion-i2v; may be repeated",
+    )
     parser.add_argument("--processes", type=int, default=1, metavar="N", help="that work at once (default: 1)")
     parser.add_argument("--dry-run", action="store_true", help="check everything, list what would run and what is kept")
     parser.add_argument("--quiet", "-q", action="store_true", help="no progress bars and no report")
@@ -66,6 +74,8 @@ def _evaluate(options: argparse.Namespace) -> None:
 
     whole, output = _set(options), Path(options.output)
     wanted = [*ABLATIONS[options.figure]] if options.figure else options.method
+    if options.trajectories:
+        return _write_trajectories(options, restricted(whole, wanted, options.picture), output)
     plan = planned(restricted(whole, wanted, options.picture), output)
     if options.figure is not None:
         check_figure(plan, options.figure)
@@ -86,6 +96,20 @@ def _evaluate(options: argparse.Namespace) -> None:
             say(sentence)
         say(f"{plan.folder.place / 'report.html'}: {len(there.cells)} clips of {len(there.methods)} methods")
     return None
+
+
+def _write_trajectories(options: argparse.Namespace, which: EvaluationSet, output: Path) -> None:
+    from ...physics.errors import require
+    from ..evaluation.motion_inputs import write_trajectories
+    from ..evaluation.trajectories import TRAJECTORIES
+    from .messages import say
+
+    for name in options.trajectories:
+        require("--trajectories", name, name in TRAJECTORIES, f"one of {', '.join(TRAJECTORIES)}")
+    with ExitStack() as bars:
+        written = write_trajectories(which, output, options.trajectories, progress=_progress(options, bars))
+    if not options.quiet:
+        say(f"{output / 'trajectories'}: inputs of {written} clips for {', '.join(options.trajectories)}")
 
 
 def _check_packages() -> None:

@@ -132,7 +132,9 @@ def _make(options: argparse.Namespace) -> None:
     from ..evaluation.study import StudyOptions, make_study, method_clips, questions_of
     from ..evaluation.study.trials import trials_of
     from ..evaluation.study.words import LANGUAGES
+    from ..files import check_text_output
     from .messages import say
+    from .names import named_as
     from .watching import progress_of
 
     require("--language", options.language, options.language in LANGUAGES, f"one of {', '.join(LANGUAGES)}")
@@ -156,6 +158,8 @@ def _make(options: argparse.Namespace) -> None:
             beside=options.beside,
         )
     page = Path(options.output)
+    with named_as("--output", "the name"):
+        check_text_output(page, ".html")
     with ExitStack() as bars:
         stages = progress_of(options, bars)
         study = make_study(page, methods, trials, chosen, progress=lambda done, total: stages("encode", done, total))

@@ -126,7 +126,8 @@ def _key_of(keys: Sequence[tuple[Path, dict[str, Any]]], study: object, *, asked
                 raise InvalidInputError(f"{printable(str(path))} must be a whole key of a study. Got: a part") from None
             return StudyKey(str(study), questions, trials)
     raise InvalidInputError(
-        f"--key must name the key that study make wrote beside its page. Got: none for study {printable(str(study)[:60])}"
+        "--key must name the key that study make wrote beside its page."
+        f" Got: none for study {printable(str(study)[:60])}"
     )
 
 

@@ -8,7 +8,13 @@ from pathlib import Path
 
 from ....physics.errors import InvalidInputError, printable
 
-__all__ = ["MethodClips", "method_clips", "shared_names"]
+__all__ = ["ALL", "BROKEN", "MethodClips", "method_clips", "shared_names"]
+
+BROKEN = "(broken)"
+"""Stands for the method of a clip that was broken on purpose."""
+
+ALL = "(all)"
+"""Stands for all methods that one was compared with."""
 
 _VIDEOS = (".mp4", ".webm", ".mov", ".mkv", ".avi", ".gif", ".webp", ".apng")
 _PICTURES = (".png", ".jpg", ".jpeg", ".webp")
@@ -45,6 +51,8 @@ def method_clips(given: Sequence[str]) -> tuple[MethodClips, ...]:
     found: dict[str, MethodClips] = {}
     for each in given:
         name, folder = _named(each)
+        if not name.strip() or name in (BROKEN, ALL):
+            raise InvalidInputError(f"CLIPS must name a method before '='. Got: {printable(each)}")
         if name in found:
             raise InvalidInputError(f"CLIPS must be folders of different names, or NAME=FOLDER. Got: {name} twice")
         found[name] = MethodClips(name, _clips(folder))

@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from ....physics.errors import InvalidInputError, require
+from ....physics.errors import InvalidInputError, printable, require
 from ....physics.interruption import checkpoint
 from ....physics.progress import Progress
 from ...files import (
@@ -24,10 +24,10 @@ from ...files import (
     write_text,
 )
 from ...pictures import read_clip
-from .clip_folders import MethodClips
+from .clip_folders import BROKEN, MethodClips
 from .page_text import page_text
 from .questions import Question
-from .trials import BROKEN, Trial
+from .trials import Trial
 from .videos import frame_rate_of, write_video
 from .words import LANGUAGES, WORDS
 
@@ -78,10 +78,12 @@ def check_study(page: Path, options: StudyOptions, methods: Sequence[MethodClips
     """Refuse what :func:`make_study` could not do, before it encodes anything.
 
     Raises:
-        InvalidInputError: nothing can be written there, or a clip has no frame that can be read.
+        InvalidInputError: nothing can be written there, the key of another study is there, or a clip has no frame that
+            can be read.
     """
     check_text_output(page, ".html")
     check_file_place(key_place(page))
+    _check_key(page, _key(None, trials, options))
     if options.beside:
         check_recorded_folder(f"{_folder(page)}/", _CLIPS)
     named = {each.method: each.clips for each in methods}
@@ -116,6 +118,9 @@ def make_study(
     with tempfile.TemporaryDirectory() as folder:
         numbers, files = _encoded(trials, named, options, Path(folder), progress)
         study = _identity(trials, options, files)
+        key = _key(study, trials, options)
+        _check_key(page, key)
+        write_text(key_place(page), json.dumps(key, indent=1, ensure_ascii=False) + "\n")
         sources = [
             f"{_folder(page).name}/{path.name}" if options.beside else base64.b64encode(path.read_bytes()).decode()
             for path in files
@@ -124,8 +129,24 @@ def make_study(
         if options.beside:
             write_recorded_folder(f"{_folder(page)}/", _CLIPS, lambda place: _copied(files, place))
         write_text(page, page_text(document, options.language, options.title or WORDS[options.language]["title"]))
-    write_text(key_place(page), json.dumps(_key(study, trials, options), indent=1, ensure_ascii=False) + "\n")
     return study
+
+
+def _check_key(page: Path, key: dict[str, Any]) -> None:
+    """Refuse to replace the key of another study: without it, answers to that one would say nothing."""
+    place = key_place(page)
+    try:
+        there = json.loads(place.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return
+    except (OSError, ValueError, RecursionError):
+        there = None
+    known = isinstance(there, dict) and there.get("format") == KEY_FORMAT
+    if not known or there != {**key, "study": key["study"] or there.get("study")}:
+        raise InvalidInputError(
+            f"{place.name} must be no other study's key: answers to that one need it; choose another name or delete it."
+            f" Got: {'the key of study ' + printable(str(there.get('study'))[:60]) if known else 'something else'}"
+        )
 
 
 def _present(folder: Path) -> list[str]:
@@ -204,7 +225,7 @@ def _document(
     }
 
 
-def _key(study: str, trials: Sequence[Trial], options: StudyOptions) -> dict[str, Any]:
+def _key(study: str | None, trials: Sequence[Trial], options: StudyOptions) -> dict[str, Any]:
     return {
         "format": KEY_FORMAT,
         "version": 1,

@@ -9,12 +9,9 @@ from dataclasses import dataclass
 from ....physics.errors import InvalidInputError
 from .agreement import krippendorff_alpha
 from .answers import AnswerFile, StudyKey
-from .trials import BROKEN
+from .clip_folders import ALL, BROKEN
 
 __all__ = ["Preference", "RaterCheck", "StudyResults", "results_of"]
-
-ALL = "(all)"
-"""Stands for all methods that one was compared with."""
 
 
 @dataclass(frozen=True)
@@ -179,8 +176,16 @@ def _preference(question: str, method: str, other: str, votes: Sequence[bool]) -
     interval = test.proportion_ci(confidence_level=0.95, method="exact")
     share = sum(votes) / len(votes)
     return Preference(
-        question, method, other, sum(votes), len(votes), share, float(interval.low), float(interval.high), float(test.pvalue)
-    )  # fmt: skip
+        question,
+        method,
+        other,
+        sum(votes),
+        len(votes),
+        share,
+        float(interval.low),
+        float(interval.high),
+        float(test.pvalue),
+    )
 
 
 def _agreement(key: StudyKey, raters: Sequence[dict[tuple[str, str], str]], question: str) -> float | None:

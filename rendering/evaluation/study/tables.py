@@ -8,7 +8,7 @@ import json
 from dataclasses import asdict
 
 from ....physics.errors import printable
-from .results import StudyResults
+from .results import Preference, StudyResults
 
 __all__ = ["results_csv", "results_json", "results_text"]
 
@@ -37,7 +37,7 @@ def results_text(results: StudyResults) -> str:
     rows = [["preferred", *results.questions]]
     for method, other in pairs:
         cells = [found.get((question, method, other)) for question in results.questions]
-        shown = ["-" if c is None else f"{100 * c.share:.0f} % [{100 * c.low:.0f}, {100 * c.high:.0f}] of {c.answers}" for c in cells]  # fmt: skip
+        shown = [_cell(each) for each in cells]
         rows.append([f"{printable(method)} to {printable(other)}", *shown])
     alphas = [results.agreement[question] for question in results.questions]
     rows.append(["agreement (alpha)", *("-" if a is None else f"{a:.2f}" for a in alphas)])
@@ -53,3 +53,9 @@ def results_text(results: StudyResults) -> str:
     if several:
         lines.append(f"raters with several files, of which the last answers count: {len(several)}")
     return "\n".join(lines)
+
+
+def _cell(each: Preference | None) -> str:
+    if each is None:
+        return "-"
+    return f"{100 * each.share:.0f} % [{100 * each.low:.0f}, {100 * each.high:.0f}] of {each.answers}"

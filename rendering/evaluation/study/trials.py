@@ -9,12 +9,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ....physics.errors import InvalidInputError, printable
-from .clip_folders import MethodClips, shared_names
+from .clip_folders import BROKEN, MethodClips, shared_names
 
-__all__ = ["BROKEN", "Trial", "trials_of"]
-
-BROKEN = "(broken)"
-"""Stands for the method of a clip that was broken on purpose."""
+__all__ = ["Trial", "trials_of"]
 
 Kind = Literal["pair", "catch", "practice"]
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import itertools
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from pathlib import Path
 
@@ -17,6 +18,8 @@ __all__ = ["MOST_FRAMES", "broken", "frame_rate_of", "write_video"]
 
 MOST_FRAMES = 1500
 """Of a clip in a study, a minute at 24 a second; raters watch it more than once."""
+
+_LOT = 48  # frames that are mixed up with each other, and held in memory for it
 
 Frame = NDArray[np.uint8]
 
@@ -49,7 +52,7 @@ def write_video(source: Path, path: Path, *, rate: float, longest: int, broken_b
         InvalidInputError: the clip cannot be read, or is too long.
     """
     frames = _within(source, longest)
-    write_animation(frames if broken_by is None else broken(list(frames), broken_by), path, rate)
+    write_animation(frames if broken_by is None else broken(frames, broken_by), path, rate)
 
 
 def _within(source: Path, longest: int) -> Iterator[Frame]:
@@ -63,23 +66,28 @@ def _within(source: Path, longest: int) -> Iterator[Frame]:
         yield frame
 
 
-def broken(frames: list[Frame], seed: int) -> Iterator[Frame]:
-    """Frames in a wild order, torn into stripes that are shifted, with false colours and blocks.
+def broken(frames: Iterable[Frame], seed: int) -> Iterator[Frame]:
+    """As many frames in a wild order, torn into stripes that are shifted, with false colours and blocks.
 
     Args:
         frames: of a true clip, uint8 [h, w, 3].
         seed: of the damage.
     """
     chance = np.random.default_rng(seed)
-    for place in chance.permutation(len(frames)):
-        frame = frames[int(place)].copy()
-        height, width = frame.shape[:2]
-        stripe = max(2, height // 14)
-        for top in range(0, height, stripe):
-            shift = int(chance.normal(0, 0.12 * width))
-            frame[top : top + stripe] = np.roll(frame[top : top + stripe], shift, axis=1)
-        small = cv2.resize(frame, (max(1, width // 14), max(1, height // 14)), interpolation=cv2.INTER_AREA)
-        blocks = cv2.resize(small, (width, height), interpolation=cv2.INTER_NEAREST)
-        mask = np.kron(chance.random((8, 8)) < 0.35, np.ones((height // 8 + 1, width // 8 + 1)))[:height, :width]
-        frame = np.where(mask[..., None] > 0, blocks[..., ::-1], frame)
-        yield frame.astype(np.uint8)
+    rest = iter(frames)
+    while lot := list(itertools.islice(rest, _LOT)):
+        for place in chance.permutation(len(lot)):
+            yield _torn(lot[int(place)].copy(), chance)
+
+
+def _torn(frame: Frame, chance: np.random.Generator) -> Frame:
+    height, width = frame.shape[:2]
+    stripe = max(2, height // 14)
+    for top in range(0, height, stripe):
+        shift = int(chance.normal(0, 0.12 * width))
+        frame[top : top + stripe] = np.roll(frame[top : top + stripe], shift, axis=1)
+    small = cv2.resize(frame, (max(1, width // 14), max(1, height // 14)), interpolation=cv2.INTER_AREA)
+    blocks = cv2.resize(small, (width, height), interpolation=cv2.INTER_NEAREST)
+    mask = np.kron(chance.random((8, 8)) < 0.35, np.ones((height // 8 + 1, width // 8 + 1)))[:height, :width]
+    frame = np.where(mask[..., None] > 0, blocks[..., ::-1], frame)
+    return frame.astype(np.uint8)

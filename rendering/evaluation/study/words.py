@@ -9,7 +9,8 @@ WORDS = {
         "title": "Which animation do you prefer?",
         "intro": "You will see pairs of short animations of one picture, side by side. Answer each question by choosing"
         " the left or the right one. There is no third choice: where you cannot decide, take your first impression.",
-        "local": "Your answers stay in this browser until you save them as a file at the end. Nothing is sent anywhere.",
+        "local": "Your answers stay in this browser until you save them as a file at the end."
+        " Nothing is sent anywhere.",
         "keys": "Keys: 1 or ← is left, 2 or → is right, Enter goes on, Backspace goes back, Space stops and plays.",
         "start": "Start",
         "resume": "Go on where you stopped",
@@ -42,7 +43,8 @@ WORDS = {
     },
     "ja": {
         "title": "どちらのアニメーションが良いですか?",
-        "intro": "1枚の絵から作られた短いアニメーションが左右に並んで表示されます。各質問に対して、左か右を選んでください。"
+        "intro": "1枚の絵から作られた短いアニメーションが左右に並んで表示されます。"
+        "各質問に対して、左か右を選んでください。"
         "迷ったときは第一印象で選んでください。",
         "local": "回答は、最後にファイルとして保存するまでこのブラウザの中だけに残ります。どこにも送信されません。",
         "keys": "キー操作: 1 または ← で左、2 または → で右、Enter で次へ、Backspace で戻る、スペースで再生・停止。",
@@ -64,7 +66,8 @@ WORDS = {
         "review": "組に戻る",
         "saved": "{name} として保存しました。",
         "loading": "アニメーションを読み込んでいます…",
-        "failed": "このブラウザではこの組のアニメーションを再生できません。最新の Chrome、Edge、Firefox、Safari をお使いください。",
+        "failed": "このブラウザではこの組のアニメーションを再生できません。"
+        "最新の Chrome、Edge、Firefox、Safari をお使いください。",
         "no_memory": "このブラウザには記録が残りません。回答を保存するまでページを閉じないでください。",
         "clear": "回答を消して最初から始める",
         "sure": "この端末の回答をすべて消しますか?",
@@ -76,7 +79,8 @@ WORDS = {
     },
     "zh": {
         "title": "你更喜欢哪个动画?",
-        "intro": "你将看到由同一幅画生成的两段短动画,左右并排播放。请为每个问题选择左边或右边。难以决定时,请按第一印象选择。",
+        "intro": "你将看到由同一幅画生成的两段短动画,左右并排播放。"
+        "请为每个问题选择左边或右边。难以决定时,请按第一印象选择。",
         "local": "在最后保存为文件之前,答案只保留在此浏览器中,不会发送到任何地方。",
         "keys": "按键:1 或 ← 选左,2 或 → 选右,Enter 继续,Backspace 返回,空格 播放/暂停。",
         "start": "开始",
@@ -131,7 +135,8 @@ WORDS = {
         "review": "쌍으로 돌아가기",
         "saved": "{name}(으)로 저장했습니다.",
         "loading": "애니메이션을 불러오는 중…",
-        "failed": "이 브라우저에서는 이 쌍의 애니메이션을 재생할 수 없습니다. 최신 Chrome, Edge, Firefox, Safari를 사용하세요.",
+        "failed": "이 브라우저에서는 이 쌍의 애니메이션을 재생할 수 없습니다."
+        " 최신 Chrome, Edge, Firefox, Safari를 사용하세요.",
         "no_memory": "이 브라우저에는 아무것도 저장되지 않습니다. 답변을 저장하기 전에 페이지를 닫지 마세요.",
         "clear": "내 답변을 지우고 새로 시작",
         "sure": "이 기기의 모든 답변을 지울까요?",

@@ -15,7 +15,8 @@ from physanimator.rendering.command import main
 from physanimator.rendering.evaluation.study import MethodClips, StudyKey, method_clips, read_files, results_of
 from physanimator.rendering.evaluation.study.agreement import krippendorff_alpha
 from physanimator.rendering.evaluation.study.answers import AnswerFile
-from physanimator.rendering.evaluation.study.trials import BROKEN, Trial, trials_of
+from physanimator.rendering.evaluation.study.clip_folders import BROKEN
+from physanimator.rendering.evaluation.study.trials import Trial, trials_of
 from physanimator.rendering.evaluation.study.words import WORDS
 from physanimator.rendering.pictures import write_animation
 
@@ -90,6 +91,22 @@ def test_clips_beside_the_page_are_h264_that_browsers_play(folders: list[str], t
     assert (tmp_path / "page_clips" / "clip_0000.mp4").read_bytes() == b"mine"
 
 
+def test_the_key_of_another_study_is_never_replaced(folders: list[str], tmp_path: Path) -> None:
+    page, key = tmp_path / "page.html", tmp_path / "page.key.json"
+    make = ["study", "make", *folders, "-o", str(page), "--quiet", "--catch", "0"]
+    assert main(make) == 0
+    first, text = key.read_bytes(), page.read_bytes()
+    assert main(make) == 0
+    assert (key.read_bytes(), page.read_bytes()) == (first, text)
+    assert main([*make, "--seed", "5"]) == 2
+    clip(Path(folders[0], "lamp.mp4"), 200)
+    assert main(make) == 2
+    key.write_text("mine")
+    assert main(make) == 2
+    assert key.read_text() == "mine"
+    assert page.read_bytes() == text
+
+
 def refused(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
     assert main(arguments) == 2
     said = capsys.readouterr().err.strip().splitlines()[-1]
@@ -105,6 +122,7 @@ def refused(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
         (["--language", "xx"], "--language must be one of en, ja, zh, ko"),
         (["--against", "nobody"], "--against must be one of"),
         (["--pairs", "0"], "--pairs must be at least 1"),
+        (["-o", "page.htm"], "--output must end in .html"),
         (["--limit", "nan"], "--limit must be"),
         (["--fps", "0"], "--fps must be"),
     ],
@@ -127,14 +145,22 @@ def test_a_page_beyond_its_limit_is_refused(
     assert not (tmp_path / "p.key.json").exists()
 
 
-@pytest.mark.parametrize("given", [["only"], ["a", "nowhere"], ["a", "empty"], ["a", "a"]])
+@pytest.mark.parametrize(
+    "given", [["only"], ["a", "nowhere"], ["a", "empty"], ["a", "a"], ["a", "=only"], ["a", "(broken)=only"]]
+)
 def test_folders_that_cannot_be_compared_are_refused(given: list[str], tmp_path: Path) -> None:
     for name in ("only", "a", "empty"):
         (tmp_path / name).mkdir()
     clip(tmp_path / "a" / "x.mp4", 30)
     clip(tmp_path / "only" / "x.mp4", 30)
-    with pytest.raises(InvalidInputError, match="CLIPS must be"):
-        method_clips([str(tmp_path / each) for each in given])
+    with pytest.raises(InvalidInputError, match="CLIPS must"):
+        method_clips(
+            [
+                f"{name}={tmp_path / path}" if "=" in each else str(tmp_path / each)
+                for each in given
+                for name, _, path in [each.partition("=")]
+            ]
+        )
 
 
 def key_of(count: int = 10) -> StudyKey:
@@ -174,9 +200,9 @@ def test_careless_raters_are_dropped_and_files_of_one_rater_are_one() -> None:
 
 def test_agreement_is_krippendorffs() -> None:
     # The worked example, with gaps, of Wikipedia's article on Krippendorff's alpha: 0.691 for nominal data.
-    a = "* * * * * 3 4 1 2 1 1 3 3 * 3".split()
-    b = "1 * 2 1 3 3 4 3 * * * * * * *".split()
-    c = "* * 2 1 3 4 4 * 2 1 1 3 3 * 4".split()
+    a = list("*****34121133*3")
+    b = list("1*213343*******")
+    c = list("**21344*21133*4")
     units = [[value for value in each if value != "*"] for each in zip(a, b, c, strict=True)]
     assert krippendorff_alpha(units) == pytest.approx(0.691, abs=1e-3)
     assert krippendorff_alpha([["x"], []]) is None

@@ -24,7 +24,7 @@ def night() -> Sheet:
         x = np.linspace(-20, 820, 40)
         y = base + 34 * np.sin(x / 97 + 2 * far) + 18 * np.sin(x / 41 + far)
         sheet.fill(np.vstack([np.stack([x, y], 1), [(820, 760), (-20, 760)]]), tone, sharp=True)
-        for k in range(30):
+        for _ in range(30):
             px = sheet.chance.uniform(0, 800)
             _fir(sheet, px, float(np.interp(px, x, y)) + 8, sheet.chance.uniform(24, 60) * (0.7 + 0.5 * far), tone)
     return sheet
@@ -151,7 +151,7 @@ def body() -> Sheet:
         blur=3,
         inside=True,
     )
-    for k in range(16):
+    for _ in range(16):
         x, y = 248 + 50 * sheet.chance.random(), 330 + 190 * sheet.chance.random()
         sheet.line(
             [(x, y), (x + 3, y + 14), (x - 2, y + 26)], 4, "#dcbfb4", taper=tapered(0.2, 1), opacity=0.5, inside=True

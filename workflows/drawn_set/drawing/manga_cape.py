@@ -82,7 +82,7 @@ def cliff() -> Sheet:
         INK,
         sharp=True,
     )
-    for k in range(120):
+    for _ in range(120):
         x = sheet.chance.uniform(-10, 452)
         y = float(np.interp(x, [p[0] for p in edge[:7]], [p[1] for p in edge[:7]]))
         long = sheet.chance.uniform(20, 62)
@@ -93,11 +93,11 @@ def cliff() -> Sheet:
             taper=tapered(0.2, 0.7),
             inside=True,
         )
-    for k in range(60):
+    for _ in range(60):
         x, y = sheet.chance.uniform(0, 450), sheet.chance.uniform(806, 880)
         sheet.line([(x, y), (x - 4, y + 16), (x + 5, y + 34)], 2, PAPER, taper=tapered(0.4, 0.6), inside=True)
     sheet.outline(spline(edge[:9]), 4.5, INK, closed=False)
-    for k in range(70):
+    for _ in range(70):
         x = sheet.chance.uniform(0, 430)
         y = float(np.interp(x, [p[0] for p in edge[:7]], [p[1] for p in edge[:7]])) + 3
         sheet.line([(x, y), (x + 4, y - 10), (x + 13, y - 18)], 3, INK, taper=tapered(0, 1))

@@ -104,7 +104,7 @@ def bust() -> Sheet:
         sharp=True,
         blur=1,
     )
-    for k in range(150):
+    for _ in range(150):
         x = sheet.chance.uniform(200, 660)
         y = 640 + 90 * sheet.chance.random() + 0.0012 * (x - 420) ** 2 * 0.6
         d = np.array([sheet.chance.uniform(14, 44), sheet.chance.uniform(10, 40)])

@@ -53,7 +53,7 @@ def _clouds(sheet: Sheet) -> None:
     for x, y, wide, tall in ((600, 470, 210, 250), (90, 520, 190, 130), (380, 545, 190, 70)):
         chance = np.random.default_rng(int(x))
         puffs = []
-        for k in range(46):
+        for _ in range(46):
             t = chance.random()
             spread = (1 - t) ** 0.55
             puffs.append((x + wide * spread * chance.uniform(-1, 1), y - tall * t, (0.12 + 0.14 * spread) * wide))
