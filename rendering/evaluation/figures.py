@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics.errors import InvalidInputError
+from ...physics.errors import InvalidInputError, counted
 from ..figures.contact_sheet import contact_sheet
 from ..files import RecordedFiles, check_recorded_folder, write_recorded_folder
 from ..pictures import as_uint8, save_image
@@ -86,12 +86,12 @@ def draw_figure(plan: Plan, results: Results, name: str) -> Path:
         The picture's file.
     """
     rows, columns = _table(plan, results, name)
-    absent = dict.fromkeys(each.method for each in plan.absent if each.method in ABLATIONS[name] and not each.picture)
-    note = f"Not drawn, as weights are not at hand: {', '.join(absent)}" if absent else ""
+    count = len({each.method for each in plan.absent if each.method in ABLATIONS[name] and not each.picture})
+    note = f"Not drawn, without weights: {counted(count, 'method')}" if count else ""
     sheet = contact_sheet(
         [pictures for _, pictures in rows],
         title=f"Ablation: {name}",
-        note=note if len(note) < 200 else f"{note[:200]} ...",
+        note=note,
         columns=columns,
         row_names=[each for each, _ in rows],
     )
