@@ -136,6 +136,9 @@ def test_both_clips_play_in_step(chromium: Any, tmp_path: Path) -> None:
     tab.wait_for_timeout(300)
     assert tab.evaluate(times) == stopped
     assert before != [0, 0]
+    tab.locator('button[data-side="left"]').first.focus()
+    tab.keyboard.press("Enter")  # on a choice it chooses, as long as not all is answered
+    assert tab.locator("#note").is_visible() or tab.locator('button[aria-checked="true"]').count() == 1
     assert wrong == []
 
 

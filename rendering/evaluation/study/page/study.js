@@ -215,7 +215,7 @@
     const side = { 1: "left", ArrowLeft: "left", 2: "right", ArrowRight: "right" }[event.key];
     const onButton = event.target instanceof HTMLButtonElement;
     if (side) choose(current, side);
-    else if (event.key === "Enter" && !(onButton && event.target.dataset.side === undefined)) next();
+    else if (event.key === "Enter" && !(onButton && (!event.target.dataset.side || $("next").disabled))) next();
     else if (event.key === "Backspace") back();
     else if (event.key === " " && !onButton) toggle();
     else if (event.key === "ArrowUp" || event.key === "ArrowDown") {
