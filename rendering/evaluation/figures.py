@@ -119,7 +119,7 @@ def _table(plan: Plan, results: Results, name: str) -> tuple[list[tuple[str, lis
     """Rows with their names, and names of the columns."""
     by_name = {each.name: each for each in results.rows}
     drawn = [each.name for each in plan.methods if each.name in ABLATIONS[name]]
-    named = [_named(by_name.get(each), each) for each in drawn]
+    named = [_named(results, by_name.get(each), each) for each in drawn]
     named += [row for row, _, _ in _SKETCHES.get(name, ())]
     cells: list[list[Picture]] = [[] for _ in ("illustration", *named)]
     columns = []
@@ -142,13 +142,15 @@ def _table(plan: Plan, results: Results, name: str) -> tuple[list[tuple[str, lis
     return list(zip(["illustration", *named], cells, strict=True)), columns
 
 
-def _named(row: MethodResult | None, name: str) -> str:
+def _named(results: Results, row: MethodResult | None, name: str) -> str:
     """A method's name and what was measured."""
-    lines = [name]
+    lines, few = [name], ""
     for key in _NAMED:
         value = None if row is None else row.values.get(key)
         if isinstance(value, Summary) and value.mean is not None:
             lines.append(f"{key.replace('_', ' ')} {shown_number(value.mean)}")
+            few = results.few(value)
+    lines += [f"({few})"] if few else []
     return "\n".join(lines)
 
 
