@@ -73,7 +73,7 @@ def _evaluate(options: argparse.Namespace) -> None:
     from .messages import say
 
     whole, output = _set(options), Path(options.output)
-    wanted = [*ABLATIONS[options.figure]] if options.figure else options.method
+    wanted = options.method or [*ABLATIONS.get(options.figure, ())]
     if options.trajectories:
         return _write_trajectories(options, restricted(whole, wanted, options.picture), output)
     plan = planned(restricted(whole, wanted, options.picture), output)

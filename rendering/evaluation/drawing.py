@@ -120,7 +120,7 @@ def unusable_for(method: Method, picture: PictureOfSet, shown: LoadedPicture) ->
     """Why a method has no clip of a picture, in words; empty where it has one."""
     if method.clips:
         return ""
-    if not method.contact and not (shown.scene or {}).get("contact"):
+    if not method.contact and (shown.scene or {}).get("contact") is None:
         return "its scene has no contact that could be left out"
     if shown.layered:
         return next((f"layered artwork is not {why}" for why, holds in _FLAT.items() if holds(method)), "")

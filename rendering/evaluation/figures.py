@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics.errors import InvalidInputError
+from ...physics.errors import InvalidInputError, counted
 from ..figures.contact_sheet import contact_sheet
 from ..files import RecordedFiles, check_recorded_folder, write_recorded_folder
 from ..pictures import as_uint8, save_image
@@ -37,6 +37,9 @@ _SHARE = 0.42  # of the picture's shorter side that a crop shows
 _MOST_PICTURES = 8
 _NAMED = ("simulated_flow_error", "static_drift")
 _BLANK = 244
+
+_EVERYWHERE = ("blur",)
+"""Ablations whose rows differ everywhere in every frame."""
 
 _SKETCHES: dict[str, tuple[tuple[str, WarpMode, float], ...]] = {
     "blur": tuple((f"sketch,\nblur {sigma:g} px", "paper", sigma) for sigma in (0.0, 0.8, 1.5, 3.0)),
@@ -86,12 +89,12 @@ def draw_figure(plan: Plan, results: Results, name: str) -> Path:
         The picture's file.
     """
     rows, columns = _table(plan, results, name)
-    absent = dict.fromkeys(each.method for each in plan.absent if each.method in ABLATIONS[name] and not each.picture)
-    note = f"Not drawn, as weights are not at hand: {', '.join(absent)}" if absent else ""
+    count = len({each.method for each in plan.absent if each.method in ABLATIONS[name] and not each.picture})
+    note = f"Not drawn, without weights: {counted(count, 'method')}" if count else ""
     sheet = contact_sheet(
         [pictures for _, pictures in rows],
         title=f"Ablation: {name}",
-        note=note if len(note) < 200 else f"{note[:200]} ...",
+        note=note,
         columns=columns,
         row_names=[each for each, _ in rows],
     )
@@ -127,7 +130,9 @@ def _table(plan: Plan, results: Results, name: str) -> tuple[list[tuple[str, lis
         if len(shown) < 2:
             continue
         still = loaded(picture, plan.which.size).flat
-        frames, (top, left, side), t = _where_they_differ([each.frames for each in shown], still)
+        frames, (top, left, side), t = _where_they_differ(
+            [each.frames for each in shown], still, moved=name in _EVERYWHERE
+        )
         crops = {each.name: frame for each, frame in zip(shown, frames, strict=True)}
         columns.append(f"{picture.name}, frame {t}")
         for strip, frame in zip(cells, [still, *(crops.get(each.name) for each in rows)], strict=True):
@@ -169,15 +174,21 @@ class _Sketch:
 
 
 def _where_they_differ(
-    clips: Sequence[Iterable[Picture] | None], still: Picture
+    clips: Sequence[Iterable[Picture] | None], still: Picture, *, moved: bool
 ) -> tuple[list[Picture], tuple[int, int, int], int]:
-    """The frames of the moment at which rows differ most, the square where they do so, and the frame's number."""
+    """The frames of the moment at which rows differ most, the square where they do so, and the frame's number.
+
+    Where they differ everywhere, it is where the last row is farthest from what it showed at first.
+    """
     height, width = still.shape[:2]
     side = max(16, min(height, width, round(_SHARE * min(height, width))))
+    at_first: Picture | None = None
     best: tuple[float, list[Picture], int, int, int] | None = None
     for t, frames in enumerate(zip(*(each for each in clips if each is not None), strict=False)):
         fitted = [_fitted(each, width, height) for each in frames]
-        difference = np.max([cv2.absdiff(each, fitted[0]).max(axis=2) for each in fitted[1:]], axis=0)
+        at_first = fitted[-1] if at_first is None else at_first
+        pairs = [(fitted[-1], at_first)] if moved else [(each, fitted[0]) for each in fitted[1:]]
+        difference = np.max([cv2.absdiff(*each).max(axis=2) for each in pairs], axis=0)
         summed = cv2.boxFilter(difference.astype(np.float32), -1, (side, side), borderType=cv2.BORDER_CONSTANT)
         _, score, _, (x, y) = cv2.minMaxLoc(summed)
         if best is None or score > best[0]:
