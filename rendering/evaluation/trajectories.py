@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError, require
-from ...physics.motion import Motion, layer_order, tracks
-from ...physics.motion.resampling import frame_at, sample_times
+from ...physics.motion import Motion, frame_at, layer_order, sample_times, tracks
 from ..files import RecordedFiles, check_recorded_folder, write_recorded_folder
 from ..pictures import save_image
 
