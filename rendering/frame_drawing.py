@@ -175,7 +175,9 @@ class FrameDrawing:
         extract = line_extractor(self.networks)
         sketch, behind = extract(over(self.image)), extract(over(self.renderer.plate))
         own = [extract(over(part)) for part in self.own] or None
-        for each in warped_sketches(sketch, FlowSequence(motion), frames, behind=behind, own=own):
+        mode, blur = self.networks.sketch_warp, self.networks.sketch_blur
+        layers: dict[str, Any] = {"behind": behind, "own": own} if mode == "layered" else {}
+        for each in warped_sketches(sketch, FlowSequence(motion), frames, mode=mode, blur_sigma=blur, **layers):
             yield each.sketch
 
     def _sketch_guided(

@@ -84,6 +84,16 @@ MAY_IMPORT = {
         "rendering/inbetweens rendering/matting rendering/neural rendering/overlays rendering/pictures "
         "rendering/segmentation rendering/sketch"
     ),
+    "rendering/evaluation/columns": (
+        "physics physics/motion rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "
+        "rendering/sketch"
+    ),
+    "rendering/evaluation/study": "physics rendering/files rendering/pictures",
+    "rendering/evaluation": (
+        "__init__ physics physics/document physics/forces physics/mesh physics/motion physics/scene rendering "
+        "rendering/artwork rendering/evaluation/columns rendering/figures rendering/files rendering/neural "
+        "rendering/pictures rendering/segmentation rendering/sketch"
+    ),
     "rendering/training": (
         "__init__ physics physics/forces physics/material physics/motion physics/scene rendering "
         "rendering/artwork rendering/files rendering/networks rendering/neural rendering/pictures "
@@ -93,7 +103,7 @@ MAY_IMPORT = {
     "rendering/command": (
         "__init__ physics physics/assembly physics/document physics/material physics/mesh physics/motion "
         "physics/scene physics/simulation rendering rendering/artwork rendering/composite rendering/export "
-        "rendering/figures "
+        "rendering/evaluation rendering/evaluation/study rendering/figures "
         "rendering/files "
         "rendering/inbetweens rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "
         "rendering/segmentation rendering/shots rendering/training"

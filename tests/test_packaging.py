@@ -17,8 +17,8 @@ import physanimator
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-DATA = ("physics/document/*.schema.json", "nodes/web/**/*", "workflows/**/*")
-DATA_SUFFIXES = {".css", ".html", ".jpg", ".js", ".json", ".md", ".png", ".psd", ".svg", ".webp"}
+DATA = ("physics/document/*.schema.json", "nodes/web/**/*", "rendering/evaluation/**/page/*", "workflows/**/*")
+DATA_SUFFIXES = {".css", ".html", ".jpg", ".js", ".json", ".md", ".png", ".psd", ".svg", ".toml", ".webp"}
 
 
 @pytest.fixture(scope="module")

@@ -13,9 +13,11 @@ __all__ = ["command_parser"]
 def command_parser() -> argparse.ArgumentParser:
     """What reads the command line; ``run`` of what it gives does the work."""
     from .dataset import add_dataset
+    from .evaluate import add_evaluate
     from .options import add_animate, add_demo, add_figure, add_layers, add_measure
     from .parsing import CommandParser, PictureParser
     from .shots import add_shots
+    from .study import add_study
     from .training import add_training
 
     parser = CommandParser(
@@ -30,6 +32,8 @@ def command_parser() -> argparse.ArgumentParser:
         ("layers", _layers, add_layers, "list the layers of a PSD or OpenRaster file, and what would move"),
         ("measure", _measure, add_measure, "measure a clip against the motion that it should show"),
         ("shots", None, add_shots, "animate a list of illustrations, on all cores or a cluster of machines"),
+        ("evaluate", None, add_evaluate, "compare methods on a set of pictures, with a report"),
+        ("study", None, add_study, "ask people which of two clips they prefer, and count their answers"),
         ("schema", _schema, None, "print the JSON Schema of scene files"),
         ("dataset", None, add_dataset, "make, look at and pass on training data"),
         ("training", None, add_training, "export what was trained"),

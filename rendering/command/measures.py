@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...physics.errors import InvalidInputError
-from ..metrics.learned import FID_FILE, VIDEO_SCORE_FOLDER, require_file
+from ..metrics.learned import FID_FILE, check_video_score, require_file
 from .names import named_as
 
 if TYPE_CHECKING:
@@ -40,9 +40,13 @@ def check_measures(options: argparse.Namespace) -> None:
         with named_as("--fid"):
             require_file(Path(options.fid), FID_FILE)
         next(_clip(options.reference, "--reference"))
+        with named_as("--fid"):
+            from ..metrics.learned.fid import load_inception
+
+            load_inception(Path(options.fid))
     if options.video_score is not None:
         with named_as("--video-score"):
-            require_file(Path(options.video_score), VIDEO_SCORE_FOLDER)
+            check_video_score(Path(options.video_score))
 
 
 def measured(options: argparse.Namespace, animation: Animation, progress: StageProgress | None) -> Measures:

@@ -19,7 +19,7 @@ __all__ = ["gathered", "printable_streams", "progress_bars", "say", "show", "war
 _gathering: ContextVar[list[str] | None] = ContextVar("gathering", default=None)
 
 _UNITS = {"mesh": "part", "prepare": "step", "svd": "step", "inpainting": "step", "tooncrafter": "step"}
-_UNITS |= {"spine": "layer", "gltf": "layer"}
+_UNITS |= {"spine": "layer", "gltf": "layer", "clips": "clip"}
 """What stages advance by, where not by frames."""
 
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..pictures import LEAST_FLOW_SIDE, as_uint8, optical_flow
 
-__all__ = ["DynamicDegree"]
+__all__ = ["DynamicDegree", "strongest"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -32,11 +32,16 @@ class DynamicDegree:
     def add(self, frame: FloatImage) -> None:
         grey = cv2.cvtColor(as_uint8(frame), cv2.COLOR_RGB2GRAY)
         if self._previous is not None and min(grey.shape) >= LEAST_FLOW_SIDE:
-            flow = optical_flow(self._previous, grey)
-            lengths = np.sort(np.hypot(flow[..., 0], flow[..., 1]), axis=None)
-            self._degrees.append(float(lengths[-max(1, round(_STRONGEST * lengths.size)) :].mean()))
+            self._degrees.append(strongest(optical_flow(self._previous, grey)))
         self._previous = grey
 
     @property
     def value(self) -> float | None:
         return float(np.mean(self._degrees)) if self._degrees else None
+
+
+def strongest(flow: FloatImage) -> float:
+    """Mean length of a flow in the 5 % of the picture that move most [px], flow of shape [h, w, 2]."""
+    lengths = np.hypot(flow[..., 0], flow[..., 1]).ravel()
+    count = max(1, round(_STRONGEST * lengths.size))
+    return float(np.sort(np.partition(lengths, -count)[-count:]).mean())

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from .flow_warp_error import RestMaps
 
-__all__ = ["StaticDrift", "still_region"]
+__all__ = ["StaticDrift", "away_from", "still_region"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -50,5 +50,10 @@ def still_region(maps: RestMaps) -> Mask:
     ever = maps.flow.inside.copy()
     for t in range(len(maps.flow)):
         ever |= maps.covered(t)
+    return away_from(ever)
+
+
+def away_from(moving: Mask) -> Mask:
+    """Where no outline of something within a mask comes, shape [h, w]."""
     size = 2 * _BESIDE + 1
-    return cv2.dilate(ever.astype(np.uint8), np.ones((size, size), np.uint8)) == 0
+    return cv2.dilate(moving.astype(np.uint8), np.ones((size, size), np.uint8)) == 0

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ...physics.checks import check_number, check_whole, require_kind
 from ...physics.errors import InvalidInputError, require
 from ..inpainting import InpaintingOptions
+from ..sketch import WARP_MODES, WarpMode
 from ..svd import SVDOptions
 from ..tooncrafter import ToonCrafterOptions
 
@@ -75,6 +76,8 @@ class NetworkOptions:
         device: "auto", or what torch calls it, such as "cpu", "cuda", "cuda:1" or "mps".
         dtype: of weights and computing: "fp32", "fp16", "bf16"; "auto" takes fp16 on a GPU of NVIDIA or AMD and fp32
             elsewhere, and fp32 for Segment Anything everywhere.
+        sketch_blur: standard deviation of the blur of sketches that lead video models [px].
+        sketch_warp: how those are bent along the motion, one of ``WARP_MODES`` of ``rendering.sketch``.
 
     Raises:
         InvalidInputError: there is no such choice, a file is missing for it, or one is given that nothing would read.
@@ -111,6 +114,8 @@ class NetworkOptions:
     sam: StrPath | None = None
     device: str = "auto"
     dtype: str = "auto"
+    sketch_blur: float = 0.8
+    sketch_warp: WarpMode = "layered"
 
     def __post_init__(self) -> None:
         for name, choices in CHOICES.items():
@@ -129,6 +134,9 @@ class NetworkOptions:
         require("dtype", repr(self.dtype), self.dtype in DTYPES, f"one of {', '.join(DTYPES)}")
         check_number("grow", self.grow, 0, 1000, unit=" px")
         check_number("soft_edge", self.edge_width, 0, 1000 if self.renderer == "inpainting" else 10_000, unit=" px")
+        check_number("sketch_blur", self.sketch_blur, 0, 100, unit=" px")
+        modes = ", ".join(WARP_MODES)
+        require("sketch_warp", repr(self.sketch_warp), self.sketch_warp in WARP_MODES, f"one of {modes}")
         if self.lines_size:
             check_whole("lines_size", self.lines_size, 16, 16384, unit=" px")
 

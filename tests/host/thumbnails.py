@@ -347,6 +347,7 @@ THUMBNAILS: dict[str, Callable[[], Clip]] = {
     "frame_interpolation": _film,
     "wan_vace": lambda: _cut(_holes()[0], 0.25, 0.0, 0.7),
     "wan_tracks": _tracks,
+    "differential_diffusion": lambda: _cut(_beside(_holes()[0], _holes()[1]), 0.25, 0.0, 0.7),
     "wan_lines": _lines,
     "wan_first_last_frame": _ends,
     "physanimator_paper": lambda: _beside(_sketches(), _frames()),

@@ -16,6 +16,7 @@ _ENCODER, _VAE, _VISION = (
     "wan_2.1_vae.safetensors",
     "clip_vision_h.safetensors",
 )
+_CHECKPOINT = "512-inpainting-ema.safetensors"
 _COMMON = f"""\
 - `models/text_encoders/{_ENCODER}` and `models/vae/{_VAE}` from {_WAN_21}"""
 _LENGTH = """\
@@ -80,6 +81,21 @@ https://huggingface.co/Kijai/WanVideo_comfy_fp8_scaled/tree/main/WanMove
 
 **For ATI**, use *WanTrackToVideo*: connect *coordinates*, set *frames* to 121, and take \
 `Wan2_1-I2V-ATI-14B_fp8_e4m3fn.safetensors` from https://huggingface.co/Kijai/WanVideo_comfy
+"""
+
+_DIFFERENTIAL_NOTE = f"""\
+## Soft inpainting with the host's own nodes
+
+*Warped Video* moves the hair and leaves grey holes where it was. The holes' mask is blurred, and *Differential \
+Diffusion* lets each pixel change as much as the mask says: all in the holes, less and less around them. Each frame is \
+painted by itself, as in the paper's ablation: look at what that does from frame to frame. **soft_inpaint** does it \
+with our own *Render*, over the composite and with one noise for all frames.
+
+**Model file:** `models/checkpoints/{_CHECKPOINT}` from \
+https://huggingface.co/Comfy-Org/stable_diffusion_2.1_repackaged, or any other checkpoint of Stable Diffusion for \
+inpainting.
+
+Without the file, connect *control_video* to *Create Video* and see what the model is given.
 """
 
 _PROMPT = "anime illustration, a girl whose long hair moves in the wind, clean lines, flat colours, still camera"
@@ -148,6 +164,29 @@ def wan_tracks() -> tuple[Group, ...]:
         _given("Tracks", given),
         _models(*_unet("model", "Wan21-WanMove_fp8_scaled_e4m3fn_KJ.safetensors", 5.0), *vision),
         _painted("wan_tracks", 16.0, led, _sampled(20, 5.0, "uni_pc")),
+    )
+
+
+def differential_diffusion() -> tuple[Group, ...]:
+    """Warped frames whose holes an image model paints, each frame by itself, under a soft mask."""
+    size = {"frames": 61, "width": 640, "height": 352, "grow": 8}
+    given = ours("given", "WarpedVideo", 0, "", size, image="example.image", motion="simulate.motion")
+    soft = (
+        core("holes", "MaskToImage", mask="given.control_masks"),
+        core("blurred", "ImageBlur", 0, "", {"blur_radius": 16, "sigma": 6.0}, image="holes.IMAGE"),
+        core("soft", "ImageToMask", 0, "", {"channel": "red"}, image="blurred.IMAGE"),
+    )
+    file = core("file", "CheckpointLoaderSimple", 0, "", {"ckpt_name": _CHECKPOINT})
+    model = core("model", "DifferentialDiffusion", model="file.MODEL")
+    conditions = {"positive": "prompt.CONDITIONING", "negative": "avoid.CONDITIONING", "vae": "file.VAE"}
+    led = core("led", "InpaintModelConditioning", **conditions, pixels="given.control_video", mask="soft.MASK")
+    return (
+        *_moved(_DIFFERENTIAL_NOTE),
+        _given("Warped video and soft holes", given, *soft),
+        Group("4 · Model file", ORANGE, (Column(380, (file, model)),)),
+        _painted(
+            "differential_diffusion", "given.frame_rate", led, _sampled(25, 7.5, "dpmpp_2m"), models=("file", "file")
+        ),
     )
 
 
@@ -220,10 +259,18 @@ def _sampled_in_two(cfg: float) -> tuple[Node, Node]:
     )
 
 
-def _painted(name: str, rate: str | float, led: Node, *samplers: Node, trimmed: bool = False) -> Group:
+def _painted(
+    name: str,
+    rate: str | float,
+    led: Node,
+    *samplers: Node,
+    trimmed: bool = False,
+    models: tuple[str, str] = ("encoder", "vae"),
+) -> Group:
+    encoder, vae = models
     prompts = (
-        core("prompt", "CLIPTextEncode", 140, "What is to be seen", {"text": _PROMPT}, clip="encoder.CLIP"),
-        core("avoid", "CLIPTextEncode", 120, "What is not", {"text": _AVOID}, clip="encoder.CLIP"),
+        core("prompt", "CLIPTextEncode", 140, "What is to be seen", {"text": _PROMPT}, clip=f"{encoder}.CLIP"),
+        core("avoid", "CLIPTextEncode", 120, "What is not", {"text": _AVOID}, clip=f"{encoder}.CLIP"),
         led,
     )
     trim = (
@@ -233,7 +280,7 @@ def _painted(name: str, rate: str | float, led: Node, *samplers: Node, trimmed: 
     latent = "trim.LATENT" if trimmed else "sampled.LATENT"
     result = (
         *trim,
-        core("decoded", "VAEDecode", samples=latent, vae="vae.VAE"),
+        core("decoded", "VAEDecode", samples=latent, vae=f"{vae}.VAE"),
         core("video", "CreateVideo", 0, "", fixed, images="decoded.IMAGE", **linked),
         core("save", "SaveVideo", 420, "", {"filename_prefix": f"PhysAnimator/{name}"}, video="video.VIDEO"),
     )
@@ -242,7 +289,7 @@ def _painted(name: str, rate: str | float, led: Node, *samplers: Node, trimmed: 
 
 def led_by(api: dict[str, Any]) -> str | None:
     """Key of the node of this pack that leads a video model of the host, None where there is none."""
-    if not any(node["class_type"] == "UNETLoader" for node in api.values()):
+    if not any(node["class_type"] in ("UNETLoader", "CheckpointLoaderSimple") for node in api.values()):
         return None
     (found,) = [key for key, node in api.items() if node["class_type"].removeprefix("PhysAnimator_") in _SHOWN]
     return found
@@ -268,4 +315,5 @@ VIDEO_MODEL_WORKFLOWS = {
     "wan_lines": wan_lines,
     "wan_first_last_frame": wan_first_last_frame,
     "wan_tracks": wan_tracks,
+    "differential_diffusion": differential_diffusion,
 }

@@ -18,8 +18,21 @@ NAMES = sorted(set(API) - {"frame_interpolation"})  # it needs nodes that the ol
 FRAMES = 5
 GUESSED = ("quickstart",)
 """Where what is behind the moving parts is painted; elsewhere the example's own plate saves time."""
-LENGTHS = {"seamless_loop": 36, "wan_first_last_frame": 1, "wan_lines": 13, "wan_tracks": 7, "wan_vace": 13}
-SIZES = {"wan_first_last_frame": (480, 832), "wan_lines": (480, 832), "wan_tracks": (370, 640), "wan_vace": (480, 832)}
+LENGTHS = {
+    "seamless_loop": 36,
+    "differential_diffusion": 13,
+    "wan_first_last_frame": 1,
+    "wan_lines": 13,
+    "wan_tracks": 7,
+    "wan_vace": 13,
+}
+SIZES = {
+    "differential_diffusion": (352, 640),
+    "wan_first_last_frame": (480, 832),
+    "wan_lines": (480, 832),
+    "wan_tracks": (370, 640),
+    "wan_vace": (480, 832),
+}
 
 
 def frames_of(path: Path) -> np.ndarray:
@@ -31,7 +44,7 @@ def frames_of(path: Path) -> np.ndarray:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_workflow_runs_whole_and_writes_its_video(standin: Any, name: str) -> None:
-    frames = 13 if name.startswith("wan") else FRAMES
+    frames = 13 if name.startswith("wan") or name == "differential_diffusion" else FRAMES
     prompt = published.shortened(API[name], frames, plate=name not in GUESSED)
     outputs = standin.run(prompt)
     (save,) = [key for key, node in prompt.items() if node["class_type"] == "SaveVideo"]

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from .files import FID_FILE, VIDEO_SCORE_FOLDER, require_file
-from .videoscore import video_score
+from .files import FID_FILE, LPIPS_FOLDER, VIDEO_SCORE_FOLDER, MetricFile, require_file
+from .videoscore import check_video_score, video_score
 
 __all__ = [
     "FID_FILE",
+    "LPIPS_FOLDER",
     "VIDEO_SCORE_FOLDER",
+    "MetricFile",
+    "check_video_score",
     "require_file",
     "video_score",
 ]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ....physics.errors import InvalidInputError
 
-__all__ = ["FID_FILE", "VIDEO_SCORE_FOLDER", "MetricFile", "require_file"]
+__all__ = ["FID_FILE", "LPIPS_FOLDER", "VIDEO_SCORE_FOLDER", "MetricFile", "require_file"]
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,14 @@ FID_FILE = MetricFile(
     "pt_inception-2015-12-05-6726825d.pth",
     "https://github.com/mseitzer/pytorch-fid/releases/tag/fid_weights",
     "Apache-2.0",
+)
+
+LPIPS_FOLDER = MetricFile(
+    "lpips",
+    "https://github.com/richzhang/PerceptualSimilarity (lpips/weights/v0.1/alex.pth or vgg.pth) with"
+    " https://download.pytorch.org/models/alexnet-owt-7be5be79.pth or vgg16-397923af.pth beside it",
+    "BSD-2-Clause, backbones BSD-3-Clause",
+    is_folder=True,
 )
 
 VIDEO_SCORE_FOLDER = MetricFile("VideoScore", "https://huggingface.co/TIGER-Lab/VideoScore", "MIT", is_folder=True)

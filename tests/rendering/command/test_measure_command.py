@@ -80,8 +80,10 @@ def test_the_table_names_measures_and_units(folder: Path, capsys: Output) -> Non
         (["--clip", "empty"], "holds pictures"),
         (["--fid", "w.pth"], "--fid and --reference need each other"),
         (["--fid", "w.pth", "--reference", "frames"], "pt_inception-2015-12-05-6726825d.pth from https://github.com"),
+        (["--fid", "girl.png", "--reference", "frames"], "girl.png cannot be read"),
         (["--video-score", "vs"], "--video-score and --description need each other"),
         (["--video-score", "vs", "--description", "a girl"], "VideoScore from https://huggingface.co/TIGER-Lab"),
+        (["--video-score", "frames", "--description", "a girl"], "config.json is missing or cannot be read"),
         (["--frames", "5"], "Got: at least 4"),
     ],
 )

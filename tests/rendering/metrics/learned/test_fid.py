@@ -1,19 +1,17 @@
-"""Measures by networks: the arithmetic is right, files are checked, and nothing is fetched."""
+"""The Frechet inception distance: the arithmetic is right, the network is the public one, and files are checked."""
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
+import scipy.linalg
 import torch
+from drawn_weights import drawn_weights
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.metrics.learned import video_score
-from physanimator.rendering.metrics.learned.fid import frechet_distance, frechet_inception_distance
+from physanimator.rendering.metrics.learned.fid import features_of, frechet_distance, frechet_inception_distance
 from physanimator.rendering.metrics.learned.inception import FEATURES, InceptionFeatures
-from physanimator.rendering.metrics.learned.videoscore import DIMENSIONS
 from physanimator.rendering.networks.checkpoints import CheckpointError, build_without_storage
 
 
@@ -101,73 +99,41 @@ def test_one_picture_is_too_few(file: Path) -> None:
         frechet_inception_distance(pictures(1, 1), pictures(2, 1), file)
 
 
-class _Processor:
-    """Counts what it is given."""
-
-    def __call__(self, *, text: str, images: list[object], return_tensors: str) -> dict[str, torch.Tensor]:
-        assert text.count("<image>") == len(images)
-        assert "a girl" in text
-        return {"pixels": torch.full((1,), float(len(images)))}
-
-
-class _Model:
-    device = torch.device("cpu")
-
-    def __call__(self, pixels: torch.Tensor) -> SimpleNamespace:
-        return SimpleNamespace(logits=pixels * torch.arange(1.0, 6.0)[None])
-
-    def eval(self) -> _Model:
-        return self
-
-    def requires_grad_(self, wanted: bool) -> _Model:
-        return self
+def published_distance(first: np.ndarray, second: np.ndarray) -> float:
+    """As pytorch-fid computes it."""
+    away = first.mean(axis=0) - second.mean(axis=0)
+    covariances = [np.cov(each, rowvar=False) for each in (first, second)]
+    root = scipy.linalg.sqrtm(covariances[0] @ covariances[1])
+    return float(away @ away + sum(map(np.trace, covariances)) - 2 * np.trace(np.real(root)))
 
 
-@pytest.fixture
-def packages(monkeypatch: pytest.MonkeyPatch) -> dict[str, list[dict[str, object]]]:
-    """Stand-ins for the packages, which write down how they were asked to load."""
-    asked: dict[str, list[dict[str, object]]] = {"model": [], "processor": []}
-
-    def loader(kind: str, made: object) -> type:
-        def load(folder: Path, **options: object) -> object:
-            asked[kind].append(options)
-            return made
-
-        return type(kind, (), {"from_pretrained": staticmethod(load)})
-
-    transformers, idefics = ModuleType("transformers"), ModuleType("mantis.models.idefics2")
-    transformers.AutoProcessor = loader("processor", _Processor())  # type: ignore[attr-defined]
-    idefics.Idefics2ForSequenceClassification = loader("model", _Model())  # type: ignore[attr-defined]
-    for name, module in {"transformers": transformers, "mantis.models.idefics2": idefics}.items():
-        monkeypatch.setitem(sys.modules, name, module)
-    for name in ("mantis", "mantis.models"):
-        monkeypatch.setitem(sys.modules, name, ModuleType(name))
-    return asked
+@pytest.mark.parametrize(("first", "second", "features"), [(60, 90, 20), (300, 40, 20), (12, 9, 30)])
+def test_the_distance_is_that_of_the_published_formula(first: int, second: int, features: int) -> None:
+    random = np.random.default_rng(2)
+    samples = random.normal(size=(first, features)) * random.random(features), random.normal(size=(second, features))
+    assert frechet_distance(*samples) == pytest.approx(published_distance(*samples), rel=1e-5)
 
 
-def question_in(folder: Path) -> Path:
-    (folder / "prompt.txt").write_text("Grade this clip of {text_prompt}.", encoding="utf-8")
-    return folder
+def test_the_distance_of_known_normal_distributions() -> None:
+    """Variances 4 and 9 along one axis, 1 and 1 along the other, means 3 apart: 9 + (3 - 2)^2 + 0."""
+    corners = np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]]) * 0.75**0.5
+    assert frechet_distance(corners * (2, 1), corners * (3, 1) + (0, 3)) == pytest.approx(9 + 1)
 
 
-def test_video_score_looks_at_sixteen_frames_and_names_the_grades(tmp_path: Path, packages: dict) -> None:
-    grades = video_score(pictures(40, 1), "a girl", question_in(tmp_path))
-    assert list(grades) == list(DIMENSIONS)
-    assert grades["visual_quality"] == 16
-    assert grades["factual_consistency"] == 80
-    assert video_score(pictures(3, 1), "a girl", tmp_path)["visual_quality"] == 3
+def test_counted_pictures_are_as_copies() -> None:
+    first, second = sample(30), sample(3, shift=1.0)
+    copied = np.repeat(second, [4, 1, 2], axis=0)
+    counted = frechet_distance(first, second, counts=[4, 1, 2])
+    assert counted == pytest.approx(published_distance(first, copied), rel=1e-5)
 
 
-def test_video_score_fetches_nothing(tmp_path: Path, packages: dict) -> None:
-    video_score(pictures(2, 1), "a girl", question_in(tmp_path))
-    assert [each["local_files_only"] for asked in packages.values() for each in asked] == [True, True]
-
-
-def test_video_score_without_its_folder_question_or_packages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with pytest.raises(InvalidInputError, match=r"none is missing.*folder VideoScore.*huggingface.*MIT"):
-        video_score(pictures(2, 1), "a girl", tmp_path / "none")
-    with pytest.raises(InvalidInputError, match=r"prompt\.txt is missing.*TIGER-Lab"):
-        video_score(pictures(2, 1), "a girl", tmp_path)
-    monkeypatch.setitem(sys.modules, "mantis", None)
-    with pytest.raises(InvalidInputError, match="needs the packages mantis-vl"):
-        video_score(pictures(2, 1), "a girl", question_in(tmp_path))
+def test_the_network_is_that_of_pytorch_fid() -> None:
+    """pytorch-fid 0.3.0 gives these numbers for these weights and pictures."""
+    shapes = {name: tuple(each.shape) for name, each in build_without_storage(InceptionFeatures).state_dict().items()}
+    network = InceptionFeatures.from_reference(drawn_weights(shapes))
+    drawn = np.random.default_rng(3).integers(0, 256, (5, 70, 90, 3), dtype=np.uint8)
+    found = features_of(network, drawn)
+    known = [0.001614613807760179, 0.04945014417171478, 0.0003518930170685053, 0.0, 0.0008865203708410263]
+    assert found[0, :5] == pytest.approx(known, rel=1e-3, abs=1e-6)
+    assert (found.mean(), found.std()) == (pytest.approx(0.25539381, rel=1e-5), pytest.approx(0.35227379, rel=1e-5))
+    assert frechet_distance(found[:3, :256], found[3:, :256]) == pytest.approx(0.0114963, rel=1e-3)
