@@ -54,8 +54,8 @@ def contact_sheet(
         if progress is not None:
             progress(number, len(shown) + len(others))
     wide = _COLUMNS * (_TILE + _GAP) + _GAP
-    parts = [_heading(f"kept: {len(kept)} clips, of which {len(shown)} with their sketches", wide), _grid(tiles, wide)]
-    parts += [_heading(f"dropped: {len(dropped)} clips, of which {len(others)}", wide), _grid(other_tiles, wide)]
+    parts = [_heading(f"kept: {len(kept)} clips{_of_them(shown, kept)}, with their sketches", wide), _grid(tiles, wide)]
+    parts += [_heading(f"dropped: {len(dropped)} clips{_of_them(others, dropped)}", wide), _grid(other_tiles, wide)]
     parts += [
         _heading("kept (blue) and dropped (grey) clips by", wide),
         _grid(
@@ -72,6 +72,10 @@ def contact_sheet(
 
 def _values(records: Sequence[ClipRecord], name: str) -> list[float]:
     return [float(getattr(each, name)) for each in records if each.frames]
+
+
+def _of_them(shown: Sequence[ClipRecord], every: Sequence[ClipRecord]) -> str:
+    return "" if len(shown) == len(every) else f", {len(shown)} of them here"
 
 
 def _spread(records: Sequence[ClipRecord], most: int) -> list[ClipRecord]:

@@ -53,7 +53,7 @@ def histogram(title: str, kept: Sequence[float], dropped: Sequence[float], *, le
                 cv2.rectangle(picture, (number * step, top), ((number + 1) * step - 2, bottom - 1), colour, -1)
                 bottom = top
     cv2.line(picture, (0, floor), (_WIDTH - 1, floor), BLACK, 1)
-    write(picture, f"{title}, most: {highest}", (2, 14), BLACK)
+    write(picture, f"{title}; highest bar: {highest}", (2, 14), BLACK)
     write(picture, "0", (0, _HEIGHT - 8), BLACK)
     write(picture, f"{longest / 2:.3g}", (_WIDTH // 2 - 14, _HEIGHT - 8), BLACK)
     write(picture, f"{longest:.3g}", (_WIDTH - 40, _HEIGHT - 8), BLACK)

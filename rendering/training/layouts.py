@@ -2,7 +2,8 @@
 
 musubi-tuner: dataset.toml with video_directory, control_directory and captions beside the videos
 (its docs/dataset_config.md); for Wan with control, by LoRA.
-DiffSynth-Studio: metadata.csv with video, control_video, reference_image and prompt (its examples/wanvideo).
+DiffSynth-Studio: metadata.csv with video, control_video, reference_image and prompt (its
+examples/wanvideo/model_training/full/Wan2.2-Fun-A14B-Control.sh, and UnifiedDataset, which reads the file).
 VideoX-Fun: metadata_control.json with file_path, control_file_path, text and type (its scripts/wan2.1_fun).
 ltx-trainer: dataset.json with video, reference_video and caption (its docs/dataset-preparation.md, "V2V IC-LoRA").
 """
@@ -237,6 +238,9 @@ def _hint(layout: str, output: Path, clips: Sequence[_Clip]) -> str:
             f" --height {record.height} --width {record.width} --num_frames {_target(clips, 4)}"
         )
     if layout == "videox":
-        return count + f"--train_data_dir={output} --train_data_meta={output / LAYOUTS[layout][0]}"
+        return count + (
+            f"--train_data_dir={output} --train_data_meta={output / LAYOUTS[layout][0]}"
+            f" --video_sample_stride=1 --video_sample_n_frames={_target(clips, 4)}"
+        )
     frames = _target(clips, 8)
     return count + f'{LAYOUTS[layout][0]} --resolution-buckets "{record.width}x{record.height}x{frames}"'

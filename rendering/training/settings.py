@@ -88,6 +88,7 @@ class TrainingSettings:
             ("sample_steps", 0, 1000),
         ):
             check_whole(name, getattr(self, name), low, high)
+        require("frames", self.frames, self.frames != 1, "0, or at least 2: a single frame tells nothing of motion")
         check_number("learning_rate", self.learning_rate, 0, 10)
         check_number("weight_decay", self.weight_decay, 0, 10)
         check_number("clip", self.clip, 0)
@@ -145,7 +146,7 @@ def read_settings(path: Path, kind: str, preset: str = "paper") -> TrainingSetti
     else:
         import tomli as tomllib
     try:
-        told = tomllib.loads(content.decode("utf-8"))
+        told = tomllib.loads(content.decode("utf-8-sig"))
     except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
         raise InvalidInputError(f"config {path} must be TOML. Got: {error}") from None
     known = {each.name for each in fields(TrainingSettings)}

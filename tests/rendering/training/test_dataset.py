@@ -292,17 +292,21 @@ def test_the_network_draws_where_its_weights_are_given(videos: Path, tmp_path: P
     assert "sketches must stay" in capsys.readouterr().err
 
 
-def test_encoding_by_the_command_is_done_once(videos: Path, tmp_path: Path, capsys: Output) -> None:
-    svd = random_networks.write(tmp_path, "folder")["svd"]
+@pytest.mark.parametrize(("kind", "tensor"), [("svd", "embeddings"), ("tooncrafter", "tokens")])
+def test_encoding_by_the_command_is_done_once(
+    videos: Path, tmp_path: Path, capsys: Output, kind: str, tensor: str
+) -> None:
+    files = random_networks.write(tmp_path, "folder")
     arguments = ["dataset", "build", str(videos / "two.mp4"), "--output", str(tmp_path / "data"), *SMALL]
     assert status(*arguments) == 0
-    encode = ["dataset", "encode", str(tmp_path / "data"), "--svd", str(svd), "--device", "cpu"]
+    encode = ["dataset", "encode", str(tmp_path / "data"), f"--{kind}", str(files[kind]), "--device", "cpu"]
     assert status(*encode) == 0
     assert "1 clips encoded now" in capsys.readouterr().out
     (clip,) = kept_clips(tmp_path / "data")
-    tensors = read_tensors(tmp_path / "data", "svd", clip.name, ("latents", "embeddings"))
+    tensors = read_tensors(tmp_path / "data", kind, clip.name, ("latents", tensor))
     assert len(tensors["latents"]) == clip.frames
-    check_encoded(tmp_path / "data", "svd", clip.name)
+    assert all(bool(each.isfinite().all()) for each in tensors.values())
+    check_encoded(tmp_path / "data", kind, clip.name)
     assert status(*encode) == 0
     assert "0 clips encoded now" in capsys.readouterr().out
-    assert status(*encode, "--tooncrafter", str(svd)) == 2
+    assert status(*encode, "--svd", str(files["svd"]), "--tooncrafter", str(files["tooncrafter"])) == 2

@@ -262,6 +262,12 @@ def test_the_papers_values_are_a_preset() -> None:
     ("text", "sentence"),
     [
         ("steps = 0", "steps must be"),
+        ("steps = true", "steps must be"),
+        ("frames = 1", "frames must be 0, or at least 2"),
+        ("learning_rate = nan", "learning_rate must be a number from 0 to 10. Got: nan"),
+        ("clip = -inf", "clip must be a number of at least 0"),
+        ("licence = 5", "licence must be text"),
+        ("eight_bit = 1", "eight_bit must be true or false"),
         ("learning_rate = -1", "learning_rate must be"),
         ("least_blur = 3\nmost_blur = 1", "most_blur must be"),
         ("precision = 'half'", "precision must be one of no, fp16, bf16"),
@@ -275,6 +281,11 @@ def test_unusable_settings_are_named(tmp_path: Path, text: str, sentence: str) -
     (tmp_path / "config.toml").write_text(text)
     with pytest.raises(InvalidInputError, match=sentence):
         read_settings(tmp_path / "config.toml", "lvcd")
+
+
+def test_a_byte_order_mark_before_the_settings_is_no_fault(tmp_path: Path) -> None:
+    (tmp_path / "config.toml").write_text("data = 'd'\noutput = 'o'\nsvd = 's'\n", encoding="utf-8-sig")
+    assert read_settings(tmp_path / "config.toml", "lvcd").data == str(tmp_path / "d")
 
 
 def test_moments_of_eight_bits_need_cuda(
