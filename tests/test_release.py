@@ -168,7 +168,7 @@ def test_the_archive_holds_what_runs_and_nothing_else(archive: set[str]) -> None
         path.relative_to(ROOT).as_posix()
         for room in ("nodes", "physics", "rendering", "workflows")
         for path in (ROOT / room).rglob("*.py")
-        if "docs" not in path.parts and path.name != "render.py"
+        if "docs" not in path.parts and path.parent.name != "drawing" and path.name != "render.py"
     }
     assert modules <= archive
     needed = "README.md LICENSE CHANGELOG.md pyproject.toml requirements.txt install.py __init__.py __main__.py"
@@ -180,7 +180,7 @@ def test_the_archive_holds_what_runs_and_nothing_else(archive: set[str]) -> None
 
 def test_the_archive_is_small(archive: set[str]) -> None:
     size = sum((ROOT / name).stat().st_size for name in archive)
-    assert size < 12_000_000, f"{size:,} bytes: does .comfyignore name what is not needed?"
+    assert size < 13_500_000, f"{size:,} bytes: does .comfyignore name what is not needed?"
 
 
 def test_the_archive_loads_and_finds_its_files(archive: set[str], tmp_path: Path) -> None:
