@@ -1,4 +1,4 @@
-"""Strands that a mask has lost altogether, because it was made smaller than they are wide.
+"""Strands that a mask has lost altogether, because it was made smaller, or blurred wider, than they are wide.
 
 A mask that has been shrunk still has the part's body, but nothing of strands narrower than what was taken off on
 either side. In a drawing they can be found again: a strand has a colour that goes on from the part's, and the same
@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from .edge_search import explained
 from .like_regions import like_regions
 from .mask_edges import CROSS, SQUARE, grown, mean_near
+from .strand_traces import traced_lines, traced_strands
 
-__all__ = ["lost_strands"]
+__all__ = ["lost_lines", "lost_strands"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -30,31 +31,56 @@ _OUTLINED = 0.45
 _ENCLOSED = 0.6
 # Colours of neighbouring pixels that differ by less go on in one another.
 _STEP = 0.1
+# A Gaussian blur leaves less than half of what is narrower than this on either side of its middle [sigmas].
+_BLURRED_AWAY = 0.67
 # So far a strand is followed at once [px].
 _AHEAD = 40
 _LUMINANCE = np.array([0.299, 0.587, 0.114], dtype=np.float32)
 
 
-def lost_strands(image: FloatImage, shape: Mask, given: Mask) -> Mask:
+def lost_strands(image: FloatImage, shape: Mask, mask: FloatImage, *, sigma: float = 0) -> Mask:
     """What goes on from a part outside of it as its strands do.
 
     Args:
         image: RGB in 0 to 1, shape [h, w, 3], or with further channels.
         shape: the part as far as it is known, shape [h, w].
-        given: the same as the mask had it, shape [h, w].
+        mask: the same as it was given, in 0 to 1, shape [h, w].
+        sigma: how much that has been blurred [px].
 
     Returns:
-        Strands beyond ``shape``, without their outlines, shape [h, w]; nothing if the mask has not been shrunk.
+        Strands beyond ``shape``, without their outlines, shape [h, w]; nothing if the mask has neither been shrunk nor
+        blurred.
     """
-    found = np.zeros_like(shape)
-    lost = _taken_off(shape, given)
+    found, given = np.zeros_like(shape), mask > _HALF
+    taken_off = _taken_off(shape, given)
+    lost = taken_off + int(np.ceil(_BLURRED_AWAY * sigma))
     if lost:
         light = image[..., :3] @ _LUMINANCE
         for lightness in (light, 1 - light):
             line = _lines(lightness)
-            if _follows(line, shape):
+            if _followed(line, shape) > _OUTLINED:
                 found |= _outlined(lightness, shape, _thin(_going_on(image, shape, line), shape, given, lost))
-    return found
+    return traced_strands(found, shape, mask, sigma=sigma, lost=taken_off) if sigma else found
+
+
+def lost_lines(image: FloatImage, shape: Mask, mask: FloatImage, told: Mask, *, sigma: float) -> Mask:
+    """Drawn lines that go on from a part, as the tips of strands do, and that a blurred mask has a trace of.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3], or with further channels.
+        shape: the part as far as it is known, shape [h, w].
+        mask: the same as it was given, in 0 to 1, shape [h, w].
+        told: what of the shape explains the mask's faint tones already, shape [h, w].
+        sigma: how much the mask has been blurred [px].
+
+    Returns:
+        Pixels of lines beyond ``shape``, shape [h, w]; nothing if the part has no outline.
+    """
+    light = image[..., :3] @ _LUMINANCE
+    line = max((_lines(light), _lines(1 - light)), key=lambda each: _followed(each, shape))
+    if _followed(line, shape) <= _OUTLINED:
+        return np.zeros_like(shape)
+    return traced_lines(line, shape, mask, told, sigma=sigma)
 
 
 def _taken_off(shape: Mask, given: Mask) -> int:
@@ -72,10 +98,10 @@ def _lines(lightness: FloatImage) -> Mask:
     return cv2.morphologyEx(lightness, cv2.MORPH_CLOSE, _disc(_LINE // 2)) - lightness > _TOLERANCE
 
 
-def _follows(line: Mask, shape: Mask) -> bool:
-    """Whether lines run along the edge of a part."""
+def _followed(line: Mask, shape: Mask) -> float:
+    """The share of a part's edge that lines run along."""
     edge = shape & grown(~shape, CROSS)
-    return int((edge & grown(line, SQUARE)).sum()) > _OUTLINED * max(1, int(edge.sum()))
+    return int((edge & grown(line, SQUARE)).sum()) / max(1, int(edge.sum()))
 
 
 def _going_on(image: FloatImage, shape: Mask, line: Mask) -> Mask:
