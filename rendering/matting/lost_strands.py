@@ -12,22 +12,19 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from .drawn_lines import LUMINANCE, OUTLINED, TOLERANCE, disc, followed, lines, outline_ink
 from .edge_search import explained
 from .like_regions import like_regions
 from .mask_edges import CROSS, SQUARE, grown, mean_near
 from .strand_traces import traced_lines, traced_strands
 
-__all__ = ["lost_lines", "lost_strands"]
+__all__ = ["lost_lines", "lost_strands", "taken_off"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
 _HALF = 0.5
-# Drawn lines are darker, or lighter, than what is on either side of them by this, and no wider than this [px].
-_TOLERANCE = 0.055
-_LINE = 5
-# Lines are an outline where they follow this share of an edge; of a strand's edge more, as nothing else speaks for it.
-_OUTLINED = 0.45
+# Lines follow more of a strand's edge than of another, as nothing else speaks for it.
 _ENCLOSED = 0.6
 # Colours of neighbouring pixels that differ by less go on in one another.
 _STEP = 0.1
@@ -35,7 +32,6 @@ _STEP = 0.1
 _BLURRED_AWAY = 0.67
 # So far a strand is followed at once [px].
 _AHEAD = 40
-_LUMINANCE = np.array([0.299, 0.587, 0.114], dtype=np.float32)
 
 
 def lost_strands(image: FloatImage, shape: Mask, mask: FloatImage, *, sigma: float = 0) -> Mask:
@@ -52,15 +48,15 @@ def lost_strands(image: FloatImage, shape: Mask, mask: FloatImage, *, sigma: flo
         blurred.
     """
     found, given = np.zeros_like(shape), mask > _HALF
-    taken_off = _taken_off(shape, given)
-    lost = taken_off + int(np.ceil(_BLURRED_AWAY * sigma))
+    off = taken_off(shape, given)
+    lost = off + int(np.ceil(_BLURRED_AWAY * sigma))
     if lost:
-        light = image[..., :3] @ _LUMINANCE
+        light = image[..., :3] @ LUMINANCE
         for lightness in (light, 1 - light):
-            line = _lines(lightness)
-            if _followed(line, shape) > _OUTLINED:
+            line = lines(lightness)
+            if followed(line, shape) > OUTLINED:
                 found |= _outlined(lightness, shape, _thin(_going_on(image, shape, line), shape, given, lost))
-    return traced_strands(found, shape, mask, sigma=sigma, lost=taken_off) if sigma else found
+    return traced_strands(found, shape, mask, sigma=sigma, lost=off) if sigma else found
 
 
 def lost_lines(image: FloatImage, shape: Mask, mask: FloatImage, told: Mask, *, sigma: float) -> Mask:
@@ -76,14 +72,10 @@ def lost_lines(image: FloatImage, shape: Mask, mask: FloatImage, told: Mask, *, 
     Returns:
         Pixels of lines beyond ``shape``, shape [h, w]; nothing if the part has no outline.
     """
-    light = image[..., :3] @ _LUMINANCE
-    line = max((_lines(light), _lines(1 - light)), key=lambda each: _followed(each, shape))
-    if _followed(line, shape) <= _OUTLINED:
-        return np.zeros_like(shape)
-    return traced_lines(line, shape, mask, told, sigma=sigma)
+    return traced_lines(outline_ink(image, shape), shape, mask, told, sigma=sigma)
 
 
-def _taken_off(shape: Mask, given: Mask) -> int:
+def taken_off(shape: Mask, given: Mask) -> int:
     """How much smaller than the part its mask is at most of its edge [px]; 0 if it is not."""
     line = shape & grown(~shape, CROSS)
     beyond = line & ~given
@@ -91,17 +83,6 @@ def _taken_off(shape: Mask, given: Mask) -> int:
         return 0
     away = _distance_from(given)
     return int(np.ceil(np.median(away[beyond])))
-
-
-def _lines(lightness: FloatImage) -> Mask:
-    """Lines darker than what is on either side."""
-    return cv2.morphologyEx(lightness, cv2.MORPH_CLOSE, _disc(_LINE // 2)) - lightness > _TOLERANCE
-
-
-def _followed(line: Mask, shape: Mask) -> float:
-    """The share of a part's edge that lines run along."""
-    edge = shape & grown(~shape, CROSS)
-    return int((edge & grown(line, SQUARE)).sum()) / max(1, int(edge.sum()))
 
 
 def _going_on(image: FloatImage, shape: Mask, line: Mask) -> Mask:
@@ -128,15 +109,15 @@ def _reached(image: FloatImage, core: Mask, free: Mask) -> Mask:
 
 def _thin(strands: Mask, shape: Mask, given: Mask, lost: int) -> Mask:
     """Without what is so wide that something of it would be in the mask."""
-    with_them, without = (cv2.erode(each.astype(np.uint8), _disc(lost + 1)) > 0 for each in (shape | strands, shape))
-    wide = with_them & ~without & ~grown(given, _disc(lost))
-    thin = strands & ~grown(wide, _disc(lost + 2))
+    with_them, without = (cv2.erode(each.astype(np.uint8), disc(lost + 1)) > 0 for each in (shape | strands, shape))
+    wide = with_them & ~without & ~grown(given, disc(lost))
+    thin = strands & ~grown(wide, disc(lost + 2))
     return thin & grown(cv2.erode(thin.astype(np.uint8), np.ones((2, 2), np.uint8)) > 0, SQUARE)
 
 
 def _outlined(lightness: FloatImage, shape: Mask, strands: Mask) -> Mask:
     """The strands that leave the part and have something darker along their edges."""
-    darker = lightness < mean_near(lightness, strands, sigma=3.0)[0] - _TOLERANCE
+    darker = lightness < mean_near(lightness, strands, sigma=3.0)[0] - TOLERANCE
     beside = grown(shape, SQUARE)
     kept = np.zeros_like(strands)
     _, labels, boxes, _ = cv2.connectedComponentsWithStats(strands.astype(np.uint8), connectivity=8)
@@ -151,7 +132,3 @@ def _outlined(lightness: FloatImage, shape: Mask, strands: Mask) -> Mask:
 
 def _distance_from(shape: Mask) -> FloatImage:
     return np.asarray(cv2.distanceTransform((~shape).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5), dtype=np.float32)
-
-
-def _disc(radius: int) -> NDArray[np.uint8]:
-    return np.asarray(cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1,) * 2), dtype=np.uint8)

@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..pictures import nearest_pixels, window_around
+from .drawn_lines import with_ink
 from .edge_search import found_shape
-from .lost_strands import lost_lines, lost_strands
+from .lost_strands import lost_lines, lost_strands, taken_off
 from .mask_edges import CROSS, SQUARE, edge_strength, grown, mean_near
 from .mask_forms import MaskEdge, edge_of, from_edge
 
@@ -128,7 +129,7 @@ def with_all_strands(image: FloatImage, shape: Mask, mask: FloatImage, *, sigma:
     whole = _with_strands(image, shape, mask, sigma)
     if sigma:
         whole = whole | lost_lines(image, whole, mask, (mask > _HALF) | (whole & ~shape), sigma=sigma)
-    return whole
+    return with_ink(image, whole) if taken_off(whole, mask > _HALF) else whole
 
 
 def without_new_specks(shape: Mask, given: Mask) -> Mask:

@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from .drawn_lines import OUTLINE_REACH, disc
 from .mask_edges import SQUARE, grown
 
 __all__ = ["traced_lines", "traced_strands"]
@@ -36,9 +37,8 @@ def traced_strands(strands: Mask, shape: Mask, mask: FloatImage, *, sigma: float
     given = mask > _HALF
     left = strands
     if lost:
-        disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * lost + 1,) * 2)
         drawn = grown(strands, SQUARE)
-        left = (cv2.erode((shape | drawn).astype(np.uint8), disc) > 0) & drawn & ~given
+        left = (cv2.erode((shape | drawn).astype(np.uint8), disc(lost)) > 0) & drawn & ~given
     of_strand, more = _blurred(left, sigma), mask - _blurred(given, sigma)
     count, labels = cv2.connectedComponents(strands.astype(np.uint8), connectivity=8)
     piece = labels[strands]
@@ -48,7 +48,9 @@ def traced_strands(strands: Mask, shape: Mask, mask: FloatImage, *, sigma: float
 
 
 def traced_lines(line: Mask, shape: Mask, mask: FloatImage, told: Mask, *, sigma: float) -> Mask:
-    """The stretches of lines that go on from a part, of which a blurred mask has a trace, as of the tips of strands.
+    """The stretches of lines leading away from a part, as tips of strands do, of which a blurred mask has a trace.
+
+    What stays near the part is an outline that runs along it.
 
     Args:
         line: thin lines, shape [h, w].
@@ -65,9 +67,10 @@ def traced_lines(line: Mask, shape: Mask, mask: FloatImage, told: Mask, *, sigma
     found, whole = (cv2.GaussianBlur(of_line * each, (0, 0), sigma) for each in (more, of_line))
     traced = beyond & (found > _HALF * whole)
     count, labels = cv2.connectedComponents(traced.astype(np.uint8), connectivity=8)
-    held = np.zeros(count, dtype=bool)
+    held, leads_away = np.zeros((2, count), dtype=bool)
     held[labels[traced & grown(shape, SQUARE)]] = True
-    return np.asarray(traced & held[labels])
+    leads_away[labels[traced & ~grown(shape, disc(OUTLINE_REACH))]] = True
+    return np.asarray(traced & (held & leads_away)[labels])
 
 
 def _blurred(shape: Mask, sigma: float) -> FloatImage:
