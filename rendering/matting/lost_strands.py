@@ -18,7 +18,7 @@ from .like_regions import like_regions
 from .mask_edges import CROSS, SQUARE, grown, mean_near
 from .strand_traces import traced_lines, traced_strands
 
-__all__ = ["lost_lines", "lost_strands", "taken_off"]
+__all__ = ["lost_lines", "lost_strands"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -48,7 +48,7 @@ def lost_strands(image: FloatImage, shape: Mask, mask: FloatImage, *, sigma: flo
         blurred.
     """
     found, given = np.zeros_like(shape), mask > _HALF
-    off = taken_off(shape, given)
+    off = _taken_off(shape, given)
     lost = off + int(np.ceil(_BLURRED_AWAY * sigma))
     if lost:
         light = image[..., :3] @ LUMINANCE
@@ -75,7 +75,7 @@ def lost_lines(image: FloatImage, shape: Mask, mask: FloatImage, told: Mask, *, 
     return traced_lines(outline_ink(image, shape), shape, mask, told, sigma=sigma)
 
 
-def taken_off(shape: Mask, given: Mask) -> int:
+def _taken_off(shape: Mask, given: Mask) -> int:
     """How much smaller than the part its mask is at most of its edge [px]; 0 if it is not."""
     line = shape & grown(~shape, CROSS)
     beyond = line & ~given

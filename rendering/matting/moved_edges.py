@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from ..pictures import nearest_pixels, window_around
 from .drawn_lines import with_ink
 from .edge_search import found_shape
-from .lost_strands import lost_lines, lost_strands, taken_off
+from .lost_strands import lost_lines, lost_strands
 from .mask_edges import CROSS, SQUARE, edge_strength, grown, mean_near
 from .mask_forms import MaskEdge, edge_of, from_edge
+from .matte import is_outlined
 
 __all__ = [
     "LEAST_STEP",
@@ -129,7 +130,10 @@ def with_all_strands(image: FloatImage, shape: Mask, mask: FloatImage, *, sigma:
     whole = _with_strands(image, shape, mask, sigma)
     if sigma:
         whole = whole | lost_lines(image, whole, mask, (mask > _HALF) | (whole & ~shape), sigma=sigma)
-    return with_ink(image, whole) if taken_off(whole, mask > _HALF) else whole
+    middle, spread = displacement(image, shape, mask > _HALF)
+    # At least three of four clear edges lie outside of the mask. An outline along most of it is found by the matting.
+    smaller = middle >= 1 and middle > spread / 2
+    return with_ink(image, whole) if smaller and not is_outlined(image[..., :3], whole) else whole
 
 
 def without_new_specks(shape: Mask, given: Mask) -> Mask:
