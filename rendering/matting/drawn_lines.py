@@ -34,13 +34,13 @@ OUTLINED = 0.45
 OUTLINE_REACH = 5
 """An outline lies no further outside of a mask than this [px]."""
 
-# Lines are no wider than this [px].
-_WIDTH = 5
+WIDEST_LINE = 5
+"""Drawn lines are no wider than this [px]."""
 
 
 def lines(lightness: FloatImage) -> Mask:
     """Lines darker than what is on either side, shape [h, w]."""
-    return cv2.morphologyEx(lightness, cv2.MORPH_CLOSE, disc(_WIDTH // 2)) - lightness > TOLERANCE
+    return cv2.morphologyEx(lightness, cv2.MORPH_CLOSE, disc(WIDEST_LINE // 2)) - lightness > TOLERANCE
 
 
 def followed(line: Mask, shape: Mask) -> float:

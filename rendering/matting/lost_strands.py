@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from .drawn_lines import LUMINANCE, OUTLINED, TOLERANCE, disc, followed, lines, outline_ink
+from .drawn_lines import LUMINANCE, OUTLINED, TOLERANCE, WIDEST_LINE, disc, followed, lines, outline_ink
 from .edge_search import explained
 from .like_regions import like_regions
 from .mask_edges import CROSS, SQUARE, grown, mean_near
@@ -70,8 +70,11 @@ def lost_lines(image: FloatImage, shape: Mask, mask: FloatImage, told: Mask, *, 
         sigma: how much the mask has been blurred [px].
 
     Returns:
-        Pixels of lines beyond ``shape``, shape [h, w]; nothing if the part has no outline.
+        Pixels of lines beyond ``shape``, shape [h, w]; nothing if the part has no outline, or the blur leaves less
+        than half of the widest lines, whose traces cannot be told from those of their neighbours then.
     """
+    if 2 * _BLURRED_AWAY * sigma > WIDEST_LINE:
+        return np.zeros_like(shape)
     return traced_lines(outline_ink(image, shape), shape, mask, told, sigma=sigma)
 
 
