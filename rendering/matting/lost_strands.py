@@ -1,4 +1,4 @@
-"""Strands that a mask has lost altogether, because it was made smaller than they are wide.
+"""Strands that a mask has lost altogether, because it was made smaller, or blurred wider, than they are wide.
 
 A mask that has been shrunk still has the part's body, but nothing of strands narrower than what was taken off on
 either side. In a drawing they can be found again: a strand has a colour that goes on from the part's, and the same
@@ -12,49 +12,70 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from .drawn_lines import LUMINANCE, OUTLINED, TOLERANCE, WIDEST_LINE, disc, followed, lines, outline_ink
 from .edge_search import explained
 from .like_regions import like_regions
 from .mask_edges import CROSS, SQUARE, grown, mean_near
+from .strand_traces import traced_lines, traced_strands
 
-__all__ = ["lost_strands"]
+__all__ = ["lost_lines", "lost_strands"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
 _HALF = 0.5
-# Drawn lines are darker, or lighter, than what is on either side of them by this, and no wider than this [px].
-_TOLERANCE = 0.055
-_LINE = 5
-# Lines are an outline where they follow this share of an edge; of a strand's edge more, as nothing else speaks for it.
-_OUTLINED = 0.45
+# Lines follow more of a strand's edge than of another, as nothing else speaks for it.
 _ENCLOSED = 0.6
 # Colours of neighbouring pixels that differ by less go on in one another.
 _STEP = 0.1
+# A Gaussian blur leaves less than half of what is narrower than this on either side of its middle [sigmas].
+_BLURRED_AWAY = 0.67
 # So far a strand is followed at once [px].
 _AHEAD = 40
-_LUMINANCE = np.array([0.299, 0.587, 0.114], dtype=np.float32)
 
 
-def lost_strands(image: FloatImage, shape: Mask, given: Mask) -> Mask:
+def lost_strands(image: FloatImage, shape: Mask, mask: FloatImage, *, sigma: float = 0) -> Mask:
     """What goes on from a part outside of it as its strands do.
 
     Args:
         image: RGB in 0 to 1, shape [h, w, 3], or with further channels.
         shape: the part as far as it is known, shape [h, w].
-        given: the same as the mask had it, shape [h, w].
+        mask: the same as it was given, in 0 to 1, shape [h, w].
+        sigma: how much that has been blurred [px].
 
     Returns:
-        Strands beyond ``shape``, without their outlines, shape [h, w]; nothing if the mask has not been shrunk.
+        Strands beyond ``shape``, without their outlines, shape [h, w]; nothing if the mask has neither been shrunk nor
+        blurred.
     """
-    found = np.zeros_like(shape)
-    lost = _taken_off(shape, given)
+    found, given = np.zeros_like(shape), mask > _HALF
+    off = _taken_off(shape, given)
+    lost = off + int(np.ceil(_BLURRED_AWAY * sigma))
     if lost:
-        light = image[..., :3] @ _LUMINANCE
+        light = image[..., :3] @ LUMINANCE
         for lightness in (light, 1 - light):
-            line = _lines(lightness)
-            if _follows(line, shape):
+            line = lines(lightness)
+            if followed(line, shape) > OUTLINED:
                 found |= _outlined(lightness, shape, _thin(_going_on(image, shape, line), shape, given, lost))
-    return found
+    return traced_strands(found, shape, mask, sigma=sigma, lost=off) if sigma else found
+
+
+def lost_lines(image: FloatImage, shape: Mask, mask: FloatImage, told: Mask, *, sigma: float) -> Mask:
+    """Drawn lines that go on from a part, as the tips of strands do, and that a blurred mask has a trace of.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3], or with further channels.
+        shape: the part as far as it is known, shape [h, w].
+        mask: the same as it was given, in 0 to 1, shape [h, w].
+        told: what of the shape explains the mask's faint tones already, shape [h, w].
+        sigma: how much the mask has been blurred [px].
+
+    Returns:
+        Pixels of lines beyond ``shape``, shape [h, w]; nothing if the part has no outline, or the blur leaves less
+        than half of the widest lines, whose traces cannot be told from those of their neighbours then.
+    """
+    if 2 * _BLURRED_AWAY * sigma > WIDEST_LINE:
+        return np.zeros_like(shape)
+    return traced_lines(outline_ink(image, shape), shape, mask, told, sigma=sigma)
 
 
 def _taken_off(shape: Mask, given: Mask) -> int:
@@ -65,17 +86,6 @@ def _taken_off(shape: Mask, given: Mask) -> int:
         return 0
     away = _distance_from(given)
     return int(np.ceil(np.median(away[beyond])))
-
-
-def _lines(lightness: FloatImage) -> Mask:
-    """Lines darker than what is on either side."""
-    return cv2.morphologyEx(lightness, cv2.MORPH_CLOSE, _disc(_LINE // 2)) - lightness > _TOLERANCE
-
-
-def _follows(line: Mask, shape: Mask) -> bool:
-    """Whether lines run along the edge of a part."""
-    edge = shape & grown(~shape, CROSS)
-    return int((edge & grown(line, SQUARE)).sum()) > _OUTLINED * max(1, int(edge.sum()))
 
 
 def _going_on(image: FloatImage, shape: Mask, line: Mask) -> Mask:
@@ -102,15 +112,15 @@ def _reached(image: FloatImage, core: Mask, free: Mask) -> Mask:
 
 def _thin(strands: Mask, shape: Mask, given: Mask, lost: int) -> Mask:
     """Without what is so wide that something of it would be in the mask."""
-    with_them, without = (cv2.erode(each.astype(np.uint8), _disc(lost + 1)) > 0 for each in (shape | strands, shape))
-    wide = with_them & ~without & ~grown(given, _disc(lost))
-    thin = strands & ~grown(wide, _disc(lost + 2))
+    with_them, without = (cv2.erode(each.astype(np.uint8), disc(lost + 1)) > 0 for each in (shape | strands, shape))
+    wide = with_them & ~without & ~grown(given, disc(lost))
+    thin = strands & ~grown(wide, disc(lost + 2))
     return thin & grown(cv2.erode(thin.astype(np.uint8), np.ones((2, 2), np.uint8)) > 0, SQUARE)
 
 
 def _outlined(lightness: FloatImage, shape: Mask, strands: Mask) -> Mask:
     """The strands that leave the part and have something darker along their edges."""
-    darker = lightness < mean_near(lightness, strands, sigma=3.0)[0] - _TOLERANCE
+    darker = lightness < mean_near(lightness, strands, sigma=3.0)[0] - TOLERANCE
     beside = grown(shape, SQUARE)
     kept = np.zeros_like(strands)
     _, labels, boxes, _ = cv2.connectedComponentsWithStats(strands.astype(np.uint8), connectivity=8)
@@ -125,7 +135,3 @@ def _outlined(lightness: FloatImage, shape: Mask, strands: Mask) -> Mask:
 
 def _distance_from(shape: Mask) -> FloatImage:
     return np.asarray(cv2.distanceTransform((~shape).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5), dtype=np.float32)
-
-
-def _disc(radius: int) -> NDArray[np.uint8]:
-    return np.asarray(cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1,) * 2), dtype=np.uint8)

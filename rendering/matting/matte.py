@@ -18,7 +18,7 @@ from .measured_alpha import measured_alpha
 from .raised_alpha import raised_alpha
 from .solved_alpha import solved_alpha
 
-__all__ = ["fitting_plate", "in_levels", "mixed_rim", "soft_alpha", "with_outline"]
+__all__ = ["fitting_plate", "in_levels", "is_outlined", "mixed_rim", "soft_alpha", "with_outline"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -102,6 +102,16 @@ def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: 
     alpha = filled_behind_lines(found(image, plate, mask, support), mask, support)
     # The last percents of a mask that nowhere becomes quite white would leave black of the part behind as black.
     return raised_alpha(image, plate, alpha, (alpha > SOLID) & (alpha < 1), beyond=LEAST_CONTRAST)
+
+
+def is_outlined(image: FloatImage, inside: Mask) -> bool:
+    """Whether an outline of a part is found just outside of a hard mask, along much of its edge.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3].
+        inside: the mask, shape [h, w].
+    """
+    return _is_outlined(image, inside, with_outline(image, inside.astype(np.float32)))
 
 
 def _is_outlined(image: FloatImage, inside: Mask, support: Mask) -> bool:

@@ -7,10 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..pictures import nearest_pixels, window_around
+from .drawn_lines import with_ink
 from .edge_search import found_shape
-from .lost_strands import lost_strands
+from .lost_strands import lost_lines, lost_strands
 from .mask_edges import CROSS, SQUARE, edge_strength, grown, mean_near
 from .mask_forms import MaskEdge, edge_of, from_edge
+from .matte import is_outlined
 
 __all__ = [
     "LEAST_STEP",
@@ -114,11 +116,24 @@ def expected(image: FloatImage, shape: Mask, given: Mask) -> Mask:
     return np.where(unsure, _outside(given) <= middle, shape)
 
 
-def with_all_strands(image: FloatImage, shape: Mask, given: Mask) -> Mask:
-    """The shape with the strands that the mask has lost, and what nothing else of a picture with opacity holds."""
+def with_all_strands(image: FloatImage, shape: Mask, mask: FloatImage, *, sigma: float = 0) -> Mask:
+    """The shape with the strands that the mask has lost, and what nothing else of a picture with opacity holds.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3], or with opacity as a further channel.
+        shape: what has been found, shape [h, w].
+        mask: as it was given, in 0 to 1, shape [h, w].
+        sigma: how much that has been blurred [px].
+    """
     if image.shape[2] > 3:
         shape = shape | _hanging(image[..., 3], shape)
-    return _with_strands(image, shape, given)
+    whole = _with_strands(image, shape, mask, sigma)
+    if sigma:
+        whole = whole | lost_lines(image, whole, mask, (mask > _HALF) | (whole & ~shape), sigma=sigma)
+    middle, spread = displacement(image, shape, mask > _HALF)
+    # At least three of four clear edges lie outside of the mask. An outline along most of it is found by the matting.
+    smaller = middle >= 1 and middle > spread / 2
+    return with_ink(image, whole) if smaller and not is_outlined(image[..., :3], whole) else whole
 
 
 def without_new_specks(shape: Mask, given: Mask) -> Mask:
@@ -157,10 +172,10 @@ def _closed(added: Mask, shape: Mask, strength: FloatImage) -> Mask:
     return added & far & (strength < LEAST_STEP)
 
 
-def _with_strands(image: FloatImage, shape: Mask, given: Mask) -> Mask:
+def _with_strands(image: FloatImage, shape: Mask, mask: FloatImage, sigma: float) -> Mask:
     """The shape with the strands that the mask has lost; a strand of several colours is found piece by piece."""
     for _ in range(_PIECES):
-        strands = lost_strands(image, shape, given)
+        strands = lost_strands(image, shape, mask, sigma=sigma)
         if not strands.any():
             break
         near = grown(strands, _AROUND_STRANDS)

@@ -38,6 +38,8 @@ _HALF = 0.5
 # Transitions of anti-aliased edges are mostly narrower than the first width; those from the second on are blurred [px].
 _ANTI_ALIASED = 1.9
 _BLURRED = 3.0
+# Sigma of a Gaussian blur as a share of the width over which an edge changes.
+_SIGMA = 0.3
 # Where less of an edge would move, the mask has been made with care and is taken at its word.
 _MOVED = 0.3
 _MARGIN = 40
@@ -155,6 +157,6 @@ def _shape(image: FloatImage, mask: FloatImage, edge: MaskEdge, blurred: Mask) -
         # From where it has got to: what the mask had lost has a core to start from now.
         again = expected(image, shape, edge.inside).astype(np.float32)
         shape, _ = searched(image, again, edge_of(again), reach=NEARER)
-    if displaced:
-        return with_all_strands(image, shape, edge.inside), True
-    return np.where(blurred, shape, edge.inside), False
+    shape = shape if displaced else np.where(blurred, shape, edge.inside)
+    sigma = _SIGMA * edge.median_width() if edge.median_width() > _BLURRED else 0.0
+    return with_all_strands(image, shape, mask, sigma=sigma) if displaced or sigma else shape, displaced

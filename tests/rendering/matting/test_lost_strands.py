@@ -139,3 +139,45 @@ def test_what_no_outline_runs_along_is_not_taken() -> None:
     picture = picture + wire * (np.float32(RED) - picture)
     found = regular(picture, shrunk(outlined(body())))
     assert not found[:, 125:].any()
+
+
+def blurred(mask: Mask, sigma: float) -> Mask:
+    return cv2.GaussianBlur(mask, (0, 0), sigma)
+
+
+def tip(picture: np.ndarray, points: list[tuple[int, int]]) -> tuple[np.ndarray, Mask]:
+    """A picture with a line of ink over it, and where the line is."""
+    line = coverage(stroked(points, 2, blank()))
+    return picture + line[..., None] * (np.float32(INK) - picture), line
+
+
+@pytest.mark.parametrize("radius", [0, 1])
+def test_a_strand_is_found_that_blurring_has_left_less_than_half_of(radius: int) -> None:
+    fine = stroked(STRAND, 4, body())
+    mask = blurred(shrunk(outlined(fine), radius), 6)
+    strand = (coverage(stroked(STRAND, 4, blank())) > 0.5) & (np.arange(WIDTH) > 125)
+    assert mask[strand].max() < 0.5
+    assert regular(laid(sky(), fine, RED), mask)[strand].mean() > 0.9
+
+
+@pytest.mark.parametrize("sigma", [2, 4, 6])
+def test_a_strand_stays_that_a_blurred_mask_has_no_trace_of(sigma: float) -> None:
+    """Whoever blurred the mask had left the strand out."""
+    found = regular(laid(sky(), stroked(STRAND, 4, body()), RED), blurred(outlined(body()), sigma))
+    assert not found[:, 128:].any()
+
+
+TIP = [(104, 70), (118, 68), (140, 74)]
+
+
+def test_the_tip_of_a_strand_is_found_that_blurring_has_left_less_than_half_of() -> None:
+    picture, line = tip(laid(sky(), body(), RED), TIP)
+    mask = blurred(np.maximum(outlined(body()), line), 2)
+    beyond = (line > 0.5) & (np.arange(WIDTH) > 114)
+    assert mask[beyond].max() < 0.5
+    assert regular(picture, mask)[beyond].mean() > 0.9
+
+
+def test_the_line_of_a_neighbour_stays_that_touches_a_part_with_a_blurred_mask() -> None:
+    picture, _ = tip(laid(sky(), body(), RED), [*TIP, (220, 90)])
+    assert not regular(picture, blurred(outlined(body()), 2))[:, 114:].any()
