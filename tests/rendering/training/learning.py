@@ -31,6 +31,7 @@ STRONG_NOISE = 10.0
 """A level at which latents tell nothing: where things are is in the sketches alone."""
 
 SEED = int(os.environ.get("LEARNING_SEED", "0"))
+"""Of both runs; another one shows how much is luck."""
 
 
 def test_training_halves_the_loss_on_unseen_clips_and_needs_the_right_sketches(
