@@ -51,9 +51,8 @@ def small_svd(path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for name, tensor in weights["unet"].items():
         if re.search(r"(out_layers\.3|to_out\.0|net\.2|proj_out)\.(weight|bias)$", name):
             tensor *= 0.3
-    into = weights["unet"]["input_blocks.0.0.weight"]
-    into[:, :4] *= 0.3  # noisy latents
-    into[:, 4:] *= LATENT_SCALE  # latents of the reference, which come as the autoencoder gives them
+    # The latents of the reference come as the autoencoder gives them, the noisy ones scaled.
+    weights["unet"]["input_blocks.0.0.weight"][:, 4:] *= LATENT_SCALE
     return random_svd.write_single_file(path, weights)
 
 

@@ -31,6 +31,7 @@ STRONG_NOISE = 10.0
 """A level at which latents tell nothing: where things are is in the sketches alone."""
 
 SEED = int(os.environ.get("LEARNING_SEED", "0"))
+"""Of both runs; another one shows how much is luck."""
 
 
 def test_training_halves_the_loss_on_unseen_clips_and_needs_the_right_sketches(
@@ -50,15 +51,14 @@ def test_training_halves_the_loss_on_unseen_clips_and_needs_the_right_sketches(
     networks = {"untrained": lvcd_networks(svd)}
     for data in (right, shuffled):
         networks[data.name] = lvcd_networks(svd, trained_file(data, svd))
-    unseen = {data: samples_of(data) for data in (simulated, other)}
-    mixed = {
-        name: {data.name: loss_of(each, batch) for data, batch in unseen.items()} for name, each in networks.items()
-    }
-    blind = {name: loss_of(each, unseen[other], STRONG_NOISE) for name, each in networks.items()}
-    print(f"LEARNED seed {SEED}, {torch.get_num_threads()} threads: {mixed}, at strong noise {blind}")
-    for data in ("simulated", "other"):
-        assert mixed["right"][data] < 0.5 * mixed["untrained"][data]
-    assert blind["right"] < 0.9 * blind["shuffled"]
+    for data in (simulated, other):
+        batch = samples_of(data)
+        drawn_levels = {name: loss_of(each, batch) for name, each in networks.items()}
+        strong = {name: loss_of(each, batch, STRONG_NOISE) for name, each in networks.items()}
+        print(f"LEARNED seed {SEED}, {data.name}: {drawn_levels}, at strong noise {strong}")
+        assert drawn_levels["right"] < 0.5 * drawn_levels["untrained"]
+        assert strong["right"] < 0.35 * strong["untrained"]
+        assert strong["right"] < 0.8 * strong["shuffled"]
     drawn = [drawn_frames(svd, tmp_path, simulated, name) for name in ("start", "right")]
     assert all(np.isfinite(each).all() for each in drawn)
     assert np.abs(drawn[1] - drawn[0]).mean() > 0.01

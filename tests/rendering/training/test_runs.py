@@ -11,11 +11,16 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 import random_networks
 import torch
 from physanimator.physics.errors import InvalidInputError
+from physanimator.rendering.inbetweens import interpolate
 from physanimator.rendering.svd.models import load_models
+from physanimator.rendering.tooncrafter import ToonCrafterOptions
+from physanimator.rendering.tooncrafter.interpolator import ToonCrafterInterpolator
+from physanimator.rendering.tooncrafter.models import ToonCrafterModels
 from physanimator.rendering.tooncrafter.models import load_models as load_tooncrafter
 from physanimator.rendering.training import TrainingSettings, checkpoints, lvcd, tooncrafter
 from physanimator.rendering.training.checkpoints import find_checkpoint, read_checkpoint_folder
@@ -199,6 +204,21 @@ def test_the_interpolations_controlnet_is_trained_sampled_and_exported(
     average = load_file(place / "average.safetensors")
     own = models.sketch.state_dict()
     assert all(torch.equal(own[name.removeprefix("control_model.")], each) for name, each in average.items())
+    frames = [
+        in_betweens(load_tooncrafter(files["tooncrafter"], sketch=each)) for each in (files["sketch_encoder"], exported)
+    ]
+    assert all(np.isfinite(each).all() for each in frames)
+    assert np.abs(frames[0] - frames[1]).max() > 0
+
+
+def in_betweens(models: ToonCrafterModels) -> np.ndarray:
+    """Two in-betweens that the Interpolate node's backend draws with these networks."""
+    chance = np.random.default_rng(0)
+    keyframes = list(chance.random((2, 64, 64, 3), dtype=np.float32))
+    lines = list((chance.random((4, 64, 64)) < 0.8).astype(np.float32))
+    options = ToonCrafterOptions(steps=1, area=64 * 64, guidance=1.0, control_scale=1.0)
+    drawn = interpolate(keyframes, [0, 3], backend=ToonCrafterInterpolator(models, options=options), sketches=lines)
+    return np.stack(list(drawn)[1:3])
 
 
 def test_sample_clips_show_truth_and_drawing_side_by_side(settings: TrainingSettings, tmp_path: Path) -> None:
