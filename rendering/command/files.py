@@ -14,7 +14,20 @@ from ..files import is_folder_name, place_of, same_name
 from ..pictures import RECORD, frames_in, is_frame_name
 from .names import named_as, option_of
 
-__all__ = ["CLIPS", "INPUTS", "OUTPUTS", "check_apart", "coming_folders", "named", "writing_order"]
+__all__ = ["CLIPS", "INPUTS", "MODELS", "OUTPUTS", "check_apart", "coming_folders", "named", "writing_order"]
+
+MODELS = (
+    "svd",
+    "lvcd",
+    "inpainting",
+    "tooncrafter",
+    "sketch_encoder",
+    "image_encoder",
+    "text_encoder",
+    "lines",
+    "sam",
+)
+"""Every option that names weights."""
 
 INPUTS = (
     "image",
@@ -29,15 +42,7 @@ INPUTS = (
     "reference",
     "fid",
     "video_score",
-    "svd",
-    "lvcd",
-    "inpainting",
-    "tooncrafter",
-    "sketch_encoder",
-    "image_encoder",
-    "text_encoder",
-    "lines",
-    "sam",
+    *MODELS,
 )
 """Every option that names something to read, as the parser calls it."""
 

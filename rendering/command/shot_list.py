@@ -10,23 +10,12 @@ from typing import Any
 
 from ...physics.errors import InvalidInputError, PhysAnimatorError
 from ..shots import ENDING, OptionNames, Problem, Shot, ShotRow, Word, colliding_outputs, read_rows, shot_name, words_of
-from .files import INPUTS, OUTPUTS
+from .files import INPUTS, MODELS, OUTPUTS
 from .names import named_by_options, option_of
 from .shot_task import shot_parser
 
 __all__ = ["ReadList", "check_shot", "read_list"]
 
-_MODELS = (
-    "svd",
-    "lvcd",
-    "inpainting",
-    "tooncrafter",
-    "sketch_encoder",
-    "image_encoder",
-    "text_encoder",
-    "lines",
-    "sam",
-)
 _NO_OPTIONS = ("help", "quiet", "verbose")
 _NO_SETTINGS = (*_NO_OPTIONS, "command", "run", "image_after", *INPUTS, *OUTPUTS)
 
@@ -60,7 +49,7 @@ def read_list(path: str, out: str, *, also_written: Sequence[tuple[str, str]] = 
     rows, problems = read_rows(path)
     parser = shot_parser()
     actions = {each.dest: each for each in parser._actions if each.dest not in _NO_OPTIONS}
-    names = OptionNames(actions, INPUTS, _MODELS, OUTPUTS)
+    names = OptionNames(actions, INPUTS, MODELS, OUTPUTS)
     folder, out = os.path.dirname(os.path.abspath(path)), os.path.abspath(out)
     shots: list[Shot] = []
     named: set[str] = set()

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import multiprocessing
-import signal
 from collections.abc import Callable, Collection, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from typing import Any
 
 from ...physics.checks import check_whole
 from ...physics.errors import InvalidInputError
 from ..stages import StageProgress
+from ..worker_processes import heeding, stopped_at_the_end
 from .clip_files import KeptClip, kept_clip, remove_unfinished_clips, write_clip
 from .columns import COLUMNS, ClipOfPicture, Column, method_values
 from .drawing import drawn_frames
@@ -205,7 +203,7 @@ def _in_processes(cells: Sequence[Cell], plan: Plan, processes: int, progress: S
     pool = ProcessPoolExecutor(processes, context, _begin_worker, (plan, stop, finished))
     by_name = {cell.name: cell for cell in cells}
     heard = 0
-    with _stopped(pool, stop):
+    with stopped_at_the_end(pool, stop, called="processes"):
         waiting: set[Future[None]] = {pool.submit(_work, group) for group in _groups(cells)}
         while waiting:
             done, waiting = wait(waiting, timeout=_POLL, return_when=FIRST_COMPLETED)
@@ -221,27 +219,8 @@ def _in_processes(cells: Sequence[Cell], plan: Plan, processes: int, progress: S
             yield by_name[finished.get(timeout=60)]
 
 
-@contextmanager
-def _stopped(pool: ProcessPoolExecutor, stop: Any) -> Iterator[None]:
-    """However the block ends, the processes end by themselves and leave nothing half done."""
-    try:
-        yield
-    except BrokenProcessPool:
-        raise InvalidInputError(
-            "processes must be few enough for the memory. Got: a process that the system ended"
-        ) from None
-    finally:
-        stop.set()
-        pool.shutdown(wait=True, cancel_futures=True)
-
-
 def _begin_worker(plan: Plan, stop: Any, finished: Any) -> None:
-    import cv2
-
-    # Ctrl+C goes to all processes; the first one tells the others, so that they put away what they are at.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, lambda *_: stop.set())
-    cv2.setNumThreads(1)
+    heeding(stop)
     _here.update(plan=plan, stop=stop, finished=finished, later=_by_networks(plan))
 
 

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +13,7 @@ from typing import Any
 from ...physics.checks import check_whole
 from ...physics.errors import InvalidInputError
 from ...physics.progress import Progress
+from ..worker_processes import heeding, stopped_at_the_end
 from .building import BuildOptions, clips_of, file_names
 from .data_folder import ClipRecord
 from .data_journal import DataJournal, check_data_folder
@@ -151,7 +149,7 @@ def _in_processes(tasks: Sequence[_Task], work: BuildWork, workers: int, advance
     context = multiprocessing.get_context("spawn")  # torch and FFmpeg do not survive a fork
     stop, read = context.Event(), context.Value("q", 0)
     pool = ProcessPoolExecutor(min(workers, len(tasks)), context, _begin_worker, (work, stop, read))
-    with _stopped(pool, stop):
+    with stopped_at_the_end(pool, stop, called="workers"):
         waiting: dict[Future[list[ClipRecord] | None], str] = {}
         left = iter(tasks)
         while True:
@@ -169,27 +167,8 @@ def _in_processes(tasks: Sequence[_Task], work: BuildWork, workers: int, advance
                 yield waiting.pop(each), records
 
 
-@contextmanager
-def _stopped(pool: ProcessPoolExecutor, stop: Any) -> Iterator[None]:
-    """However the block ends, the processes end by themselves and leave nothing half done."""
-    try:
-        yield
-    except BrokenProcessPool:
-        raise InvalidInputError(
-            "workers must be few enough for the memory. Got: a process that the system ended"
-        ) from None
-    finally:
-        stop.set()
-        pool.shutdown(wait=True, cancel_futures=True)
-
-
 def _begin_worker(work: BuildWork, stop: Any, read: Any) -> None:
-    import cv2
-
-    # Ctrl+C goes to all processes; the first one tells the others, so that they put away what they are at.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, lambda *_: stop.set())
-    cv2.setNumThreads(1)
+    heeding(stop)
     if work.lines is not None:
         import torch
 
