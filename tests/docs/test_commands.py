@@ -14,6 +14,7 @@ from made_from.commands import PageCommand, commands_of, files_of, pages_of
 from physanimator.rendering.artwork import load_artwork, save_psd
 from physanimator.rendering.command import main
 from physanimator.rendering.command.commands import command_parser
+from physanimator.rendering.evaluation.methods import ABLATIONS
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -63,7 +64,7 @@ def _for_a_few_frames(command: PageCommand) -> list[str]:
     if arguments[0] not in {"animate", "demo"}:
         return arguments
     if "--loop" in arguments:
-        arguments[arguments.index("--loop") + 1] = "0.25"
+        arguments[arguments.index("--loop") + 1] = "1"
     elif "--frames" in arguments:
         arguments[arguments.index("--frames") + 1] = "2"
     else:
@@ -93,12 +94,14 @@ def test_the_commands_of_a_page_run_one_after_the_other(
 def test_pictures_are_made_by_the_commands_beside_them() -> None:
     made = [command.picture for page in PAGES for command in commands_of(page) if command.picture]
     assert len(made) == len(set(made))
-    assert sorted(path.name for path in (SITE / "pictures").glob("*.webp")) == sorted(made)
+    # What `evaluate --figure` draws takes many minutes.
+    figures = {f"ablation_{name.replace('-', '_')}.webp" for name in ABLATIONS}
+    assert {path.name for path in (SITE / "pictures").glob("*.webp")} - figures == set(made)
     for page in pages_of(SITE):
         for command in commands_of(page):
             assert command.picture is None or command.picture in command.words
         shown = re.findall(r"!\[[^\]]*\]\((?:\.\./)?pictures/([^)]+)\)", page.read_text(encoding="utf-8"))
-        assert set(shown) <= set(made)
+        assert set(shown) <= set(made) | figures
 
 
 def test_the_pictures_move_and_are_small() -> None:
