@@ -24,8 +24,7 @@ from .loaded_pictures import loaded
 from .methods import ABLATIONS
 from .motions import reference_of
 from .planning import Plan
-from .report_tables import shown_number
-from .results import MethodResult, Results
+from .results import MethodResult, Results, shown_number
 
 __all__ = ["check_figure", "draw_figure"]
 

@@ -20,9 +20,10 @@ from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.command import main
 from physanimator.rendering.evaluation import figures, running
 from physanimator.rendering.evaluation.clip_files import EXACT, SHOWN, kept_clip
-from physanimator.rendering.evaluation.columns import COLUMNS
+from physanimator.rendering.evaluation.columns import COLUMNS, Summary
 from physanimator.rendering.evaluation.planning import planned
 from physanimator.rendering.evaluation.report_folder import REPORT_FILES
+from physanimator.rendering.evaluation.results import MethodResult, Results
 from physanimator.rendering.evaluation.running import run
 from physanimator.rendering.evaluation.set_document import read_set
 from physanimator.rendering.pictures import load_image, load_mask, read_clip, save_image, write_animation
@@ -293,6 +294,15 @@ def test_a_figure_compares_pictures_with_pictures_and_sketches_with_sketches() -
         clips = [dark, other, white, white] if one is dark else [dark, dark, white, other]
         place = figures._where_they_differ(clips, dark[0], pictures=2, moved=False)[1:]
         assert place == ((row, 0, 42), 2) or place == ((58, 0, 42), 2)
+
+
+def test_values_that_are_written_alike_are_best_together() -> None:
+    column = next(each for each in COLUMNS if each.key == "simulated_flow_error")
+    rows = [
+        MethodResult(name, {column.key: Summary(value, None, None, 1)}, [])
+        for name, value in (("one", 0.0068817), ("two", 0.0068811), ("three", 0.00689))
+    ]
+    assert Results("", [column], ["flag"], 1, rows, []).best(column) == {"one", "two"}
 
 
 def test_a_figure_that_is_none(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
