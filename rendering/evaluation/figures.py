@@ -19,14 +19,12 @@ from ..files import RecordedFiles, check_recorded_folder, write_recorded_folder
 from ..pictures import as_uint8, save_image
 from ..sketch import WarpMode
 from .clip_files import kept_clip
-from .columns import Summary
 from .evaluation_set import PictureOfSet
 from .loaded_pictures import loaded
 from .methods import ABLATIONS
 from .motions import reference_of
 from .planning import Plan
-from .report_tables import shown_number
-from .results import MethodResult, Results
+from .results import MethodResult, Results, shown_number
 
 __all__ = ["check_figure", "draw_figure"]
 
@@ -82,7 +80,7 @@ def draw_figure(plan: Plan, results: Results, name: str) -> Path:
 
     Args:
         plan: with the ablation's methods.
-        results: of the plan; they stand beside the rows.
+        results: of the plan; means over the pictures that are shown stand beside the rows.
         name: of ``ABLATIONS``.
 
     Returns:
@@ -119,10 +117,9 @@ def _table(plan: Plan, results: Results, name: str) -> tuple[list[tuple[str, lis
     """Rows with their names, and names of the columns."""
     by_name = {each.name: each for each in results.rows}
     drawn = [each.name for each in plan.methods if each.name in ABLATIONS[name]]
-    named = [_named(results, by_name.get(each), each) for each in drawn]
-    named += [row for row, _, _ in _SKETCHES.get(name, ())]
-    cells: list[list[Picture]] = [[] for _ in ("illustration", *named)]
-    columns = []
+    sketches = [row for row, _, _ in _SKETCHES.get(name, ())]
+    cells: list[list[Picture]] = [[] for _ in ("illustration", *drawn, *sketches)]
+    columns, pictures = [], []
     for picture in plan.which.pictures[:_MOST_PICTURES]:
         rows = [_Row(each, _clip(plan, picture, each)) for each in drawn]
         rows += [_Row(row, _Sketch(plan, picture, mode, sigma)) for row, mode, sigma in _SKETCHES.get(name, ())]
@@ -131,27 +128,32 @@ def _table(plan: Plan, results: Results, name: str) -> tuple[list[tuple[str, lis
             continue
         still = loaded(picture, plan.which.size).flat
         frames, (top, left, side), t = _where_they_differ(
-            [each.frames for each in shown], still, moved=name in _EVERYWHERE
+            [each.frames for each in shown],
+            still,
+            pictures=sum(each.name in drawn for each in shown),
+            moved=name in _EVERYWHERE,
         )
         crops = {each.name: frame for each, frame in zip(shown, frames, strict=True)}
         columns.append(f"{picture.name}, frame {t}")
+        pictures.append(picture.name)
         for strip, frame in zip(cells, [still, *(crops.get(each.name) for each in rows)], strict=True):
             strip.append(_crop(frame, top, left, side))
     if not columns:
         raise InvalidInputError(f"--figure {name} must have two methods of a picture to compare. Got: fewer")
-    return list(zip(["illustration", *named], cells, strict=True)), columns
+    named = [_named(by_name.get(each), each, pictures) for each in drawn]
+    return list(zip(["illustration", *named, *sketches], cells, strict=True)), columns
 
 
-def _named(results: Results, row: MethodResult | None, name: str) -> str:
-    """A method's name and what was measured."""
+def _named(row: MethodResult | None, name: str, pictures: Sequence[str]) -> str:
+    """A method's name and what was measured of the pictures that the figure shows."""
     lines, few = [name], ""
     for key in _NAMED:
-        value = None if row is None else row.values.get(key)
-        if isinstance(value, Summary) and value.mean is not None:
-            lines.append(f"{key.replace('_', ' ')} {shown_number(value.mean)}")
-            few = results.few(value)
-    lines += [f"({few})"] if few else []
-    return "\n".join(lines)
+        known = [] if row is None else [row.of_picture(each, key) for each in pictures]
+        values = [each for each in known if each is not None]
+        if values:
+            lines.append(f"{key.replace('_', ' ')} {shown_number(sum(values) / len(values))}")
+            few = f"({len(values)} of {len(pictures)} pictures)" if len(values) < len(pictures) else ""
+    return "\n".join([*lines, few] if few else lines)
 
 
 def _clip(plan: Plan, picture: PictureOfSet, method: str) -> Iterable[Picture] | None:
@@ -176,11 +178,12 @@ class _Sketch:
 
 
 def _where_they_differ(
-    clips: Sequence[Iterable[Picture] | None], still: Picture, *, moved: bool
+    clips: Sequence[Iterable[Picture] | None], still: Picture, *, pictures: int, moved: bool
 ) -> tuple[list[Picture], tuple[int, int, int], int]:
     """The frames of the moment at which rows differ most, the square where they do so, and the frame's number.
 
-    Where they differ everywhere, it is where the last row is farthest from what it showed at first.
+    Pictures, which are the first rows, are compared with pictures, and sketches with sketches. Where rows differ
+    everywhere, it is where the last one is farthest from what it showed at first.
     """
     height, width = still.shape[:2]
     side = max(16, min(height, width, round(_SHARE * min(height, width))))
@@ -189,7 +192,8 @@ def _where_they_differ(
     for t, frames in enumerate(zip(*(each for each in clips if each is not None), strict=False)):
         fitted = [_fitted(each, width, height) for each in frames]
         at_first = fitted[-1] if at_first is None else at_first
-        pairs = [(fitted[-1], at_first)] if moved else [(each, fitted[0]) for each in fitted[1:]]
+        alike = fitted[:pictures], fitted[pictures:]
+        pairs = [(fitted[-1], at_first)] if moved else [(each, rows[0]) for rows in alike for each in rows[1:]]
         difference = np.max([cv2.absdiff(*each).max(axis=2) for each in pairs], axis=0)
         summed = cv2.boxFilter(difference.astype(np.float32), -1, (side, side), borderType=cv2.BORDER_CONSTANT)
         _, score, _, (x, y) = cv2.minMaxLoc(summed)

@@ -10,8 +10,7 @@ from urllib.parse import quote
 from .columns import Column, Summary
 from .paper_figures import NOTE, PAPER_TABLES
 from .planning import left_out
-from .report_tables import shown_number
-from .results import ClipResult, MethodResult, Results, Value
+from .results import ClipResult, MethodResult, Results, Value, shown_number
 
 __all__ = ["as_html"]
 

@@ -12,9 +12,9 @@ from ... import __version__
 from .columns import Column, Summary
 from .paper_figures import NOTE, PAPER_TABLES
 from .planning import left_out
-from .results import Results, Value
+from .results import Results, Value, shown_number
 
-__all__ = ["as_clips_csv", "as_csv", "as_json", "as_latex", "shown_number"]
+__all__ = ["as_clips_csv", "as_csv", "as_json", "as_latex"]
 
 _TEX = {
     "\\": r"\textbackslash{}",
@@ -163,10 +163,3 @@ def _tex(text: str) -> str:
 
 def _comment(text: str) -> str:
     return " ".join(text.split())
-
-
-def shown_number(value: float) -> str:
-    """A number with about three places that say something, and no exponent where it can be read without."""
-    if value == 0 or 1e-4 <= abs(value) < 1000:
-        return f"{value:.3g}"
-    return f"{value:.0f}" if 1000 <= abs(value) < 1e6 else f"{value:.1e}"

@@ -10,7 +10,7 @@ from .clip_files import SHOWN
 from .columns import COLUMNS, Column, Summary, mean_of_samples, summary
 from .planning import Absent, Cell, Plan
 
-__all__ = ["ClipResult", "MethodResult", "Results", "Value", "results_of"]
+__all__ = ["ClipResult", "MethodResult", "Results", "Value", "results_of", "shown_number"]
 
 Value = Summary | str | None
 """Of a method in a column: with its interval; the name of the file that is missing; or None where no clip has one."""
@@ -91,7 +91,7 @@ class Results:
         found = {each.name: value for each in self.rows if isinstance(value := each.values[column.key], Summary)}
         most = max((each.count for each in found.values()), default=0)
         known = {name: value.mean for name, value in found.items() if value.count == most}
-        shown = {name: float(f"{value:.4g}") for name, value in known.items() if value is not None}
+        shown = {name: float(shown_number(value)) for name, value in known.items() if value is not None}
         if column.better is None or len(shown) < 2:
             return frozenset()
         wanted = (min if column.better == "lower" else max)(shown.values())
@@ -118,6 +118,13 @@ def results_of(plan: Plan) -> Results:
         rows.append(MethodResult(method.name, values, clips))
     names = [each.name for each in which.pictures]
     return Results(which.title or "Evaluation", COLUMNS, names, which.samples, rows, plan.absent)
+
+
+def shown_number(value: float) -> str:
+    """A number with about three places that say something, and no exponent where it can be read without."""
+    if value == 0 or 1e-4 <= abs(value) < 1000:
+        return f"{value:.3g}"
+    return f"{value:.0f}" if 1000 <= abs(value) < 1e6 else f"{value:.1e}"
 
 
 def _values(plan: Plan, cell: Cell) -> Mapping[str, Any]:

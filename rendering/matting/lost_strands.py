@@ -18,7 +18,7 @@ from .like_regions import like_regions
 from .mask_edges import CROSS, SQUARE, grown, mean_near
 from .strand_traces import traced_lines, traced_strands
 
-__all__ = ["lost_lines", "lost_strands"]
+__all__ = ["lost_lines", "lost_strands", "taken_off_of"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -34,29 +34,29 @@ _BLURRED_AWAY = 0.67
 _AHEAD = 40
 
 
-def lost_strands(image: FloatImage, shape: Mask, mask: FloatImage, *, sigma: float = 0) -> Mask:
+def lost_strands(image: FloatImage, shape: Mask, mask: FloatImage, *, taken_off: int, sigma: float = 0) -> Mask:
     """What goes on from a part outside of it as its strands do.
 
     Args:
         image: RGB in 0 to 1, shape [h, w, 3], or with further channels.
         shape: the part as far as it is known, shape [h, w].
         mask: the same as it was given, in 0 to 1, shape [h, w].
-        sigma: how much that has been blurred [px].
+        taken_off: how much has been taken off the mask on either side, see :func:`taken_off_of` [px].
+        sigma: how much the mask has been blurred [px].
 
     Returns:
         Strands beyond ``shape``, without their outlines, shape [h, w]; nothing if the mask has neither been shrunk nor
         blurred.
     """
     found, given = np.zeros_like(shape), mask > _HALF
-    off = _taken_off(shape, given)
-    lost = off + int(np.ceil(_BLURRED_AWAY * sigma))
+    lost = taken_off + int(np.ceil(_BLURRED_AWAY * sigma))
     if lost:
         light = image[..., :3] @ LUMINANCE
         for lightness in (light, 1 - light):
             line = lines(lightness)
             if followed(line, shape) > OUTLINED:
                 found |= _outlined(lightness, shape, _thin(_going_on(image, shape, line), shape, given, lost))
-    return traced_strands(found, shape, mask, sigma=sigma, lost=off) if sigma else found
+    return traced_strands(found, shape, mask, sigma=sigma, lost=taken_off) if sigma else found
 
 
 def lost_lines(image: FloatImage, shape: Mask, mask: FloatImage, told: Mask, *, sigma: float) -> Mask:
@@ -78,8 +78,13 @@ def lost_lines(image: FloatImage, shape: Mask, mask: FloatImage, told: Mask, *, 
     return traced_lines(outline_ink(image, shape), shape, mask, told, sigma=sigma)
 
 
-def _taken_off(shape: Mask, given: Mask) -> int:
-    """How much smaller than the part its mask is at most of its edge [px]; 0 if it is not."""
+def taken_off_of(shape: Mask, given: Mask) -> int:
+    """How much smaller than the part its mask is at most of its edge [px]; 0 if it is not.
+
+    Args:
+        shape: the part without strands that the mask has lost, which are farther from it than that; shape [h, w].
+        given: the mask, shape [h, w].
+    """
     line = shape & grown(~shape, CROSS)
     beyond = line & ~given
     if not given.any() or 2 * int(beyond.sum()) <= int(line.sum()):

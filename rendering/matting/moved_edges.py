@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ..pictures import nearest_pixels, window_around
 from .drawn_lines import with_ink
 from .edge_search import found_shape
-from .lost_strands import lost_lines, lost_strands
+from .lost_strands import lost_lines, lost_strands, taken_off_of
 from .mask_edges import CROSS, SQUARE, edge_strength, grown, mean_near
 from .mask_forms import MaskEdge, edge_of, from_edge
 from .matte import is_outlined
@@ -174,8 +174,9 @@ def _closed(added: Mask, shape: Mask, strength: FloatImage) -> Mask:
 
 def _with_strands(image: FloatImage, shape: Mask, mask: FloatImage, sigma: float) -> Mask:
     """The shape with the strands that the mask has lost; a strand of several colours is found piece by piece."""
+    off = taken_off_of(shape, mask > _HALF)  # with strands each find would allow a wider one
     for _ in range(_PIECES):
-        strands = lost_strands(image, shape, mask, sigma=sigma)
+        strands = lost_strands(image, shape, mask, taken_off=off, sigma=sigma)
         if not strands.any():
             break
         near = grown(strands, _AROUND_STRANDS)

@@ -18,11 +18,12 @@ import pytest
 from evaluation_sets import small_set
 from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.command import main
-from physanimator.rendering.evaluation import running
+from physanimator.rendering.evaluation import figures, running
 from physanimator.rendering.evaluation.clip_files import EXACT, SHOWN, kept_clip
-from physanimator.rendering.evaluation.columns import COLUMNS
+from physanimator.rendering.evaluation.columns import COLUMNS, Summary
 from physanimator.rendering.evaluation.planning import planned
 from physanimator.rendering.evaluation.report_folder import REPORT_FILES
+from physanimator.rendering.evaluation.results import MethodResult, Results
 from physanimator.rendering.evaluation.running import run
 from physanimator.rendering.evaluation.set_document import read_set
 from physanimator.rendering.pictures import load_image, load_mask, read_clip, save_image, write_animation
@@ -262,6 +263,46 @@ def test_an_ablation_is_a_figure(tmp_path: Path, name: str) -> None:
     assert evaluate(file, "-o", tmp_path / "report", "--figure", name, "--picture", "flag") == 0
     assert load_image(tmp_path / "report" / "figures" / f"{name}.png").std() > 5
     assert f"figures/{name}.png" in (tmp_path / "report" / "report.html").read_text()
+
+
+def test_values_beside_a_figure_are_of_the_pictures_that_it_shows(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[list[str]] = []
+    sheet = figures.contact_sheet
+    monkeypatch.setattr(figures, "contact_sheet", lambda *a, **k: drawn.append(k["row_names"]) or sheet(*a, **k))
+    file, report = small_set(tmp_path / "set", methods='"composite", "warp-inpaint"'), tmp_path / "report"
+    assert evaluate(file, "-o", report) == 0
+    assert evaluate(file, "-o", report, "--figure", "inpainting", "--picture", "flag") == 0
+    values: dict[tuple[str, str], list[float]] = {}
+    for clip in csv.DictReader((report / "clips.csv").read_text().splitlines()):
+        values.setdefault((clip["method"], clip["picture"]), []).append(float(clip["simulated_flow_error"]))
+    assert len({picture for _, picture in values}) > 1
+    (rows,) = drawn
+    for row in rows[1:]:
+        name, line = row.split("\n")[:2]
+        assert float(line.split()[-1]) == pytest.approx(np.mean(values[name, "flag"]), rel=0.01)
+
+
+def test_a_figure_compares_pictures_with_pictures_and_sketches_with_sketches() -> None:
+    dark = np.full((3, 100, 100, 3), 20, np.uint8)
+    white = np.full_like(dark, 255)
+    white[:, :, 60:] = 100
+    for one, row in ((dark, 0), (white, 60)):
+        other = one.copy()
+        other[2, row : row + 40, :40] += 60
+        clips = [dark, other, white, white] if one is dark else [dark, dark, white, other]
+        place = figures._where_they_differ(clips, dark[0], pictures=2, moved=False)[1:]
+        assert place == ((row, 0, 42), 2) or place == ((58, 0, 42), 2)
+
+
+def test_values_that_are_written_alike_are_best_together() -> None:
+    column = next(each for each in COLUMNS if each.key == "simulated_flow_error")
+    rows = [
+        MethodResult(name, {column.key: Summary(value, None, None, 1)}, [])
+        for name, value in (("one", 0.0068817), ("two", 0.0068811), ("three", 0.00689))
+    ]
+    assert Results("", [column], ["flag"], 1, rows, []).best(column) == {"one", "two"}
 
 
 def test_a_figure_that_is_none(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -125,6 +125,20 @@ def test_a_wide_limb_that_was_cut_off_stays_off() -> None:
     assert not found[:, 132:].any()
 
 
+@pytest.mark.parametrize("width", [14, 18])
+def test_a_wide_limb_that_strands_lead_to_stays_off(width: int) -> None:
+    """However long the strands are that have been found: the mask has been shrunk by no more than before."""
+    block, limb = blank(), stroked([(214, 30), (214, 150)], width, blank())
+    cv2.rectangle(block, (20 * FINE, 20 * FINE), (60 * FINE, 160 * FINE), 1, -1)
+    strands = blank()
+    for y in (40, 80, 120):
+        stroked([(50, y), (215, y + 4)], 4, strands)
+    beside = np.arange(WIDTH) < 200 - width / 2
+    found = regular(laid(sky(), block | strands | limb, RED), shrunk(outlined(block | strands)) * beside)
+    assert not found[coverage(limb) > 0.9].any()
+    assert found[:, 70:190][coverage(strands)[:, 70:190] > 0.5].mean() > 0.95
+
+
 def test_a_mask_that_is_not_too_small_ends_where_it_ends() -> None:
     """Whoever left the strand out of a mask that fits meant to."""
     picture = laid(sky(), stroked(STRAND, 4, body()), RED)
