@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ..shots import Job, Outcome, Problem, Shot
 
-__all__ = ["add_shots"]
+__all__ = ["BESIDES", "add_shots"]
 
-_BESIDES = ("report", "write_commands", "write_openjd")  # options of files that are written besides clips
+BESIDES = ("report", "write_commands", "write_openjd")  # options of files that are written besides clips
 
 
 def add_shots(parser: argparse.ArgumentParser) -> None:
@@ -135,7 +135,7 @@ def _chosen(options: argparse.Namespace) -> tuple[list[Shot], list[Problem]]:
     from ...physics.errors import InvalidInputError
     from .shot_list import read_list
 
-    besides = [(f"--{name.replace('_', '-')}", getattr(options, name)) for name in _BESIDES]
+    besides = [(f"--{name.replace('_', '-')}", getattr(options, name)) for name in BESIDES]
     read = read_list(options.list, options.output, also_written=[each for each in besides if each[1] is not None])
     if options.only is None:
         return list(read.shots), list(read.problems)

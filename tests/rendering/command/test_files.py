@@ -15,6 +15,7 @@ from command_status import status
 from physanimator.rendering.command import EXAMPLE
 from physanimator.rendering.command.commands import command_parser
 from physanimator.rendering.command.files import INPUTS, OUTPUTS
+from physanimator.rendering.command.shots import BESIDES
 from physanimator.rendering.pictures import save_image
 
 WIDTH, HEIGHT = 96, 72
@@ -195,5 +196,5 @@ def test_every_option_that_names_a_file_is_known() -> None:
     actions = [action for command in commands for action in command._actions]
     written = {each.dest for each in actions if str(each.metavar).startswith("OUT")}
     read = {each.dest for each in actions if each.metavar in ("IMAGE", "MASK", "FILE", "CLIP", "FOLDER")}
-    assert written == set(OUTPUTS)
+    assert written == {*OUTPUTS, *BESIDES}
     assert read == set(INPUTS)
