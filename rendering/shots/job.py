@@ -24,6 +24,7 @@ __all__ = [
     "Outcome",
     "animated",
     "forget_runs",
+    "notes_of",
     "outcome_of",
     "perform",
     "record_of",
@@ -174,7 +175,7 @@ def told_of(error: Exception) -> str:
 def _begun(notes: Path, shot: Shot) -> Path | None:
     """The note of this run; None where earlier runs were killed too often. What they have left is removed."""
     notes.mkdir(exist_ok=True)
-    for note in _notes_of(notes, shot):
+    for note in notes_of(notes, shot):
         if not note.exists():
             note.touch()
             return note
@@ -185,9 +186,10 @@ def _begun(notes: Path, shot: Shot) -> Path | None:
 
 def forget_runs(notes: Path, shot: Shot) -> None:
     """Remove what runs of a shot have left that were killed, and the memory of them."""
-    for note in _notes_of(notes, shot):
+    for note in notes_of(notes, shot):
         remove_noted(note)
 
 
-def _notes_of(notes: Path, shot: Shot) -> list[Path]:
+def notes_of(notes: Path, shot: Shot) -> list[Path]:
+    """Where runs of a shot note that they have begun; those that are there are of runs that were killed."""
     return [notes / f"{shot.name}.{run}" for run in range(MOST_RUNS)]

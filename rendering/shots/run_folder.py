@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO
 
 from ...physics.errors import InvalidInputError
-from .job import forget_runs
+from .job import forget_runs, notes_of
+from .problems import Problem
 from .shot import Shot
 
-__all__ = ["NOTES", "alone_in", "forgetting"]
+__all__ = ["NOTES", "alone_in", "forgetting", "others_files"]
 
 NOTES = ".shots"
 """Name of the folder."""
@@ -58,6 +59,23 @@ def forgetting(out: str, shots: list[Shot]) -> Iterator[None]:
         forget()
         with suppress(OSError):
             notes.rmdir()
+
+
+def others_files(out: str, shots: Iterable[Shot]) -> Iterator[Problem]:
+    """Files that would be replaced, of which neither a record nor the note of a killed run says that a run wrote them.
+
+    Args:
+        out: the folder of results.
+        shots: that are to be done.
+    """
+    notes = Path(out, NOTES)
+    for shot in shots:
+        if os.path.lexists(shot.record) or any(note.exists() for note in notes_of(notes, shot)):
+            continue
+        clips = (each.text or "" for each in shot.paths("output") if each.option == "output")
+        for path in filter(os.path.isfile, clips):
+            told = f"output must be new, or a clip with its record beside it. Got: {path}, which no run has written"
+            yield Problem(told, shot.name, "output", shot.lines.get("output", shot.line))
 
 
 def _locked(file: IO[bytes]) -> bool:

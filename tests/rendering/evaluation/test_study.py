@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from pathlib import Path
 from typing import Any
@@ -277,6 +278,23 @@ def test_files_that_hold_something_else_are_refused(text: str, tmp_path: Path) -
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InvalidInputError, match="Got: "):
         read_files([path])
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_a_pipe_is_refused_and_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "x.json")
+    for path in (tmp_path / "x.json", Path("/dev/zero")):
+        with pytest.raises(InvalidInputError, match=r"ANSWERS must be a file\. Got: "):
+            read_files([path])
+
+
+def test_a_table_does_not_replace_answers_or_the_key(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (path,) = written(tmp_path)
+    answers = path.rename(tmp_path / "answers.csv")
+    before = answers.read_bytes()
+    assert main(["study", "results", str(answers), "--csv", str(answers)]) == 2
+    assert "--csv must not be a file that is read" in capsys.readouterr().err
+    assert answers.read_bytes() == before
 
 
 def test_results_are_printed_and_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
