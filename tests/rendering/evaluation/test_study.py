@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.command import main
-from physanimator.rendering.evaluation.study import MethodClips, StudyKey, method_clips, read_files, results_of
+from physanimator.rendering.evaluation.study import MethodClips, StudyKey, making, method_clips, read_files, results_of
 from physanimator.rendering.evaluation.study.agreement import krippendorff_alpha
 from physanimator.rendering.evaluation.study.answers import AnswerFile
 from physanimator.rendering.evaluation.study.clip_folders import BROKEN
@@ -106,6 +106,20 @@ def test_the_key_of_another_study_is_never_replaced(folders: list[str], tmp_path
     assert main(make) == 2
     assert key.read_text() == "mine"
     assert page.read_bytes() == text
+
+
+def test_no_key_is_left_where_its_page_cannot_be_written(
+    folders: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(path: Path, text: str) -> None:
+        if path.suffix == ".html":
+            raise OSError(28, "No space left on device", str(path))
+        path.write_text(text, encoding="utf-8")
+
+    monkeypatch.setattr(making, "write_text", full)
+    before = sorted(tmp_path.iterdir())
+    assert main(["study", "make", *folders, "-o", str(tmp_path / "page.html"), "--quiet"]) == 1
+    assert sorted(tmp_path.iterdir()) == before
 
 
 def refused(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
