@@ -7,10 +7,10 @@ import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import IO
 
 from ...physics.errors import InvalidInputError
 from .job import forget_runs, notes_of
+from .locks import is_locked_now
 from .problems import Problem
 from .shot import Shot
 
@@ -30,7 +30,7 @@ def alone_in(out: str) -> Iterator[None]:
     notes = Path(out, NOTES)
     notes.mkdir(exist_ok=True)
     with (notes / "lock").open("a+b") as lock:
-        if not _locked(lock):
+        if not is_locked_now(lock):
             raise InvalidInputError(
                 f"--output must be a folder that no other run fills. Got: {out}, where one is at work"
             )
@@ -76,20 +76,3 @@ def others_files(out: str, shots: Iterable[Shot]) -> Iterator[Problem]:
         for path in filter(os.path.isfile, clips):
             told = f"output must be new, or a clip with its record beside it. Got: {path}, which no run has written"
             yield Problem(told, shot.name, "output", shot.lines.get("output", shot.line))
-
-
-def _locked(file: IO[bytes]) -> bool:
-    try:
-        if os.name == "nt":
-            import msvcrt
-
-            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
-        else:
-            import fcntl
-
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    except OSError:
-        return os.name != "nt"  # a network drive without locks
-    return True

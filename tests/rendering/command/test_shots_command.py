@@ -402,3 +402,23 @@ def test_a_shot_whose_workers_are_killed_thrice_is_given_up(folder: Path, capsys
     assert outcome.state == "lost"
     assert "3 times" in outcome.why
     assert litter(folder / "out") == [".shots"]
+
+
+def test_what_another_run_is_writing_stays(folder: Path, capsys: Output) -> None:
+    """As where a farm gives a task out twice."""
+    fcntl = pytest.importorskip("fcntl")
+    write_list(folder / "list.toml", ['name = "a"'])
+    notes = folder / "out" / ".shots"
+    notes.mkdir(parents=True)
+    half = folder / "out" / ".1half.mp4"
+    half.touch()
+    with (notes / "a.0").open("w+b") as note:
+        note.write(f"{half}\0".encode())
+        note.flush()
+        fcntl.flock(note, fcntl.LOCK_EX)
+        assert status(*SHOTS) == 0
+        assert "1 done now" in capsys.readouterr().out
+        assert half.exists()
+    (folder / "out" / "a.mp4").unlink()
+    assert status(*SHOTS) == 0
+    assert not half.exists()  # whoever wrote it is gone
