@@ -150,15 +150,16 @@ def _build(options: argparse.Namespace) -> None:
     if (options.index is None) != (options.score_column is None):
         raise InvalidInputError("--index and --score-column must be given together. Got: one of them")
     data = None if options.dry_run else Path(options.output)
-    if data is not None:
-        check_data_folder(data)
     with _named():
+        if data is not None:
+            check_data_folder(data)
         bounds = Bounds(options.min_frames, options.min_score, options.max_score)
         making = BuildOptions(options.size, options.fps, options.longest, bounds)
     videos = videos_in([Path(each) for each in options.video])
     scores, scored_by = None, ""
     if options.index is not None:
-        scores = read_scores(Path(options.index), options.score_column, videos)
+        with _named():
+            scores = read_scores(Path(options.index), options.score_column, videos)
         scored_by = f"{Path(options.index).name}: {options.score_column}"
     lines = None if options.lines is None else Path(options.lines)
     work = BuildWork(data, making, lines, options.device, options.licence, scored_by)
@@ -273,7 +274,8 @@ def _bar(options: argparse.Namespace, stage: str) -> Iterator[Progress]:
 
 
 _NAMES = {"least_frames": "--min-frames", "least_score": "--min-score", "most_score": "--max-score"} | {
-    name: f"--{name}" for name in ("size", "fps", "longest", "workers", "clips", "frames", "seed")
+    name: f"--{name.replace('_', '-')}"
+    for name in ("output", "index", "score_column", "size", "fps", "longest", "workers", "clips", "frames", "seed")
 }
 
 

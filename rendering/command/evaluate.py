@@ -99,7 +99,7 @@ def _evaluate(options: argparse.Namespace) -> None:
 
 
 def _write_trajectories(options: argparse.Namespace, which: EvaluationSet, output: Path) -> None:
-    from ...physics.errors import require
+    from ...physics.errors import counted, require
     from ..evaluation.motion_inputs import write_trajectories
     from ..evaluation.trajectories import TRAJECTORIES
     from .messages import say
@@ -109,7 +109,7 @@ def _write_trajectories(options: argparse.Namespace, which: EvaluationSet, outpu
     with ExitStack() as bars:
         written = write_trajectories(which, output, options.trajectories, progress=_progress(options, bars))
     if not options.quiet:
-        say(f"{output / 'trajectories'}: inputs of {written} clips for {', '.join(options.trajectories)}")
+        say(f"{output / 'trajectories'}: inputs of {counted(written, 'clip')} for {', '.join(options.trajectories)}")
 
 
 def _check_packages() -> None:

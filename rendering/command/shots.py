@@ -70,7 +70,7 @@ def add_shots(parser: argparse.ArgumentParser) -> None:
 
 
 def _shots(options: argparse.Namespace) -> None:
-    from ..shots import check_installed
+    from ..shots import check_installed, others_files
     from .shots_run import run_shots
 
     _check_options(options)
@@ -80,7 +80,8 @@ def _shots(options: argparse.Namespace) -> None:
     with _output_folder(options):
         shots, problems = _chosen(options)
         kept, jobs = _what_to_do(options, shots)
-        _refuse(options, [*problems, *_wrong(shots if for_farms else [each.shot for each in jobs])])
+        to_do = shots if for_farms else [each.shot for each in jobs]
+        _refuse(options, [*problems, *others_files(options.output, to_do), *_wrong(to_do)])
         if for_farms:
             _write_for_farms(options, shots)
         elif options.dry_run:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -180,9 +180,18 @@ def _results(options: argparse.Namespace) -> None:
     if options.csv is not None:
         with named_as("--csv", "the name"):
             check_text_output(options.csv, ".csv")
+        _check_not_read(options.csv, [*options.answers, *filter(None, [options.key])])
     key, files = read_files([Path(each) for each in options.answers], options.key and Path(options.key))
     with _named():
         results: StudyResults = results_of(key, files, against=options.against, least_caught=options.least_caught)
     if options.csv is not None:
         write_text(options.csv, results_csv(results))
     show(results_json(results) if options.json else results_text(results))
+
+
+def _check_not_read(output: str, read: Sequence[str]) -> None:
+    """Refuse to replace a rater's answers or the key."""
+    from ...physics.errors import InvalidInputError
+
+    if Path(output).exists() and any(Path(each).exists() and Path(output).samefile(each) for each in read):
+        raise InvalidInputError(f"--csv must not be a file that is read. Got: {output}")

@@ -11,7 +11,7 @@ from .job import Animated, Job, Outcome
 from .option_words import OptionNames, Word, shot_name, words_of
 from .problems import Problem, merged
 from .report import write_report
-from .run_folder import NOTES, alone_in, forgetting
+from .run_folder import NOTES, alone_in, forgetting, others_files
 from .shot import FileDigests, Shot, identity_of
 from .shot_record import ENDING, ShotRecord, is_finished, read_shot_record
 from .summary import summary_lines
@@ -42,6 +42,7 @@ __all__ = [
     "local_cluster",
     "merged",
     "openjd_template",
+    "others_files",
     "outcomes_here",
     "outcomes_of",
     "read_rows",

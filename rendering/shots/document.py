@@ -78,7 +78,7 @@ def _rows_of_toml(text: str, path: str) -> tuple[list[ShotRow], list[Problem]]:
 
     try:
         document = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # among them numbers of thousands of digits
         raise InvalidInputError(f"SHOTS must be TOML. Got: {path}: {error}") from None
     lines = table_lines(text)
     problems = [

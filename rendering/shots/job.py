@@ -13,6 +13,7 @@ from pathlib import Path
 from ...physics.errors import Cancelled
 from ...physics.interruption import interruptible
 from ..files import is_full, noting_unfinished, remove_noted
+from .locks import held, is_held
 from .shot import Shot
 from .shot_record import ShotRecord, is_finished, write_shot_record, written_by
 
@@ -24,6 +25,7 @@ __all__ = [
     "Outcome",
     "animated",
     "forget_runs",
+    "notes_of",
     "outcome_of",
     "perform",
     "record_of",
@@ -116,7 +118,7 @@ def perform(job: Job, wanted: Callable[[], bool] = lambda: True) -> Outcome:
     if run is None:
         return Outcome(shot.name, "lost", f"its worker was killed {MOST_RUNS} times", machine=machine)
     start = time.perf_counter()
-    with noting_unfinished(run):
+    with held(run), noting_unfinished(run):
         ended = animated(job.run, shot.command(), wanted)
         outcome = outcome_of(shot, ended, time.perf_counter() - start, machine)
         if outcome.state == "done":
@@ -174,10 +176,12 @@ def told_of(error: Exception) -> str:
 def _begun(notes: Path, shot: Shot) -> Path | None:
     """The note of this run; None where earlier runs were killed too often. What they have left is removed."""
     notes.mkdir(exist_ok=True)
-    for note in _notes_of(notes, shot):
+    for note in notes_of(notes, shot):
         if not note.exists():
             note.touch()
             return note
+        if is_held(note):  # by a run that is at work
+            continue
         remove_noted(note)
         note.touch()  # it counts
     return None
@@ -185,9 +189,11 @@ def _begun(notes: Path, shot: Shot) -> Path | None:
 
 def forget_runs(notes: Path, shot: Shot) -> None:
     """Remove what runs of a shot have left that were killed, and the memory of them."""
-    for note in _notes_of(notes, shot):
-        remove_noted(note)
+    for note in notes_of(notes, shot):
+        if not is_held(note):
+            remove_noted(note)
 
 
-def _notes_of(notes: Path, shot: Shot) -> list[Path]:
+def notes_of(notes: Path, shot: Shot) -> list[Path]:
+    """Where runs of a shot note that they have begun; those that are there are of runs that were killed."""
     return [notes / f"{shot.name}.{run}" for run in range(MOST_RUNS)]

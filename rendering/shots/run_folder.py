@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import IO
 
 from ...physics.errors import InvalidInputError
-from .job import forget_runs
+from .job import forget_runs, notes_of
+from .locks import is_locked_now
+from .problems import Problem
 from .shot import Shot
 
-__all__ = ["NOTES", "alone_in", "forgetting"]
+__all__ = ["NOTES", "alone_in", "forgetting", "others_files"]
 
 NOTES = ".shots"
 """Name of the folder."""
@@ -29,7 +30,7 @@ def alone_in(out: str) -> Iterator[None]:
     notes = Path(out, NOTES)
     notes.mkdir(exist_ok=True)
     with (notes / "lock").open("a+b") as lock:
-        if not _locked(lock):
+        if not is_locked_now(lock):
             raise InvalidInputError(
                 f"--output must be a folder that no other run fills. Got: {out}, where one is at work"
             )
@@ -60,18 +61,18 @@ def forgetting(out: str, shots: list[Shot]) -> Iterator[None]:
             notes.rmdir()
 
 
-def _locked(file: IO[bytes]) -> bool:
-    try:
-        if os.name == "nt":
-            import msvcrt
+def others_files(out: str, shots: Iterable[Shot]) -> Iterator[Problem]:
+    """Files that would be replaced, of which neither a record nor the note of a killed run says that a run wrote them.
 
-            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
-        else:
-            import fcntl
-
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    except OSError:
-        return os.name != "nt"  # a network drive without locks
-    return True
+    Args:
+        out: the folder of results.
+        shots: that are to be done.
+    """
+    notes = Path(out, NOTES)
+    for shot in shots:
+        if os.path.lexists(shot.record) or any(note.exists() for note in notes_of(notes, shot)):
+            continue
+        clips = (each.text or "" for each in shot.paths("output") if each.option == "output")
+        for path in filter(os.path.isfile, clips):
+            told = f"output must be new, or a clip with its record beside it. Got: {path}, which no run has written"
+            yield Problem(told, shot.name, "output", shot.lines.get("output", shot.line))

@@ -10,8 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..files import made_beside, replacing, uninterrupted
-from .job import Job, Outcome, animated, outcome_of, record_of
+from ..files import made_beside, noting_unfinished, replacing, uninterrupted
+from .job import Job, Outcome, animated, notes_of, outcome_of, record_of
 from .shot import files_read
 
 __all__ = ["Parcel", "Returned", "packed", "perform_elsewhere", "unpacked"]
@@ -137,14 +137,18 @@ def unpacked(job: Job, returned: Returned) -> Outcome:
     outcome = returned.outcome
     if outcome.state != "done":
         return outcome
-    for path in dict.fromkeys(path for path, _ in returned.files):
-        mine = {within: content for (each, within), content in returned.files.items() if each == path}
-        if "" in mine:
-            with replacing(path) as temporary:
-                temporary.write_bytes(mine[""])
-        else:
-            _put_folder(Path(path), mine, job.files_of(path))
-    record_of(job, outcome)
+    note = notes_of(Path(job.notes), job.shot)[0]
+    note.parent.mkdir(exist_ok=True)
+    note.touch()
+    with noting_unfinished(note):
+        for path in dict.fromkeys(path for path, _ in returned.files):
+            mine = {within: content for (each, within), content in returned.files.items() if each == path}
+            if "" in mine:
+                with replacing(path) as temporary:
+                    temporary.write_bytes(mine[""])
+            else:
+                _put_folder(Path(path), mine, job.files_of(path))
+        record_of(job, outcome)
     return outcome
 
 

@@ -15,7 +15,7 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from ...physics.checks import is_number
+from ...physics.checks import is_whole, within
 from ...physics.errors import InvalidInputError
 
 __all__ = [
@@ -30,6 +30,7 @@ __all__ = [
 ]
 
 _LONGEST_LINE, _MOST_CLIPS = 1 << 16, 10_000_000
+_LARGEST_NUMBER = 1_000_000_000
 _FORBIDDEN = set('/\\:*?"<>|')
 
 
@@ -151,8 +152,8 @@ def _value(value: Any, kind: str, where: str) -> Any:
     fits = {
         "str": isinstance(value, str),
         "bool": isinstance(value, bool),
-        "float": is_number(value),
-        "int": is_number(value) and int(value) == value,
+        "float": within(value, -_LARGEST_NUMBER, _LARGEST_NUMBER),
+        "int": is_whole(value, 0, _LARGEST_NUMBER),
     }[kind]
     if not fits:
         raise InvalidInputError(f"{where} must be a value of kind {kind}. Got: {value!r:.60}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -32,6 +33,7 @@ def run(kind: str, make: Callable[[TrainingSettings], Task], arguments: Sequence
     with ending_signals():
         try:
             if options.write_config is not None:
+                _check_new(options.write_config)
                 write_text(options.write_config, as_toml(PRESETS[options.preset][kind]))
                 print(f"{options.write_config}: preset {options.preset}")
                 return 0
@@ -80,6 +82,12 @@ def _parser(kind: str) -> argparse.ArgumentParser:
         "--resume", metavar="WHICH", help="go on from 'latest' or from a checkpoint's folder, exactly where it stopped"
     )
     return parser
+
+
+def _check_new(path: str) -> None:
+    """Refuse to replace settings that somebody may have filled in."""
+    if os.path.lexists(path):
+        raise InvalidInputError(f"--write-config must name a new file. Got: {path}, which is there already")
 
 
 def _say(line: str) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ....physics.errors import InvalidInputError, printable
+from ...files import check_regular
 from .making import KEY_FORMAT
 from .trials import Trial
 
@@ -83,10 +84,13 @@ def read_files(paths: Sequence[Path], key: Path | None = None) -> tuple[StudyKey
 
 
 def _document(path: Path) -> dict[str, Any]:
+    check_regular(path, "ANSWERS")
     try:
-        if path.stat().st_size > _LARGEST:
+        with path.open("rb") as opened:
+            content = opened.read(_LARGEST + 1)
+        if len(content) > _LARGEST:
             raise InvalidInputError(f"{printable(str(path))} must have at most {_LARGEST // 1_000_000} MB. Got: more")
-        document = json.loads(path.read_text(encoding="utf-8-sig"))
+        document = json.loads(content.decode("utf-8-sig"))
     except FileNotFoundError:
         raise InvalidInputError(f"ANSWERS must be files. Got: {printable(str(path))}, which is not there") from None
     except (OSError, UnicodeDecodeError, ValueError, RecursionError):

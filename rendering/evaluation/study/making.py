@@ -7,7 +7,8 @@ import hashlib
 import json
 import shutil
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -120,16 +121,29 @@ def make_study(
         study = _identity(trials, options, files)
         key = _key(study, trials, options)
         _check_key(page, key)
-        write_text(key_place(page), json.dumps(key, indent=1, ensure_ascii=False) + "\n")
         sources = [
             f"{_folder(page).name}/{path.name}" if options.beside else base64.b64encode(path.read_bytes()).decode()
             for path in files
         ]
         document = _document(study, trials, numbers, options, sources)
-        if options.beside:
-            write_recorded_folder(f"{_folder(page)}/", _CLIPS, lambda place: _copied(files, place))
-        write_text(page, page_text(document, options.language, options.title or WORDS[options.language]["title"]))
+        with _key_written(key_place(page), key):
+            if options.beside:
+                write_recorded_folder(f"{_folder(page)}/", _CLIPS, lambda place: _copied(files, place))
+            write_text(page, page_text(document, options.language, options.title or WORDS[options.language]["title"]))
     return study
+
+
+@contextmanager
+def _key_written(place: Path, key: dict[str, Any]) -> Iterator[None]:
+    """The key, written before its page; a new one goes again where the page cannot be written."""
+    is_new = not place.exists()
+    write_text(place, json.dumps(key, indent=1, ensure_ascii=False) + "\n")
+    try:
+        yield
+    except BaseException:
+        if is_new:
+            place.unlink(missing_ok=True)
+        raise
 
 
 def _check_key(page: Path, key: dict[str, Any]) -> None:

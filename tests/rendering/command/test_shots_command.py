@@ -79,6 +79,27 @@ def test_a_second_run_does_only_what_is_missing_or_changed(folder: Path, capsys:
     assert "0 done now, 4 done before" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("how", [(), ("--dry-run",), ("--write-commands", "lines.txt")])
+def test_what_others_have_put_there_is_not_replaced(folder: Path, capsys: Output, how: tuple[str, ...]) -> None:
+    write_list(folder / "list.toml", ['name = "a"'])
+    (folder / "out").mkdir()
+    (folder / "out" / "a.mp4").write_text("mine")
+    assert status(*SHOTS, *how) == 2
+    assert re.search(r"line 6, shot a: output must be new.* Got: .*a.mp4, which", capsys.readouterr().err)
+    assert [path.name for path in (folder / "out").iterdir()] == ["a.mp4"]
+    assert (folder / "out" / "a.mp4").read_text() == "mine"
+
+
+def test_a_clip_whose_run_was_killed_before_its_record_is_made_again(folder: Path, capsys: Output) -> None:
+    write_list(folder / "list.toml", ['name = "a"'])
+    assert status(*SHOTS) == 0
+    (folder / "out" / "a.mp4.shot.json").unlink()
+    (folder / "out" / ".shots").mkdir()
+    (folder / "out" / ".shots" / "a.0").touch()
+    assert status(*SHOTS) == 0
+    assert "1 done now" in capsys.readouterr().out
+
+
 def test_a_moved_folder_is_still_done(folder: Path, capsys: Output) -> None:
     write_list(folder / "list.toml", ['name = "a"\noutput = "{out}/{name}/"', 'name = "b"'])
     assert status(*SHOTS) == 0
@@ -167,6 +188,7 @@ def test_all_errors_are_in_one_list_with_shot_option_and_line(folder: Path) -> N
         ("[shot]\nname = 'a'\n", "each [[shot]]"),
         ("defaults = 3\n[[shot]]\n", "must be a table"),
         ("[[shot\n", "must be TOML"),
+        (f"[[shot]]\nname = 'a'\nframes = {'9' * 5000}\n", "must be TOML"),
     ],
 )
 def test_what_is_no_list_is_refused(folder: Path, text: str, words: str) -> None:
@@ -380,3 +402,23 @@ def test_a_shot_whose_workers_are_killed_thrice_is_given_up(folder: Path, capsys
     assert outcome.state == "lost"
     assert "3 times" in outcome.why
     assert litter(folder / "out") == [".shots"]
+
+
+def test_what_another_run_is_writing_stays(folder: Path, capsys: Output) -> None:
+    """As where a farm gives a task out twice."""
+    fcntl = pytest.importorskip("fcntl")
+    write_list(folder / "list.toml", ['name = "a"'])
+    notes = folder / "out" / ".shots"
+    notes.mkdir(parents=True)
+    half = folder / "out" / ".1half.mp4"
+    half.touch()
+    with (notes / "a.0").open("w+b") as note:
+        note.write(f"{half}\0".encode())
+        note.flush()
+        fcntl.flock(note, fcntl.LOCK_EX)
+        assert status(*SHOTS) == 0
+        assert "1 done now" in capsys.readouterr().out
+        assert half.exists()
+    (folder / "out" / "a.mp4").unlink()
+    assert status(*SHOTS) == 0
+    assert not half.exists()  # whoever wrote it is gone

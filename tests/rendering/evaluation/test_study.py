@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.command import main
-from physanimator.rendering.evaluation.study import MethodClips, StudyKey, method_clips, read_files, results_of
+from physanimator.rendering.evaluation.study import MethodClips, StudyKey, making, method_clips, read_files, results_of
 from physanimator.rendering.evaluation.study.agreement import krippendorff_alpha
 from physanimator.rendering.evaluation.study.answers import AnswerFile
 from physanimator.rendering.evaluation.study.clip_folders import BROKEN
@@ -105,6 +106,20 @@ def test_the_key_of_another_study_is_never_replaced(folders: list[str], tmp_path
     assert main(make) == 2
     assert key.read_text() == "mine"
     assert page.read_bytes() == text
+
+
+def test_no_key_is_left_where_its_page_cannot_be_written(
+    folders: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(path: Path, text: str) -> None:
+        if path.suffix == ".html":
+            raise OSError(28, "No space left on device", str(path))
+        path.write_text(text, encoding="utf-8")
+
+    monkeypatch.setattr(making, "write_text", full)
+    before = sorted(tmp_path.iterdir())
+    assert main(["study", "make", *folders, "-o", str(tmp_path / "page.html"), "--quiet"]) == 1
+    assert sorted(tmp_path.iterdir()) == before
 
 
 def refused(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
@@ -277,6 +292,23 @@ def test_files_that_hold_something_else_are_refused(text: str, tmp_path: Path) -
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InvalidInputError, match="Got: "):
         read_files([path])
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_a_pipe_is_refused_and_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "x.json")
+    for path in (tmp_path / "x.json", Path("/dev/zero")):
+        with pytest.raises(InvalidInputError, match=r"ANSWERS must be a file\. Got: "):
+            read_files([path])
+
+
+def test_a_table_does_not_replace_answers_or_the_key(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (path,) = written(tmp_path)
+    answers = path.rename(tmp_path / "answers.csv")
+    before = answers.read_bytes()
+    assert main(["study", "results", str(answers), "--csv", str(answers)]) == 2
+    assert "--csv must not be a file that is read" in capsys.readouterr().err
+    assert answers.read_bytes() == before
 
 
 def test_results_are_printed_and_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

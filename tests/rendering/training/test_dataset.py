@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -99,7 +100,7 @@ def test_other_options_are_noticed(data: Path, videos: Path, capsys: Output) -> 
 def test_folders_of_others_are_left_alone(videos: Path, tmp_path: Path, capsys: Output) -> None:
     (tmp_path / "thesis.txt").write_text("mine")
     assert status("dataset", "build", str(videos), "--output", str(tmp_path), *SMALL) == 2
-    assert "thesis.txt" in capsys.readouterr().err
+    assert re.search(r"--output must be .* holds thesis\.txt", capsys.readouterr().err)
     assert os.listdir(tmp_path) == ["thesis.txt"]
     assert status("dataset", "simulate", "--clips", "1", "--output", str(tmp_path)) == 2
 
@@ -310,3 +311,12 @@ def test_encoding_by_the_command_is_done_once(
     assert status(*encode) == 0
     assert "0 clips encoded now" in capsys.readouterr().out
     assert status(*encode, "--svd", str(files["svd"]), "--tooncrafter", str(files["tooncrafter"])) == 2
+
+
+def test_an_index_that_is_none_names_its_option(videos: Path, tmp_path: Path, capsys: Output) -> None:
+    index = tmp_path / "index.csv"
+    for content, told in ((b"file,score\n", "--score-column must be"), (b"\xff\xfe", "--index must be")):
+        index.write_bytes(content)
+        made = ("dataset", "build", str(videos), "--dry-run", "--index", str(index), "--score-column", "speed")
+        assert status(*made) == 2
+        assert told in capsys.readouterr().err

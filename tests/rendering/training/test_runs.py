@@ -264,6 +264,7 @@ def test_a_written_file_is_read_back_as_its_preset(tmp_path: Path, preset: str, 
     for name, value in (("data", "data"), ("output", "out"), ("svd", "svd"), ("tooncrafter", "tc"), ("start", "s")):
         text = text.replace(f'\n{name} = ""', f'\n{name} = "{value}"')
     file.write_text(text)
+    assert main(["--write-config", str(file), "--preset", preset]) == 2  # what was filled in stays
     found = read_settings(file, kind, preset)
     placed = {"data": "data", "output": "out", "svd": "svd", "tooncrafter": "tc", "start": "s"}
     assert found == replace(PRESETS[preset][kind], **{name: str(tmp_path / each) for name, each in placed.items()})
@@ -293,6 +294,7 @@ def test_the_papers_values_are_a_preset() -> None:
         ("precision = 'half'", "precision must be one of no, fp16, bf16"),
         ("colour = 3", "must have no other settings than --write-config lists. Got: colour"),
         ("steps = ", "must be TOML"),
+        (f"steps = {'9' * 5000}", "must be TOML"),
         ("steps = 3", "must name data"),
         ("data = 'd'\noutput = 'o'", "must name svd"),
     ],
