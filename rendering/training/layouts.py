@@ -11,11 +11,12 @@ ltx-trainer: dataset.json with video, reference_video and caption (its docs/data
 from __future__ import annotations
 
 import csv
+import hashlib
 import io
 import json
 import os
 import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -59,7 +60,8 @@ def export_data(
 ) -> str:
     """Write the kept clips of a data folder in another trainer's layout.
 
-    Videos are hard links where the disk allows, else copies. An earlier export in the folder is brought up to date.
+    Videos are hard links where the disk allows, else copies. An earlier export in the folder is brought up to date,
+    unless somebody has edited its texts.
 
     Args:
         data: the data folder.
@@ -72,15 +74,17 @@ def export_data(
         What to tell the other trainer.
 
     Raises:
-        InvalidInputError: the data is unusable, or the folder holds what we did not write.
+        InvalidInputError: the data is unusable, or the folder holds what we did not write or somebody has edited.
     """
     require("layout", layout, layout in LAYOUTS, f"one of {', '.join(LAYOUTS)}")
     clips = [_Clip(record, _caption(data, record.name, caption)) for record in kept_clips(data)]
-    earlier = _earlier_files(output)
-    files = _files_of(clips, layout)
+    earlier, known = _earlier_files(output)
+    files, texts = _files_of(clips, layout), _texts_of(clips, layout, output.absolute())
     output.mkdir(exist_ok=True)
     # What this export may write is told first, so that one that was stopped is known as ours.
-    write_text(output / _RECORD, json.dumps({"layout": layout, "files": sorted({*earlier, *files})}, indent=1))
+    digests = {name: [_digest(text.encode())] for name, text in texts.items()}
+    either = {name: [*known.get(name, ()), *digests.get(name, ())] for name in {*known, *digests}}
+    _write_record(output, layout, {*earlier, *files}, either)
     for folder in sorted({str(Path(name).parent) for name in files}):
         (output / folder).mkdir(exist_ok=True)
     for number, clip in enumerate(clips, start=1):
@@ -88,15 +92,13 @@ def export_data(
         _link(sketch_file(data, clip.record.name), output / clip.control)
         if clip.reference in files:
             save_image(output / clip.reference, next(islice(read_clip(clip_file(data, clip.record.name)), 1)))
-        if layout == "musubi":
-            write_text((output / clip.video).with_suffix(".txt"), clip.caption + "\n")
         if progress is not None:
             progress(number, len(clips))
-    name, made = LAYOUTS[layout]
-    write_text(output / name, made(clips, output.absolute()))
+    for name, text in texts.items():
+        write_text(output / name, text)
     for gone in earlier - files:
         (output / gone).unlink(missing_ok=True)
-    write_text(output / _RECORD, json.dumps({"layout": layout, "files": sorted(files)}, indent=1))
+    _write_record(output, layout, files, digests)
     return _hint(layout, output, clips)
 
 
@@ -179,6 +181,15 @@ def _files_of(clips: Sequence[_Clip], layout: str) -> set[str]:
     return files
 
 
+def _texts_of(clips: Sequence[_Clip], layout: str, output: Path) -> dict[str, str]:
+    """Those of the files that people like to edit, by name."""
+    name, made = LAYOUTS[layout]
+    captions = clips if layout == "musubi" else ()
+    return {each.video.removesuffix(".mp4") + ".txt": each.caption + "\n" for each in captions} | {
+        name: made(clips, output)
+    }
+
+
 def _caption(data: Path, name: str, usual: str) -> str:
     place = data / "captions" / f"{name}.txt"
     if not place.is_file():
@@ -194,27 +205,43 @@ def _caption(data: Path, name: str, usual: str) -> str:
     return text
 
 
-def _earlier_files(output: Path) -> set[str]:
-    """What an earlier export wrote into the folder.
+def _earlier_files(output: Path) -> tuple[set[str], dict[str, list[str]]]:
+    """What an earlier export wrote into the folder: its files, and what its texts may be, as digests.
 
     Raises:
-        InvalidInputError: there is something of somebody else's.
+        InvalidInputError: there is something of somebody else's, or a text has been edited since.
     """
     check_folder_place(output)
     if not output.is_dir() or not any(output.iterdir()):
-        return set()
+        return set(), {}
     place = output / _RECORD
     try:
         with place.open("rb") as opened:
-            files = json.loads(opened.read(_LARGEST_RECORD))["files"]
-        ours = {str(each) for each in files}
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+            record = json.loads(opened.read(_LARGEST_RECORD))
+        ours = {str(each) for each in record["files"]}
+        texts = {str(name): [str(each) for each in digests] for name, digests in record["texts"].items()}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise InvalidInputError(
             f"output must be a new folder, or one that physanimator dataset export wrote. Got: {output}"
         ) from None
-    if any(Path(each).is_absolute() or ".." in Path(each).parts for each in ours):
+    if any(Path(each).is_absolute() or ".." in Path(each).parts for each in {*ours, *texts}):
         raise InvalidInputError(f"{place} must name files of its own folder. Got: others")
-    return ours
+    for name, digests in texts.items():
+        if (output / name).is_file() and _digest((output / name).read_bytes()) not in digests:
+            raise InvalidInputError(
+                "output must hold only what physanimator dataset export wrote; move what you have edited away, or"
+                f" export to another folder. Got: {output / name}, which has changed since"
+            )
+    return ours, texts
+
+
+def _write_record(output: Path, layout: str, files: set[str], texts: Mapping[str, Sequence[str]]) -> None:
+    record = {"layout": layout, "files": sorted(files), "texts": dict(sorted(texts.items()))}
+    write_text(output / _RECORD, json.dumps(record, indent=1))
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
 
 
 def _link(source: Path, place: Path) -> None:

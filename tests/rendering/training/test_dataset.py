@@ -261,11 +261,27 @@ def test_an_export_replaces_its_own_files_alone(data: Path, tmp_path: Path, caps
     assert not (out / "metadata.csv").exists()
     assert list((out / "reference").iterdir()) == []
     assert (out / "videos" / "mine.mp4").read_bytes() == b"mine"
-    (out / "physanimator_export.json").write_text('{"files": ["../../thesis.txt"]}')
+    (out / "physanimator_export.json").write_text('{"files": ["../../thesis.txt"], "texts": {}}')
     assert status(*arguments, "ltx") == 2
     (out / "physanimator_export.json").unlink()
     assert status(*arguments, "ltx") == 2
     assert "new folder" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("layout", "name"), [("musubi", "dataset.toml"), ("diffsynth", "metadata.csv")])
+def test_an_edited_export_is_kept(data: Path, tmp_path: Path, capsys: Output, layout: str, name: str) -> None:
+    out = tmp_path / "out"
+    arguments = ["dataset", "export", str(data), "-o", str(out), "-q", "--layout"]
+    assert status(*arguments, layout) == 0
+    assert status(*arguments, layout) == 0, "nothing has changed"
+    edited = (out / name).read_bytes() + b"\n"
+    (out / name).write_bytes(edited)
+    for each in (layout, "ltx"):
+        assert status(*arguments, each) == 2
+        assert "has changed since" in capsys.readouterr().err
+    assert (out / name).read_bytes() == edited
+    (out / name).unlink()
+    assert status(*arguments, layout) == 0
 
 
 def test_colours_of_thin_lines_are_kept(tmp_path: Path) -> None:
