@@ -13,6 +13,7 @@ from .job import forget_runs, notes_of
 from .locks import is_locked_now
 from .problems import Problem
 from .shot import Shot
+from .shot_record import described, read_shot_record
 
 __all__ = ["NOTES", "alone_in", "forgetting", "others_files"]
 
@@ -62,7 +63,8 @@ def forgetting(out: str, shots: list[Shot]) -> Iterator[None]:
 
 
 def others_files(out: str, shots: Iterable[Shot]) -> Iterator[Problem]:
-    """Files that would be replaced, of which neither a record nor the note of a killed run says that a run wrote them.
+    """Clips that would be replaced, of which neither a record, which knows them as they are, nor the note of a killed
+    run says that a run wrote them.
 
     Args:
         out: the folder of results.
@@ -70,9 +72,24 @@ def others_files(out: str, shots: Iterable[Shot]) -> Iterator[Problem]:
     """
     notes = Path(out, NOTES)
     for shot in shots:
-        if os.path.lexists(shot.record) or any(note.exists() for note in notes_of(notes, shot)):
+        if any(note.exists() for note in notes_of(notes, shot)):
             continue
-        clips = (each.text or "" for each in shot.paths("output") if each.option == "output")
-        for path in filter(os.path.isfile, clips):
-            told = f"output must be new, or a clip with its record beside it. Got: {path}, which no run has written"
-            yield Problem(told, shot.name, "output", shot.lines.get("output", shot.line))
+        for word in shot.paths("output"):
+            path = word.text or ""
+            told = _of_others(shot, word.option, path) if os.path.isfile(path) else None
+            if told is not None:
+                line = shot.lines.get(word.option, shot.line)
+                yield Problem(f"{word.option} must be {told}", shot.name, word.option, line)
+
+
+def _of_others(shot: Shot, option: str, path: str) -> str | None:
+    """What a message says of a file that somebody else has written, or changed since; None of one that is ours."""
+    if not os.path.lexists(shot.record):
+        if option != "output":  # its name is in the list
+            return None
+        return f"new, or a clip with its record beside it. Got: {path}, which no run has written"
+    record = read_shot_record(shot.record)
+    if record is None or described(record, shot, path):
+        return None
+    return f"as a run has left it; move it away, or remove it to have it made again. Got: {path}, which has changed"
+

@@ -101,6 +101,16 @@ def read_shot_record(path: str) -> ShotRecord | None:
         return None
 
 
+def described(record: ShotRecord, shot: Shot, path: str) -> bool:
+    """Whether a file of a shot is what its record says was written; a damaged record says nothing."""
+    folder = Path(shot.record).parent
+    try:
+        name = _from(folder, path)
+        return all(each.describes(folder, each.name) for each in record.files if each.name == name)
+    except (TypeError, ValueError):
+        return True
+
+
 def is_finished(shot: Shot, identity: str) -> ShotRecord | None:
     """The record of a shot that need not be done again: it was made from the same, and its results are unchanged."""
     record = read_shot_record(shot.record)

@@ -54,13 +54,28 @@ def test_shots_are_what_animate_makes_of_the_same_options(folder: Path, capsys: 
     assert litter(folder / "out") == ["two.json"]
 
 
+def test_what_was_changed_since_is_kept(folder: Path, capsys: Output) -> None:
+    write_list(folder / "list.toml", ['name = "a"', 'name = "b"\nsave-scene = "{out}/{name}.json"'])
+    assert status(*SHOTS) == 0
+    for changed in ("a.mp4", "b.json"):
+        kept = (folder / "out" / changed).read_bytes()
+        (folder / "out" / changed).write_bytes(kept + b" ")
+        capsys.readouterr()
+        for arguments in (SHOTS, (*SHOTS, "--dry-run")):
+            assert status(*arguments) == 2
+            assert f"{changed}, which has changed" in capsys.readouterr().err
+        assert (folder / "out" / changed).read_bytes() == kept + b" "
+        (folder / "out" / changed).unlink()
+    assert status(*SHOTS) == 0
+
+
 def test_a_second_run_does_only_what_is_missing_or_changed(folder: Path, capsys: Output) -> None:
     write_list(folder / "list.toml", ['name = "a"', 'name = "b"', 'name = "c"', 'name = "d"'])
     assert status(*SHOTS) == 0
     made = {name: (folder / "out" / name).stat().st_mtime_ns for name in contents(folder / "out")}
     assert len(made) == 4
     (folder / "out" / "b.mp4").unlink()
-    (folder / "out" / "c.mp4").write_bytes(b"changed")
+    (folder / "out" / "c.mp4").unlink()
     write_list(folder / "list.toml", ['name = "a"', 'name = "b"', 'name = "c"', 'name = "d"\nwind = 3'])
     capsys.readouterr()
     assert status(*SHOTS, "--dry-run") == 0
