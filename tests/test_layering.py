@@ -41,13 +41,13 @@ MAY_IMPORT = {
     ),
     # rendering: torch and diffusers as well; no host
     "rendering/files": "physics",
-    "rendering/networks": "physics",
+    "rendering/networks": "physics rendering/files",
     "rendering/pictures": "physics physics/mesh rendering/files",
     "rendering/artwork": "physics physics/material rendering/files rendering/pictures",
     "rendering/matting": "physics physics/mesh rendering/pictures",
     "rendering/metrics/learned": "physics rendering/files rendering/networks rendering/pictures",
     "rendering/svd": "physics rendering/networks rendering/pictures",
-    "rendering/inpainting": "physics rendering/files rendering/networks rendering/pictures",
+    "rendering/inpainting": "physics rendering/networks rendering/pictures",
     "rendering/plate": "physics physics/mesh rendering/matting rendering/pictures",
     "rendering/composite": (
         "physics physics/mesh physics/motion rendering/artwork rendering/matting rendering/pictures rendering/plate"

@@ -183,18 +183,20 @@ def _collider(given: str, image: Any, width: int, height: int) -> Any:
 def _scene(options: argparse.Namespace) -> dict[str, Any] | None:
     """The scene file's document, which the simulation checks further."""
     from ...physics.document import check_document, read_json
+    from ..files import read_text_file
 
     if options.scene is None:
         return None
-    document = read_json(_text(options.scene, "--scene"))
+    document = read_json(read_text_file(options.scene, "--scene"))
     return document if isinstance(document, dict) else check_document(document)
 
 
 def _points(path: str, width: int, height: int) -> str:
     """The text of a file of points, after a look at whether it holds points of this picture."""
     from ...physics.document import parse_points
+    from ..files import read_text_file
 
-    text = _text(path, "--points")
+    text = read_text_file(path, "--points")
     with named_as(f"--points {path}"):
         parse_points(text, width=width, height=height)
     return text
@@ -206,22 +208,3 @@ def _contact(options: argparse.Namespace, scene: Any) -> Contact | None:
 
     wanted = options.contact or options.collider
     return Contact() if wanted and not (isinstance(scene, dict) and scene.get("contact")) else None
-
-
-def _text(path: str, name: str) -> str:
-    from ...physics.errors import InvalidInputError
-    from ...physics.limits import MAX_DOCUMENT_BYTES
-    from ..files import check_regular
-
-    check_regular(path, name)
-    try:
-        with Path(path).open("rb") as file:
-            content = file.read(MAX_DOCUMENT_BYTES + 1)
-        # Windows writes what is piped into a file as UTF-16, with a mark at its start.
-        text = content.decode("utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not text"
-        raise InvalidInputError(f"{name} must be a readable text file. Got: {path}: {reason}") from None
-    if len(content) > MAX_DOCUMENT_BYTES:
-        raise InvalidInputError(f"{name} {path} must be at most {MAX_DOCUMENT_BYTES >> 20} MB of text. Got: more")
-    return text

@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 
 from ...physics.document import check_document, parse_points, read_json
 from ...physics.errors import InvalidInputError
-from ...physics.limits import MAX_DOCUMENT_BYTES
 from ..artwork import is_artwork_file, load_artwork
-from ..files import check_regular
+from ..files import read_text_file
 from ..parts import picture_of
 from ..pictures import load_image, load_mask, over, resized
 from ..segmentation import segment
@@ -121,25 +120,13 @@ def _plate(path: str, shape: tuple[int, ...]) -> Picture | None:
 def _cut(image: Picture, path: str) -> NDArray[Any]:
     """The mask of the part under query points."""
     height, width = image.shape[:2]
-    found = parse_points(_text(Path(path)), width=width, height=height)
+    found = parse_points(read_text_file(path, "points"), width=width, height=height)
     return np.asarray(segment(image, [(p.x, p.y) for p in found], [int(p.positive) for p in found]), dtype=np.float32)
 
 
 def _scene(path: Path) -> Mapping[str, Any]:
+    text = read_text_file(path, "scene")
     try:
-        return check_document(read_json(_text(path)))
+        return check_document(read_json(text))
     except InvalidInputError as error:
         raise InvalidInputError(f"scene {path}: {error}") from error
-
-
-def _text(path: Path) -> str:
-    check_regular(path, "file")
-    try:
-        with path.open("rb") as opened:
-            content = opened.read(MAX_DOCUMENT_BYTES + 1)
-        text = content.decode("utf-8-sig")
-    except (OSError, ValueError) as error:
-        raise InvalidInputError(f"{path} must be a readable text file. Got: {error}") from None
-    if len(content) > MAX_DOCUMENT_BYTES:
-        raise InvalidInputError(f"{path} must be at most {MAX_DOCUMENT_BYTES >> 20} MB of text. Got: more")
-    return text

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields, replace
 from pathlib import Path
@@ -11,8 +10,8 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from ...physics.errors import InvalidInputError, require, shown
-from ..files import check_regular
+from ...physics.errors import InvalidInputError, shown
+from ..files import parsed_toml, read_text_file
 from .evaluation_set import EvaluationSet, PictureOfSet, Weights
 from .methods import Method
 from .names import suggestion
@@ -61,19 +60,7 @@ def read_set(path: Path) -> EvaluationSet:
 
 
 def _read(path: Path) -> dict[str, Any]:
-    check_regular(path, "SET")
-    require("SET", f"no {path}", path.is_file(), "a TOML file")
-    with path.open("rb") as opened:
-        content = opened.read(_LARGEST_FILE + 1)
-    require("SET", f"{path}, a larger file", len(content) <= _LARGEST_FILE, f"at most {_LARGEST_FILE >> 20} MiB")
-    if sys.version_info >= (3, 11):
-        import tomllib
-    else:
-        import tomli as tomllib
-    try:
-        return tomllib.loads(content.decode("utf-8-sig"))
-    except (ValueError, RecursionError) as error:  # among them numbers of thousands of digits
-        raise InvalidInputError(f"SET {path} must be TOML. Got: {error}") from None
+    return parsed_toml(read_text_file(path, "SET", most=_LARGEST_FILE), path, "SET")
 
 
 def _sentence(error: ValidationError) -> str:

@@ -9,7 +9,7 @@ from .record import WrittenFile, recorded
 from .recorded_folder import RecordedFiles, check_recorded_folder, write_recorded_folder
 from .regular import check_regular
 from .signals import ending_signals, hear_signals, ignore_signals, uninterrupted
-from .text_files import check_text_output, write_text
+from .text_files import check_text_output, parsed_toml, read_text_file, write_text
 from .unfinished import made_beside, noting_unfinished, remove_noted, remove_unfinished
 
 __all__ = [
@@ -31,9 +31,11 @@ __all__ = [
     "made_beside",
     "naming_place",
     "noting_unfinished",
+    "parsed_toml",
     "place_of",
     "plain_name",
     "putting_in_place",
+    "read_text_file",
     "recorded",
     "remove_noted",
     "remove_unfinished",

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Collection
 from pathlib import Path
+from typing import Any
 
 from ...physics.errors import InvalidInputError
+from ...physics.limits import MAX_DOCUMENT_BYTES
 from .atomic import replacing
 from .path_names import StrPath, suffix_of
 from .places import check_file_place
+from .regular import check_regular
 
-__all__ = ["check_text_output", "write_text"]
+__all__ = ["check_text_output", "parsed_toml", "read_text_file", "write_text"]
 
 
 def check_text_output(path: StrPath, suffix: str, *, coming: Collection[Path] = ()) -> None:
@@ -43,3 +48,49 @@ def write_text(path: StrPath, text: str) -> None:
     """
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
+
+
+def read_text_file(path: StrPath, name: str, *, most: int = MAX_DOCUMENT_BYTES) -> str:
+    """The text of a file, in UTF-8 or, with a mark at its start, UTF-16.
+
+    Args:
+        path: the file.
+        name: what the user calls it.
+        most: how large it may be [bytes].
+
+    Raises:
+        InvalidInputError: it cannot be read, is too large, or no text.
+    """
+    check_regular(path, name)
+    try:
+        with Path(path).open("rb") as file:
+            content = file.read(most + 1)
+        # Windows writes what is piped into a file as UTF-16, with a mark at its start.
+        text = content.decode("utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not text in UTF-8"
+        raise InvalidInputError(f"{name} must be a readable text file. Got: {os.fspath(path)}: {reason}") from None
+    if len(content) > most:
+        raise InvalidInputError(f"{name} {os.fspath(path)} must be at most {most >> 20} MB of text. Got: more")
+    return text
+
+
+def parsed_toml(text: str, path: StrPath, name: str) -> dict[str, Any]:
+    """What a TOML file says.
+
+    Args:
+        text: of the file.
+        path: the file, for the message.
+        name: what the user calls it.
+
+    Raises:
+        InvalidInputError: it is no TOML.
+    """
+    if sys.version_info >= (3, 11):
+        import tomllib
+    else:
+        import tomli as tomllib
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # among them numbers of thousands of digits
+        raise InvalidInputError(f"{name} {os.fspath(path)} must be TOML. Got: {error}") from None

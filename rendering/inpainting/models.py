@@ -6,7 +6,6 @@ Each part is built as one known class, with the sizes that its JSON document tel
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -17,9 +16,9 @@ import torch
 from diffusers import AutoencoderKL, DDIMScheduler, UNet2DConditionModel
 from torch import Tensor, nn
 
-from ...physics.errors import InvalidInputError, require
-from ..files import check_regular
+from ...physics.errors import require
 from ..networks.checkpoints import CheckpointError, network_of, read_checkpoint
+from ..networks.documents import read_document
 from ..networks.library_bars import without_bars
 
 __all__ = ["WANTED_INPAINTING", "InpaintingModels", "load_inpainting_models"]
@@ -128,7 +127,7 @@ def _check_fit(folder: Path, unet: Any, autoencoder: Any, text_encoder: Any) -> 
 
 
 def _part(folder: Path, kind: Any, dtype: torch.dtype | None) -> Any:
-    config = _document(folder / "config.json")
+    config = read_document(folder / "config.json", wanted=WANTED_INPAINTING, most=_MOST_BYTES)
     channels, layers = config.get("block_out_channels"), config.get("layers_per_block", 1)
     layers = layers if isinstance(layers, list) else [layers]
     # A part is built without memory, but not without time.
@@ -181,24 +180,11 @@ def _weights(folder: Path) -> dict[str, Tensor]:
 
 
 def _schedule(folder: Path) -> dict[str, Any]:
-    found = _document(folder / "scheduler_config.json")
+    found = read_document(folder / "scheduler_config.json", wanted=WANTED_INPAINTING, most=_MOST_BYTES)
     count = found.get("num_train_timesteps", 1000)
     if not (isinstance(count, int) and 1 <= count <= 100_000):
         raise CheckpointError(f"{folder} tells sizes that do not fit together. Wanted: {WANTED_INPAINTING}")
     return {name: value for name, value in found.items() if not name.startswith("_")}
-
-
-def _document(file: Path) -> dict[str, Any]:
-    try:
-        check_regular(file, file.name)
-        if file.stat().st_size > _MOST_BYTES:
-            raise ValueError
-        found = json.loads(file.read_text(encoding="utf-8"))
-        if not isinstance(found, dict):
-            raise TypeError
-    except (InvalidInputError, OSError, ValueError, TypeError, RecursionError) as error:
-        raise CheckpointError(f"{file} is missing or cannot be read. Wanted: {WANTED_INPAINTING}") from error
-    return found
 
 
 def _text_encoder(folder: Path) -> tuple[Any, Any]:
@@ -208,7 +194,7 @@ def _text_encoder(folder: Path) -> tuple[Any, Any]:
         from transformers import CLIPTextModel, CLIPTokenizer
     except ImportError as error:
         raise CheckpointError("The package transformers is missing: pip install 'transformers>=4.56'.") from error
-    _document(folder / "text_encoder" / "config.json")
+    read_document(folder / "text_encoder" / "config.json", wanted=WANTED_INPAINTING, most=_MOST_BYTES)
     only = {"local_files_only": True, "trust_remote_code": False}
     try:
         with without_bars(transformers):

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import csv
 import io
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 from ...physics.errors import InvalidInputError, shown
-from ...physics.limits import MAX_DOCUMENT_BYTES
-from ..files import check_regular, suffix_of
+from ..files import parsed_toml, read_text_file, suffix_of
 from .problems import Problem
 from .table_lines import TableLines, table_lines
 
@@ -52,34 +49,12 @@ def read_rows(path: str) -> tuple[list[ShotRow], list[Problem]]:
     suffix = suffix_of(path)
     if suffix not in (".toml", ".csv"):
         raise InvalidInputError(f"SHOTS must be a .toml or .csv file. Got: {path}")
-    text = _text(path)
+    text = read_text_file(path, "SHOTS")
     return _rows_of_toml(text, path) if suffix == ".toml" else _rows_of_csv(text, path)
 
 
-def _text(path: str) -> str:
-    check_regular(path, "SHOTS")
-    try:
-        with Path(path).open("rb") as file:
-            content = file.read(MAX_DOCUMENT_BYTES + 1)
-        text = content.decode("utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not text in UTF-8"
-        raise InvalidInputError(f"SHOTS must be a readable text file. Got: {path}: {reason}") from None
-    if len(content) > MAX_DOCUMENT_BYTES:
-        raise InvalidInputError(f"SHOTS {path} must be at most {MAX_DOCUMENT_BYTES >> 20} MB of text. Got: more")
-    return text
-
-
 def _rows_of_toml(text: str, path: str) -> tuple[list[ShotRow], list[Problem]]:
-    if sys.version_info >= (3, 11):
-        import tomllib
-    else:
-        import tomli as tomllib
-
-    try:
-        document = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # among them numbers of thousands of digits
-        raise InvalidInputError(f"SHOTS must be TOML. Got: {path}: {error}") from None
+    document = parsed_toml(text, path, "SHOTS")
     lines = table_lines(text)
     problems = [
         Problem(f"tables must be [defaults] and [[shot]]. Got: {shown(name)}", line=_first(lines.get(name)))

@@ -92,4 +92,3 @@ def _of_others(shot: Shot, option: str, path: str) -> str | None:
     if record is None or described(record, shot, path):
         return None
     return f"as a run has left it; move it away, or remove it to have it made again. Got: {path}, which has changed"
-

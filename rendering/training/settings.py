@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Any
 
 from ...physics.checks import check_number, check_whole
 from ...physics.errors import InvalidInputError, require
+from ..files import parsed_toml, read_text_file
 
 __all__ = ["KINDS", "PRESETS", "TrainingSettings", "as_toml", "read_settings"]
 
@@ -136,19 +136,7 @@ def read_settings(path: Path, kind: str, preset: str = "paper") -> TrainingSetti
         InvalidInputError: the file is missing, no TOML, or a setting is unknown or unusable.
     """
     require("preset", preset, preset in PRESETS, f"one of {', '.join(PRESETS)}")
-    if not path.is_file():
-        raise InvalidInputError(f"config must be a TOML file. Got: {path}, which is none")
-    with path.open("rb") as opened:
-        content = opened.read(_LARGEST_FILE + 1)
-    require("config", f"{path}, a larger file", len(content) <= _LARGEST_FILE, f"at most {_LARGEST_FILE >> 20} MiB")
-    if sys.version_info >= (3, 11):
-        import tomllib
-    else:
-        import tomli as tomllib
-    try:
-        told = tomllib.loads(content.decode("utf-8-sig"))
-    except (ValueError, RecursionError) as error:  # among them numbers of thousands of digits
-        raise InvalidInputError(f"config {path} must be TOML. Got: {error}") from None
+    told = parsed_toml(read_text_file(path, "config", most=_LARGEST_FILE), path, "config")
     known = {each.name for each in fields(TrainingSettings)}
     if unknown := sorted(set(told) - known):
         raise InvalidInputError(

@@ -6,7 +6,6 @@ Idefics2ForSequenceClassification; the names of the tensors are the same.
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -21,9 +20,8 @@ from transformers.models.idefics2.modeling_idefics2 import (
     Idefics2VisionEmbeddings,
 )
 
-from ....physics.errors import InvalidInputError
-from ...files import check_regular
 from ...networks.checkpoints import CheckpointError, build_without_storage, check_names
+from ...networks.documents import read_document
 from ...networks.library_bars import without_bars
 from .files import VIDEO_SCORE_FOLDER
 
@@ -93,7 +91,7 @@ def check_folder(folder: Path, grades: int) -> Idefics2Config:
     Raises:
         CheckpointError: a file is missing, damaged or of another network.
     """
-    document = _document(folder / "config.json")
+    document = read_document(folder / "config.json", wanted=_WANTED, most=_MOST_BYTES)
     if document.get("model_type") != "idefics2":
         raise CheckpointError(
             f"{folder / 'config.json'} names the model type {document.get('model_type')!r}. Wanted: {_WANTED}"
@@ -151,19 +149,6 @@ def graded(network: Idefics2Grader, processor: Any, question: str, pictures: lis
     """
     inputs = processor(text=question, images=pictures, return_tensors="pt")
     return [float(each) for each in network(**{name: each.to(network.device) for name, each in inputs.items()})[0]]
-
-
-def _document(file: Path) -> dict[str, Any]:
-    try:
-        check_regular(file, file.name)
-        if file.stat().st_size > _MOST_BYTES:
-            raise ValueError
-        found = json.loads(file.read_text(encoding="utf-8"))
-        if not isinstance(found, dict):
-            raise TypeError
-    except (InvalidInputError, OSError, ValueError, TypeError, RecursionError) as error:
-        raise CheckpointError(f"{file} is missing or cannot be read. Wanted: {_WANTED}") from error
-    return found
 
 
 def _check_sizes(document: dict[str, Any], folder: Path) -> None:
