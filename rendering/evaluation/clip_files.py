@@ -39,7 +39,13 @@ _KIND = "clip"
 _LARGEST_FACTS = 1 << 20
 _UNFINISHED = re.compile(r"\.[0-9a-f]{4}")
 _ABANDONED = 600.0  # seconds without a change, after which what is unfinished belongs to no process any more
-_LOSSLESS = ContainerFormat("matroska", "libx264rgb", "rgb24", options={"qp": "0", "preset": "veryfast"})
+_LOSSLESS = ContainerFormat(
+    "matroska",
+    "libx264rgb",
+    "rgb24",
+    options={"qp": "0", "preset": "veryfast"},
+    container_options={"fflags": "+bitexact"},
+)
 
 Frame = NDArray[np.uint8]
 

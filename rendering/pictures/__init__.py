@@ -7,6 +7,7 @@ from .bleeding import bled, carried_on
 from .clip_reading import read_clip
 from .container_formats import FORMATS, OVERLAYS, holds_alpha
 from .dense_flow import LEAST_FLOW_SIDE, optical_flow
+from .frame_conversion import rgb_of
 from .frame_folder import RECORD, frames_in, is_frame_name
 from .images import check_image_output, data_address, load_image, load_mask, save_image
 from .nearest import nearest_pixels
@@ -49,6 +50,7 @@ __all__ = [
     "premultiplied",
     "read_clip",
     "resized",
+    "rgb_of",
     "save_image",
     "splat",
     "straight",

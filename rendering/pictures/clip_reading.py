@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from ...physics.errors import InvalidInputError
 from ...physics.limits import MAX_PICTURE_PIXELS
 from ..files import check_regular
+from .frame_conversion import rgb_of
 
 __all__ = ["MAX_CLIP_FRAMES", "read_clip"]
 
@@ -95,13 +95,9 @@ def _decoded(path: Path) -> Iterator[NDArray[np.uint8]]:
             stream.codec_context.options = {"max_pixels": str(MAX_PICTURE_PIXELS)}  # whatever its header says
             for frame in container.decode(stream):
                 check_size(path, (frame.width, frame.height), "clip")
-                yield _rgb(frame)
+                yield rgb_of(frame)
     except InvalidInputError:
         raise
     except Exception as error:  # a damaged file makes FFmpeg's readers raise nearly anything
         reason = getattr(error, "strerror", None) or error
         raise InvalidInputError(f"clip {path} cannot be read: {reason or 'it is damaged'}") from error
-
-
-def _rgb(frame: Any) -> NDArray[np.uint8]:
-    return np.ascontiguousarray(frame.to_ndarray(format="rgb24"))

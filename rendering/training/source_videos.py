@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ...physics.errors import InvalidInputError
 from ...physics.limits import MAX_PICTURE_PIXELS
 from ..files import check_regular
+from ..pictures import rgb_of
 
 __all__ = ["VIDEO_SUFFIXES", "TimedFrame", "VideoFacts", "decoded", "facts_of", "frame_at", "identity_of", "videos_in"]
 
@@ -151,6 +152,7 @@ def decoded(path: Path, size: tuple[int, int] | None = None) -> Iterator[TimedFr
     with _opened(path) as container:
         stream = _stream(container, path)
         stream.thread_type = "AUTO"
+        scaled = {} if size is None else {"width": size[0], "height": size[1], "interpolation": "AREA"}
         rate = float(stream.average_rate or stream.guessed_rate or 24)
         first_time: float | None = None
         shape = (stream.codec_context.width, stream.codec_context.height)
@@ -161,7 +163,7 @@ def decoded(path: Path, size: tuple[int, int] | None = None) -> Iterator[TimedFr
                 raise InvalidInputError(f"video {path} must keep its size. Got: another from frame {number}")
             time = float(frame.time) if frame.time is not None else number / rate
             first_time = time if first_time is None else first_time
-            yield TimedFrame(number, time - first_time, _rgb(frame, size))
+            yield TimedFrame(number, time - first_time, rgb_of(frame, **scaled))
 
 
 def frame_at(path: Path, time: float) -> NDArray[np.uint8]:
@@ -181,15 +183,8 @@ def frame_at(path: Path, time: float) -> NDArray[np.uint8]:
             container.seek(int((begin + time) * 1e6))
         for frame in _frames(container, stream, path):
             if frame.time is None or frame.time >= begin + time - 1e-3:
-                return _rgb(frame, None)
+                return rgb_of(frame)
     raise InvalidInputError(f"video {path} must have a frame at {time:g} s. Got: none")
-
-
-def _rgb(frame: Any, size: tuple[int, int] | None) -> NDArray[np.uint8]:
-    if size is None:
-        return np.ascontiguousarray(frame.to_ndarray(format="rgb24"))
-    small = frame.reformat(width=size[0], height=size[1], format="rgb24", interpolation="AREA")
-    return np.ascontiguousarray(small.to_ndarray())
 
 
 def _frames(container: Any, stream: Any, path: Path) -> Iterator[Any]:
