@@ -54,7 +54,8 @@ def run_shots(options: argparse.Namespace, shots: Sequence[Shot], kept: Sequence
 
 def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitStack) -> Iterator[Outcome]:
     from ...physics.errors import counted
-    from ..shots import check_workers, connected, local_cluster, outcomes_of, usual_workers, workers_for
+    from ...physics.threads import chosen_threads
+    from ..shots import check_workers, connected, local_cluster, outcomes_of, threads_each, usual_workers, workers_for
     from .messages import say
 
     if options.scheduler is not None:
@@ -64,7 +65,9 @@ def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitSta
         if not cards:
             jobs = [replace(job, shot=replace(job.shot, on_gpu=False)) for job in jobs]
         workers = usual_workers() if options.workers is None else options.workers
-        client = stack.enter_context(local_cluster(workers_for(jobs, workers), cards=min(cards, len(jobs))))
+        each = threads_each(min(workers, len(jobs))) if options.workers is None else chosen_threads() or 1
+        begun = local_cluster(workers_for(jobs, workers), threads=each, cards=min(cards, len(jobs)))
+        client = stack.enter_context(begun)
     if not options.quiet and "dashboard" in client.scheduler_info().get("services", {}):
         say(f"dashboard: {client.dashboard_link}")
     threads = sum(client.nthreads().values())
