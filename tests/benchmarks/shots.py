@@ -44,14 +44,18 @@ def _sample_files(samples: Sequence[Path]) -> list[tuple[Path, Path]]:
     return [(_EXAMPLE / "illustration.png", mask) for mask in masks]
 
 
-def _prepared(folder: Path, files: Sequence[tuple[Path, Path]], count: int, frames: int, width: int) -> list[list[str]]:
-    """Write a list of shots and smaller pictures; the words of ``animate`` for each, with a clip's name as the last."""
+def _prepared(
+    folder: Path, files: Sequence[tuple[Path, Path]], count: int, frames: int, width: int | None
+) -> list[list[str]]:
+    """Write a list of shots and their pictures; the words of ``animate`` for each, with a clip's name as the last."""
     lines, words = [f"[defaults]\nframes = {frames}\n"], []
     for number, pair in enumerate(files):
         for path, name in zip(pair, ("picture", "mask"), strict=True):
             with Image.open(path) as picture:
-                height = round(picture.height * width / picture.width)
-                picture.resize((width, height), Image.Resampling.BOX).save(folder / f"{name}{number}.png")
+                if width is not None:
+                    height = round(picture.height * width / picture.width)
+                    picture = picture.resize((width, height), Image.Resampling.BOX)
+                picture.save(folder / f"{name}{number}.png")
     for number in range(count):
         picture, mask = (f"{name}{number % len(files)}.png" for name in ("picture", "mask"))
         wind = 1 + number / 10
@@ -115,14 +119,20 @@ def _done(way: str, folder: Path, out: str, words: Sequence[Sequence[str]]) -> d
 
 
 def measured(
-    count: int, frames: int, width: int, samples: Sequence[Path] = (), *, ways: Sequence[str] = _WAYS, rounds: int = 1
+    count: int,
+    frames: int,
+    width: int | None,
+    samples: Sequence[Path] = (),
+    *,
+    ways: Sequence[str] = _WAYS,
+    rounds: int = 1,
 ) -> dict[str, Any]:
     """The same shots in several ways, in turns; each result is compared with the first.
 
     Args:
         count: shots.
         frames: of each.
-        width: of the pictures [px].
+        width: to which pictures are scaled [px]; none are when None.
         samples: folders of pictures; the bundled example without any.
         ways: see ``--ways``.
         rounds: how often each; of its runs the fastest counts, which others have disturbed least.
@@ -199,7 +209,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--shots", type=int, default=24)
     parser.add_argument("--frames", type=int, default=48)
-    parser.add_argument("--width", type=int, default=640, help="of the pictures [px]")
+    parser.add_argument(
+        "--width", type=int, help="scale the pictures to this [px]; small ones show what starting takes"
+    )
     parser.add_argument("--samples", type=Path, nargs="+", default=[], help="folders with composite.png and mask.png")
     parser.add_argument(
         "--ways", nargs="+", choices=_WAYS, default=_WAYS, help="2x1: two workers of one thread each (default: all)"
