@@ -26,7 +26,7 @@ GPU = "GPU"
 _MEMORY = 5 << 28  # bytes that a shot takes: 1.24 GB of a picture of 3840 x 2160
 _MOST_WORKERS = 1024
 _CONNECT_SECONDS = 20
-# What Dask sets so that workers give memory back at once: each picture then is mapped anew, a third of a shot's time.
+# What Dask sets so that workers give memory back at once: each picture is mapped anew then, 30 % of the processor time.
 _TRIMMED = "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_"
 _PER_CARD = "CUDA_VISIBLE_DEVICES"
 
