@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor, wait
@@ -11,6 +10,7 @@ from types import TracebackType
 from typing import Any, Generic, TypeVar
 
 from .interruption import checkpoint, interruptible
+from .threads import allowed_threads
 
 __all__ = ["Beside", "side_by_side"]
 
@@ -30,6 +30,8 @@ class Beside(Generic[T]):
     :func:`~physanimator.physics.interruption.checkpoint`), and is waited for. What the calling thread asks at its
     checkpoints is asked at those of the other one as well.
 
+    Where this process may use one thread only, the function is called when the block begins, in the calling thread.
+
     Examples:
         >>> from physanimator.physics.beside import Beside
         >>> with Beside(lambda: sum(range(1000))) as summing:
@@ -48,7 +50,10 @@ class Beside(Generic[T]):
         self._thread = threading.Thread(target=run, args=(self._run,), name="physanimator-beside")
 
     def __enter__(self) -> Beside[T]:
-        self._thread.start()
+        if allowed_threads() > 1:
+            self._thread.start()
+        else:
+            self._made.append(self._make())
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
@@ -100,7 +105,8 @@ class Beside(Generic[T]):
 
 
 def side_by_side(function: Callable[..., T], *arguments: Iterable[Any]) -> Iterator[T]:
-    """What a function returns for each of several arguments, as ``map`` gives it, computed on all cores.
+    """What a function returns for each of several arguments, as ``map`` gives it, computed on all cores
+    that this process may use.
 
     Raises:
         BaseException: the first in the order of the arguments that the function has raised; what has not begun is
@@ -112,11 +118,11 @@ def side_by_side(function: Callable[..., T], *arguments: Iterable[Any]) -> Itera
         [32, 9]
     """
     calls = list(zip(*arguments, strict=True))
-    cores = os.cpu_count() or 1
-    if min(cores, len(calls)) < 2:
+    threads = min(allowed_threads(), len(calls))
+    if threads < 2:
         yield from (function(*each) for each in calls)
         return
-    pool = ThreadPoolExecutor(min(cores, len(calls)), thread_name_prefix="physanimator-beside")
+    pool = ThreadPoolExecutor(threads, thread_name_prefix="physanimator-beside")
     try:
         begun = [pool.submit(copy_context().run, function, *each) for each in calls]
         for each in begun:

@@ -24,6 +24,7 @@ from ..physics.limits import DEFAULT_MINUTES
 from ..physics.process_end import working
 from ..physics.scene import Attachment, Collider, Contact, Scene
 from ..physics.simulation import begin_aside, simulate, simulated_beside
+from ..physics.threads import allowed_threads
 from .animation import Animation, timed
 from .drawing_checks import check_drawing
 from .flat_pictures import FlatPicture
@@ -111,7 +112,7 @@ def animate(
         networks: which networks cut parts out, draw lines, frames and in-betweens. Their files are opened before any
             work; the animation reads those of its frames when they are asked for.
         save: where to write the animation before it is returned; frames are drawn and written while later ones are
-            still simulated, if they neither loop nor need a network.
+            still simulated, if they neither loop nor need a network, and this process may use several threads.
 
     Raises:
         InvalidInputError: an input is unusable; the message names it.
@@ -172,7 +173,8 @@ def animate(
     if watch.on_scene is not None:
         watch.on_scene(whole)
     animated = partial(Animation, parts.image, parts.masks, whole, own=parts.own, networks=networks, first=timing.skip)
-    if save is not None and whole.loop is None and not (parts.needs_motion or networks.draws_opaque):
+    comes_frame_by_frame = whole.loop is None and not (parts.needs_motion or networks.draws_opaque)
+    if save is not None and comes_frame_by_frame and allowed_threads() > 1:
         saved = _simulated_and_saved(parts, whole, timing, max_minutes, watch, seconds, save, animated)
         return animated(motion=saved.motion, renderer=saved, seconds=seconds)
     motion, renderer = _simulated(parts, whole, timing, max_minutes, watch, seconds)

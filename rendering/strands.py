@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..physics.mesh import PixelBox, TriangleMesh, bounding_box, cut_along, interpolate, ways_along, ways_from
 from ..physics.rig import vertices_of
 from ..physics.scene import Body, Held, pins
+from .peaks import prominent_peaks
 from .pictures import as_float, is_transparent
 from .strand_lines import Field, darkness, lines_from
 
@@ -73,16 +74,15 @@ def _strand_by_strand(mesh: TriangleMesh, tips: IndexArray) -> TriangleMesh:
 
 def _notches(mesh: TriangleMesh, ways: FloatArray, *, whole: float) -> tuple[IndexArray, FloatArray, IndexArray]:
     """Vertices at which two tips part, how near the root a slit from each may come [px], and the tips, in order."""
-    from scipy.signal import find_peaks
-
-    found, until, ends = [], [], []
+    found, until = [], []
+    ends: list[int] = []
     for loop in _loops(mesh):
         along = ways[loop]
         if not np.isfinite(along).all() or len(loop) < 8:
             continue
         start = int(np.argmin(along))
         loop, along = np.roll(loop, -start), np.roll(along, -start)
-        tips, _ = find_peaks(np.append(along, along[0]), prominence=_TIP * float(ways[np.isfinite(ways)].max()))
+        tips = prominent_peaks(np.append(along, along[0]), _TIP * float(ways[np.isfinite(ways)].max()))
         ends.extend(loop[tips % len(loop)])
         for one, other in pairwise(tips):
             notch = one + int(np.argmin(along[one:other]))

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from ..physics.errors import InvalidInputError
+from ..physics.threads import keep_to_threads
 
 __all__ = ["heeding", "stopped_at_the_end"]
 
@@ -42,8 +43,6 @@ def heeding(stop: Any) -> None:
 
     Ctrl+C goes to all processes; the first one tells the others, so that they put away what they are at.
     """
-    import cv2
-
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, lambda *_: stop.set())
-    cv2.setNumThreads(1)
+    keep_to_threads(1)

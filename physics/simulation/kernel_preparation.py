@@ -12,7 +12,7 @@ import logging
 import platform
 import threading
 from collections.abc import Callable
-from contextlib import AbstractContextManager, suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -20,6 +20,7 @@ from pathlib import Path
 from ..errors import PhysAnimatorError
 from ..interruption import checkpoint
 from ..runtime import TaichiWorker, kernel_cache, taichi_runtime
+from ..threads import allowed_threads
 
 __all__ = ["begin_aside", "compile_aside", "simulated_aside", "simulated_beside"]
 
@@ -49,7 +50,8 @@ def compile_aside(*, contact: bool, check: Callable[[], None] = checkpoint) -> N
 
 def begin_aside() -> None:
     """Start the process in which ``simulated_beside`` simulates, and let it read its kernels; returns at once."""
-    taichi_runtime.begin_aside(_read_kernels)
+    if allowed_threads() > 1:
+        taichi_runtime.begin_aside(_read_kernels)
 
 
 def simulated_aside(*, contact: bool) -> AbstractContextManager[None]:
@@ -64,9 +66,9 @@ def simulated_aside(*, contact: bool) -> AbstractContextManager[None]:
 def simulated_beside() -> AbstractContextManager[None]:
     """What is simulated meanwhile, in this thread, leaves the processor's other cores to this process's other threads.
 
-    In this process, a kernel would hold Python's global lock.
+    In this process, a kernel would hold Python's global lock; where it may use one thread only, nobody else needs that.
     """
-    return taichi_runtime.aside()
+    return taichi_runtime.aside() if allowed_threads() > 1 else nullcontext()
 
 
 def _compile(contact: bool, done: threading.Event) -> None:

@@ -58,10 +58,20 @@ def build_kernels() -> Kernels:
     types, packs = array_types(ti), argument_packs(ti)
 
     @ti.kernel
-    def advance(parts: types.integers, solid: packs.solid, state: packs.state, drive: packs.drive):
+    def advance(
+        threads: ti.i32,
+        claimed: types.integers,
+        parts: types.integers,
+        solid: packs.solid,
+        state: packs.state,
+        drive: packs.drive,
+    ):
         ti.loop_config(block_dim=1)
-        for n in range(parts.shape[0]):
-            advance_part(parts[n], solid, state, drive)
+        for _ in range(threads):
+            n = ti.atomic_add(claimed[0], 1)
+            while n < parts.shape[0]:
+                advance_part(parts[n], solid, state, drive)
+                n = ti.atomic_add(claimed[0], 1)
 
     @ti.kernel
     def advance_shared(

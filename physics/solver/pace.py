@@ -7,13 +7,13 @@ wait for its turn to end, and one thread alone is up to three times as fast.
 from __future__ import annotations
 
 import math
-import os
 import time
 from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..threads import allowed_threads
 from .stepping import MOST_REFINEMENT
 
 __all__ = ["FIRST_PHASE", "Pace", "counters", "launch_faster", "most_threads"]
@@ -62,14 +62,13 @@ _paces: dict[tuple[str, int], Pace] = {}  # by kernel and size of the work; used
 
 
 def most_threads(triangles: int, share: int = TRIANGLES_PER_THREAD) -> int:
-    """Threads that may compute so many triangles: at most one for each processor that this process may use.
+    """Threads that may compute so many triangles: at most as many as this process may use.
 
     Args:
         triangles: of all threads together.
         share: triangles of a thread, at least.
     """
-    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return max(1, min(available, MOST_THREADS, triangles // share))
+    return max(1, min(allowed_threads(), MOST_THREADS, triangles // share))
 
 
 def launch_faster(launch: Callable[[int], float], *, threads: int, kernel: str, triangles: int) -> None:

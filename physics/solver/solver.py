@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..runtime import LANES, aligned, check_aligned, taichi_runtime
+from ..threads import allowed_threads
 from .arguments import drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
 from .pace import counters, launch_faster, most_threads
@@ -64,12 +65,17 @@ def _advance(solid: Solid, state: State, drive: Drive) -> None:
         _advance_largest(kernels, largest, solid, drive, packs)
         parts = parts[1:]
     if len(parts):
-        kernels.advance(parts, *packs)
+        _advance_each(kernels, parts, packs)
 
 
 def _may_be_shared(solid: Solid, part: int, work: NDArray[Any]) -> bool:
     """Whether a part is large enough for several threads, and all others would have to wait for it in the end."""
     return most_threads(_triangles(solid, part)) > 1 and bool(2 * work[part] > work.sum())
+
+
+def _advance_each(kernels: Kernels, parts: NDArray[np.int32], packs: list[Any]) -> None:
+    """Advance parts, each on one thread: which takes the next one when it is done with one."""
+    kernels.advance(min(allowed_threads(), len(parts)), np.zeros(1, dtype=np.int32), parts, *packs)
 
 
 def _advance_largest(kernels: Kernels, part: int, solid: Solid, drive: Drive, packs: list[Any]) -> None:
@@ -80,7 +86,7 @@ def _advance_largest(kernels: Kernels, part: int, solid: Solid, drive: Drive, pa
         if threads > 1:
             _advance_shared(kernels, part, threads, solid, ticks, packs)
         else:
-            kernels.advance(np.array([part], dtype=np.int32), *packs)
+            _advance_each(kernels, np.array([part], dtype=np.int32), packs)
         return float(triangles * solid.substeps[part] * ticks)
 
     launch_faster(launch, threads=most_threads(triangles), kernel="one part", triangles=triangles)

@@ -37,6 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _status(arguments: Sequence[str] | None) -> int:
     """Run a command, and say what went wrong."""
+    from ...physics.threads import chosen_threads, keep_to_threads
     from .commands import command_parser
     from .failures import failure_of
     from .messages import warn
@@ -45,6 +46,8 @@ def _status(arguments: Sequence[str] | None) -> int:
     options = command_parser().parse_args(arguments)
     try:
         with named_by_options(options):
+            if threads := chosen_threads():
+                keep_to_threads(threads)
             options.run(options)
     except BrokenPipeError:
         return NOBODY_READS

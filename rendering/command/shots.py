@@ -41,7 +41,8 @@ def add_shots(parser: argparse.ArgumentParser) -> None:
         "--workers",
         metavar="N",
         type=int,
-        help="processes on this machine (default: one a core, as memory allows); 0: in this one, without Dask",
+        help="processes on this machine, of one thread each (default: one a core, as memory allows; fewer shots than"
+        " that share the cores out); 0: in this one, without Dask",
     )
     where.add_argument(
         "--scheduler",

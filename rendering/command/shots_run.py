@@ -54,7 +54,8 @@ def run_shots(options: argparse.Namespace, shots: Sequence[Shot], kept: Sequence
 
 def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitStack) -> Iterator[Outcome]:
     from ...physics.errors import counted
-    from ..shots import check_workers, connected, local_cluster, outcomes_of, usual_workers, workers_for
+    from ...physics.threads import chosen_threads
+    from ..shots import check_workers, connected, local_cluster, outcomes_of, threads_each, usual_workers, workers_for
     from .messages import say
 
     if options.scheduler is not None:
@@ -64,15 +65,25 @@ def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitSta
         if not cards:
             jobs = [replace(job, shot=replace(job.shot, on_gpu=False)) for job in jobs]
         workers = usual_workers() if options.workers is None else options.workers
-        client = stack.enter_context(local_cluster(workers_for(jobs, workers), cards=min(cards, len(jobs))))
+        each = threads_each(min(workers, len(jobs))) if options.workers is None else chosen_threads() or 1
+        begun = local_cluster(workers_for(jobs, workers), threads=each, cards=min(cards, len(jobs)))
+        client = stack.enter_context(begun)
     if not options.quiet and "dashboard" in client.scheduler_info().get("services", {}):
         say(f"dashboard: {client.dashboard_link}")
-    threads = sum(client.nthreads().values())
     if not options.quiet:
-        where = f"{threads} at once" if threads else "once a worker has come to the scheduler"
-        say(f"{counted(len(jobs), 'shot')} to do, {where}")
+        say(f"{counted(len(jobs), 'shot')} to do, {_when(sum(client.nthreads().values()), jobs)}")
     check_workers(client, jobs, ship=options.ship)
     return outcomes_of(client, jobs, ship=options.ship, token=secrets.token_hex(4), heard=_heard)
+
+
+def _when(at_once: int, jobs: Sequence[Job]) -> str:
+    """How many shots are done at once, or for what they wait."""
+    if at_once:
+        return f"{at_once} at once"
+    when = "once a worker has come to the scheduler"
+    if any(job.shot.on_gpu for job in jobs):
+        when += "; those with networks wait for one with a graphics card, dask worker --resources 'GPU=1'"
+    return when
 
 
 def _cards(jobs: Sequence[Job]) -> int:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ...physics.errors import InvalidInputError
 from ...physics.interruption import checkpoint
+from ...physics.threads import allowed_threads
 from .container_formats import ContainerFormat
 from .frame_conversion import converted
 
@@ -77,6 +78,8 @@ def encode(
         if even:
             options |= _alike_everywhere() | {"rc-lookahead": str(_lookahead(width * height))}
         stream = container.add_stream(chosen.codec, rate=rate, options=options)
+        if "threads" not in options:
+            stream.codec_context.thread_count = allowed_threads()
         stream.width, stream.height = width, height
         stream.pix_fmt = (chosen.alpha_pixels if alpha else None) or chosen.pixels
         stream.codec_context.time_base = 1 / rate

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from ...physics.beside import Beside
 from ...physics.interruption import checkpoint
+from ...physics.threads import allowed_threads
 
 __all__ = ["consumed_beside"]
 
@@ -20,13 +21,17 @@ _END = object()
 def consumed_beside(items: Iterable[T], consume: Callable[[Iterator[T]], None], *, ahead: int = 2) -> None:
     """Call ``consume`` in a thread of its own with what ``items`` gives, which is made in this one meanwhile.
 
-    The first error on either side ends both, and is raised here when nothing of ``consume`` runs any more.
+    The first error on either side ends both, and is raised here when nothing of ``consume`` runs any more. Where this
+    process may use one thread only, both are done in turns in that.
 
     Args:
         items: made one after another by the calling thread, in which signals are heard.
         consume: reads all of them; where an error ends the work, its iterator raises, so that it can clean up.
         ahead: how many may wait to be consumed.
     """
+    if allowed_threads() == 1:
+        consume(_in_turns(items))
+        return
     handed: queue.Queue[Any] = queue.Queue(ahead)
     with Beside(lambda: consume(_arriving(handed))) as consumer:
         for item in items:
@@ -34,6 +39,13 @@ def consumed_beside(items: Iterable[T], consume: Callable[[Iterator[T]], None], 
                 break
         _put(handed, _END, consumer)
         consumer.result()
+
+
+def _in_turns(items: Iterable[T]) -> Iterator[T]:
+    """Each item when it is asked for; may be stopped at checkpoints."""
+    for item in items:
+        checkpoint()
+        yield item
 
 
 def _put(handed: queue.Queue[Any], item: object, consumer: Beside[None]) -> bool:

@@ -9,7 +9,6 @@ Sources: Barnes et al., "PatchMatch" (2009); Wexler et al., "Space-Time Completi
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from typing import Any
 
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 
 from ...physics.beside import side_by_side
 from ...physics.interruption import checkpoint
+from ...physics.threads import allowed_threads
 from .patch_search import RADIUS, Finds, Level, PatchSearch, usable_sources
 
 __all__ = ["continue_texture"]
@@ -107,5 +107,5 @@ def _voted(level: Level, current: FloatImage, finds: Finds) -> FloatImage:
 
 
 def _divided(*arrays: NDArray[Any]) -> Iterator[list[NDArray[Any]]]:
-    """Arrays of one length in pieces, one for each core where there is enough for all."""
-    return (np.array_split(each, min(os.cpu_count() or 1, 1 + len(each) // _PIECE)) for each in arrays)
+    """Arrays of one length in pieces, one for each thread where there is enough for all."""
+    return (np.array_split(each, min(allowed_threads(), 1 + len(each) // _PIECE)) for each in arrays)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .cluster import check_installed, connected, local_cluster, usual_workers
+from .cluster import check_installed, connected, local_cluster, threads_each, usual_workers
 from .collisions import colliding_outputs
 from .document import ShotRow, read_rows
 from .engine import SchedulerLost, check_workers, outcomes_here, outcomes_of, workers_for
@@ -49,6 +49,7 @@ __all__ = [
     "read_shot_record",
     "shot_name",
     "summary_lines",
+    "threads_each",
     "usual_workers",
     "words_of",
     "workers_for",

@@ -11,13 +11,14 @@ from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING, Any
 
 from ...physics.errors import InvalidInputError, require
+from ...physics.threads import chosen_threads, thread_variables
 from ..files import uninterrupted
 from .job import MOST_RUNS
 
 if TYPE_CHECKING:
     from distributed import Client
 
-__all__ = ["GPU", "check_installed", "connected", "local_cluster", "usual_workers"]
+__all__ = ["GPU", "check_installed", "connected", "local_cluster", "threads_each", "usual_workers"]
 
 GPU = "GPU"
 """Dask's resource of which a worker with a graphics card has 1."""
@@ -25,6 +26,8 @@ GPU = "GPU"
 _MEMORY = 5 << 28  # bytes that a shot takes: 1.24 GB of a picture of 3840 x 2160
 _MOST_WORKERS = 1024
 _CONNECT_SECONDS = 20
+# What Dask sets so that workers give memory back at once: each picture is mapped anew then, 30 % of the processor time.
+_TRIMMED = "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_"
 _PER_CARD = "CUDA_VISIBLE_DEVICES"
 
 
@@ -43,31 +46,42 @@ def check_installed() -> None:
 
 def usual_workers() -> int:
     """As many processes as this machine has cores for, and memory."""
-    from dask.system import CPU_COUNT
     from distributed.system import MEMORY_LIMIT
 
-    return max(1, min(int(CPU_COUNT), int(MEMORY_LIMIT) // _MEMORY, _MOST_WORKERS))
+    return max(1, min(_cores() // (chosen_threads() or 1), int(MEMORY_LIMIT) // _MEMORY, _MOST_WORKERS))
+
+
+def threads_each(at_once: int) -> int:
+    """How many threads each of the processes may use, of which so many do a shot at once: they share the cores out."""
+    return chosen_threads() or max(1, _cores() // at_once)
+
+
+def _cores() -> int:
+    from dask.system import CPU_COUNT  # which knows the bounds of containers
+
+    return int(CPU_COUNT)
 
 
 @contextmanager
-def local_cluster(workers: int, *, cards: int = 0) -> Iterator[Client]:
-    """A client of new processes on this machine, each with one thread.
+def local_cluster(workers: int, *, threads: int = 1, cards: int = 0) -> Iterator[Client]:
+    """A client of new processes on this machine, each of which does one shot at a time.
 
     Args:
         workers: how many processes.
+        threads: that each may use.
         cards: graphics cards; the first processes have one each.
 
     Raises:
         OSError: the processes do not start.
     """
-    from dask.system import CPU_COUNT
+    from dask import config
     from distributed import Client, Nanny, Scheduler, SpecCluster
 
     from .worker_plugin import LeavesInterruptions
 
     require("--workers", workers, 1 <= workers <= _MOST_WORKERS, f"0 to {_MOST_WORKERS}")
     visible = [each for each in os.environ.get(_PER_CARD, "").split(",") if each] or [str(n) for n in range(cards)]
-    threads = {"OPENCV_FOR_THREADS_NUM": str(max(1, int(CPU_COUNT) // workers))}
+    variables = thread_variables(threads)
     specs: dict[int, Any] = {}
     for number in range(max(workers, cards)):
         options: dict[str, Any] = {
@@ -77,10 +91,10 @@ def local_cluster(workers: int, *, cards: int = 0) -> Iterator[Client]:
             "dashboard": False,
             "silence_logs": logging.CRITICAL,
             "plugins": (LeavesInterruptions(),),
-            "env": threads,
+            "env": variables,
         }
         if number < cards:
-            options |= {"resources": {GPU: 1}, "env": {**threads, _PER_CARD: visible[number]}}
+            options |= {"resources": {GPU: 1}, "env": {**variables, _PER_CARD: visible[number]}}
         specs[number] = {"cls": Nanny, "options": options}
     scheduler = {
         "host": "127.0.0.1",
@@ -90,7 +104,7 @@ def local_cluster(workers: int, *, cards: int = 0) -> Iterator[Client]:
         "allowed_failures": MOST_RUNS - 1,
     }
     with _quiet(), ExitStack() as closing:
-        with uninterrupted():
+        with uninterrupted(), config.set({_TRIMMED: None}):
             specs_of_scheduler = {"cls": Scheduler, "options": scheduler}
             try:
                 made = SpecCluster(workers=specs, scheduler=specs_of_scheduler, silence_logs=logging.CRITICAL)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ... import __version__
 from ...physics.errors import InvalidInputError
+from ...physics.threads import chosen_threads, keep_to_threads
 from ..files import is_full
 from .cluster import GPU
 from .job import MOST_RUNS, Job, Outcome, perform, told_of
@@ -174,7 +175,7 @@ def _outcome(job: Job, future: Future) -> Outcome:
 
 def _there(job: Job) -> Outcome:
     """On a worker: a shot whose files it sees."""
-    with _frames_spread():
+    with _as_a_worker(job):
         return perform(job, _wanted())
 
 
@@ -182,18 +183,22 @@ def _away(job: Job, parcel: Parcel) -> Returned:
     """On a worker: a shot whose files have come along."""
     from distributed import get_worker
 
-    with _frames_spread():
+    with _as_a_worker(job):
         return perform_elsewhere(job, parcel, _wanted(), folder=get_worker().local_directory)
 
 
 @contextmanager
-def _frames_spread() -> Iterator[None]:
-    """Let idle workers draw frames of this thread's shot."""
+def _as_a_worker(job: Job) -> Iterator[None]:
+    """Keep to the cores that are this worker's, one unless it is told; let idle ones draw frames of a long shot."""
     from distributed import get_client, rejoin, secede
 
     from ..frame_drawing import frames_drawn_by
-    from .spreading import drawing_on_idle_workers
+    from .spreading import LONG, drawing_on_idle_workers
 
+    keep_to_threads(chosen_threads() or 1)
+    if job.shot.frames < LONG:
+        yield
+        return
     with frames_drawn_by(drawing_on_idle_workers(get_client(), secede, rejoin)):
         yield
 

@@ -1,4 +1,4 @@
-"""How fast a list of shots is done: by one and by two workers, and by GNU parallel (or xargs) running ``animate``."""
+"""How fast a list of shots is done: by workers of so many threads, and by GNU parallel or xargs running ``animate``."""
 
 from __future__ import annotations
 
@@ -22,6 +22,9 @@ from PIL import Image
 __all__ = ["measured", "memory_measured"]
 
 _ROOT = Path(__file__).resolve().parents[2]
+_THREADS = "PHYSANIMATOR_THREADS"
+_ONE_THREAD = "lines of one thread"
+_WAYS = ("1x1", "1x2", "2x1", "2x2", "lines", _ONE_THREAD)
 _EXAMPLE = _ROOT / "workflows" / "example"
 
 
@@ -41,71 +44,133 @@ def _sample_files(samples: Sequence[Path]) -> list[tuple[Path, Path]]:
     return [(_EXAMPLE / "illustration.png", mask) for mask in masks]
 
 
-def _prepared(folder: Path, files: Sequence[tuple[Path, Path]], count: int, frames: int, width: int) -> list[list[str]]:
-    """Write a list of shots and smaller pictures; and the words of ``animate`` for each of its shots."""
+def _prepared(
+    folder: Path, files: Sequence[tuple[Path, Path]], count: int, frames: int, width: int | None
+) -> list[list[str]]:
+    """Write a list of shots and their pictures; the words of ``animate`` for each, with a clip's name as the last."""
     lines, words = [f"[defaults]\nframes = {frames}\n"], []
     for number, pair in enumerate(files):
         for path, name in zip(pair, ("picture", "mask"), strict=True):
             with Image.open(path) as picture:
-                height = round(picture.height * width / picture.width)
-                picture.resize((width, height), Image.Resampling.BOX).save(folder / f"{name}{number}.png")
+                if width is not None:
+                    height = round(picture.height * width / picture.width)
+                    picture = picture.resize((width, height), Image.Resampling.BOX)
+                picture.save(folder / f"{name}{number}.png")
     for number in range(count):
         picture, mask = (f"{name}{number % len(files)}.png" for name in ("picture", "mask"))
         wind = 1 + number / 10
         lines.append(f'[[shot]]\nname = "s{number:04d}"\nimage = "{picture}"\nmask = "{mask}"\nwind = {wind}\n')
         given = ["animate", picture, "--mask", mask, "--frames", str(frames), "--wind", str(wind), "--quiet"]
-        words.append([*given, "--output", f"by_lines/s{number:04d}.mp4"])
+        words.append([*given, f"s{number:04d}.mp4"])
     (folder / "list.toml").write_text("\n".join(lines), encoding="utf-8")
     return words
 
 
-def _timed(command: Sequence[str], folder: Path, text: str | None = None) -> dict[str, float]:
-    """Seconds of a whole command, its start included: on the clock, and of processors, which others do not disturb."""
-    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
-    subprocess.run(command, input=text, text=True, cwd=folder, env=_environment(folder), check=True)
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+def _timed(command: Sequence[str], folder: Path, threads: int | None, text: str | None = None) -> dict[str, float]:
+    """Seconds of a whole command, its start included: on the clock, of processors, and what others had of those.
+
+    Args:
+        command: the command's words.
+        folder: in which it runs.
+        threads: that each of its processes may use; as many as they like when None.
+        text: for its standard input.
+    """
+    import psutil
+
+    environment = _environment(folder)
+    environment.pop(_THREADS, None)
+    if threads is not None:
+        environment[_THREADS] = str(threads)
+    before, busy, start = resource.getrusage(resource.RUSAGE_CHILDREN), psutil.cpu_times(), time.perf_counter()
+    subprocess.run(command, input=text, text=True, cwd=folder, env=environment, check=True)
+    seconds = time.perf_counter() - start
+    used, end = resource.getrusage(resource.RUSAGE_CHILDREN), psutil.cpu_times()
     processors = used.ru_utime - before.ru_utime + used.ru_stime - before.ru_stime
-    return {"seconds": time.perf_counter() - start, "processor_seconds": processors}
+    others = sum(getattr(end, name) - getattr(busy, name) for name in ("user", "nice", "system")) - processors
+    return {"seconds": seconds, "processor_seconds": processors, "others_processor_seconds": max(0.0, others)}
 
 
-def _shots(folder: Path, out: str, workers: int) -> dict[str, float]:
+def _shots(folder: Path, out: str, workers: int, threads: int) -> dict[str, float]:
     command = [sys.executable, "-m", "physanimator", "shots", "list.toml", "-o", out, "--workers", str(workers), "-q"]
-    return _timed(command, folder)
+    return _timed(command, folder, threads)
 
 
-def _by_lines(folder: Path, words: Sequence[Sequence[str]], jobs: int) -> dict[str, Any]:
+def _by_lines(
+    folder: Path, out: str, words: Sequence[Sequence[str]], jobs: int, threads: int | None
+) -> dict[str, float]:
     """GNU parallel, or xargs where there is none, running one ``animate`` after the other."""
-    (folder / "by_lines").mkdir()
-    text = "".join(f"{shlex.join([sys.executable, '-m', 'physanimator', *each])}\n" for each in words)
+    (folder / out).mkdir()
+    program = [sys.executable, "-m", "physanimator"]
+    lines = (shlex.join([*program, *each[:-1], "--output", f"{out}/{each[-1]}"]) for each in words)
+    text = "".join(f"{line}\n" for line in lines)
     parallel = shutil.which("parallel")
     command = (
         [parallel, "-j", str(jobs)] if parallel else ["xargs", "-P", str(jobs), "-d", "\n", "-I{}", "sh", "-c", "{}"]
     )
-    return {"program": "GNU parallel" if parallel else "xargs -P", **_timed(command, folder, text)}
+    return _timed(command, folder, threads, text)
 
 
-def measured(count: int, frames: int, width: int, samples: Sequence[Path] = ()) -> dict[str, Any]:
-    """The same shots by one worker, by two, and by two jobs of ``animate``; each result is compared."""
+def _done(way: str, folder: Path, out: str, words: Sequence[Sequence[str]]) -> dict[str, float]:
+    """All shots, in one of the ways."""
+    if way.startswith("lines"):
+        return _by_lines(folder, out, words, 2, 1 if way == "lines of one thread" else None)
+    workers, threads = map(int, way.split("x"))
+    return _shots(folder, out, workers, threads)
+
+
+def measured(
+    count: int,
+    frames: int,
+    width: int | None,
+    samples: Sequence[Path] = (),
+    *,
+    ways: Sequence[str] = _WAYS,
+    rounds: int = 1,
+) -> dict[str, Any]:
+    """The same shots in several ways, in turns; each result is compared with the first.
+
+    Args:
+        count: shots.
+        frames: of each.
+        width: to which pictures are scaled [px]; none are when None.
+        samples: folders of pictures; the bundled example without any.
+        ways: see ``--ways``.
+        rounds: how often each; of its runs the fastest counts, which others have disturbed least.
+    """
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         words = _prepared(folder, _sample_files(samples), count, frames, width)
-        warm = [*words[0][:-1], "warm.mp4"]  # kernels are compiled, and files read, once
-        subprocess.run([sys.executable, "-m", "physanimator", *warm], cwd=folder, env=_environment(folder), check=True)
-        one, two = _shots(folder, "one", 1), _shots(folder, "two", 2)
-        lines = _by_lines(folder, words, 2)
-        clips = [path.name for path in sorted((folder / "one").glob("*.mp4"))]
-        same = [len({(folder / out / clip).read_bytes() for out in ("one", "two", "by_lines")}) == 1 for clip in clips]
+        warm = [sys.executable, "-m", "physanimator", *words[0][:-1], "--output", "warm.mp4"]
+        subprocess.run(warm, cwd=folder, env=_environment(folder), check=True)  # kernels are compiled once
+        runs: dict[str, list[dict[str, float]]] = {way: [] for way in ways}
+        clips, same = dict[str, bytes](), True
+        for turn in range(rounds):
+            for way in ways:
+                runs[way].append(_done(way, folder, f"{way} {turn}", words))
+                made = {path.name: path.read_bytes() for path in (folder / f"{way} {turn}").glob("*.mp4")}
+                clips = clips or made
+                same = same and made == clips and len(made) == count
+        best = {way: min(each, key=lambda run: run["seconds"]) for way, each in runs.items()}
         return {
             "shots": count,
             "frames": frames,
             "width": width,
-            "same_bytes": len(clips) == count and all(same),
-            "one_worker": one,
-            "two_workers": two,
-            "lines": lines,
-            "scaling": one["seconds"] / two["seconds"],
-            "lines_to_two_workers": lines["seconds"] / two["seconds"],
+            "cores": os.cpu_count(),
+            "lines_by": "GNU parallel -j 2" if shutil.which("parallel") else "xargs -P 2",
+            "same_bytes": same,
+            "workers_x_threads": best,
+            "all_seconds": {way: [round(run["seconds"], 2) for run in each] for way, each in runs.items()},
+            **_ratios({way: run["seconds"] for way, run in best.items()}),
         }
+
+
+def _ratios(seconds: dict[str, float]) -> dict[str, float]:
+    """How much faster two workers are than one, and than the lines, as far as these were measured."""
+    found = {}
+    for name, slow in (("scaling", "1x1"), ("lines_to_2x1", "lines"), ("lines_of_one_thread_to_2x1", _ONE_THREAD)):
+        if {slow, "2x1"} <= seconds.keys():
+            found[name] = seconds[slow] / seconds["2x1"]
+    return found
 
 
 def memory_measured(count: int, width: int) -> dict[str, Any]:
@@ -144,15 +209,23 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--shots", type=int, default=24)
     parser.add_argument("--frames", type=int, default=48)
-    parser.add_argument("--width", type=int, default=640, help="of the pictures [px]")
+    parser.add_argument(
+        "--width", type=int, help="scale the pictures to this [px]; small ones show what starting takes"
+    )
     parser.add_argument("--samples", type=Path, nargs="+", default=[], help="folders with composite.png and mask.png")
+    parser.add_argument(
+        "--ways", nargs="+", choices=_WAYS, default=_WAYS, help="2x1: two workers of one thread each (default: all)"
+    )
+    parser.add_argument("--rounds", type=int, default=1, help="how often each way, in turns; the fastest run counts")
     parser.add_argument("--many", type=int, metavar="N", help="only do N tiny shots, and measure memory")
     parser.add_argument("--json", action="store_true", help="print JSON, as always")
     given = parser.parse_args()
     figures = (
         memory_measured(given.many, 64)
         if given.many
-        else measured(given.shots, given.frames, given.width, given.samples)
+        else measured(
+            given.shots, given.frames, given.width, given.samples, ways=tuple(given.ways), rounds=given.rounds
+        )
     )
     print(json.dumps(figures, indent=2))
 

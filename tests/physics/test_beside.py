@@ -9,10 +9,12 @@ from collections.abc import Iterator
 import pytest
 from physanimator.physics.beside import Beside, side_by_side
 from physanimator.physics.interruption import checkpoint, interruptible
+from physanimator.physics.threads import THREADS
 
 
 @pytest.fixture(autouse=True)
-def nothing_goes_on() -> Iterator[None]:
+def nothing_goes_on(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    monkeypatch.setenv(THREADS, "2")
     yield
     assert not [each for each in threading.enumerate() if each.name.startswith("physanimator-beside")]
 
@@ -27,6 +29,17 @@ def test_the_result_is_made_in_another_thread() -> None:
     with Beside(threading.get_ident) as making:
         assert making.result() != threading.get_ident()
     assert making.ended
+
+
+def test_of_one_thread_it_is_made_at_once_in_that(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(THREADS, "1")
+    this = threading.get_ident()
+    with Beside(threading.get_ident) as making:
+        assert making.ended
+        assert making.result() == this
+    assert list(side_by_side(lambda _: threading.get_ident(), range(3))) == [this] * 3
+    with pytest.raises(ZeroDivisionError), Beside(lambda: 1 // 0):
+        pytest.fail("the block must not begin")
 
 
 def test_an_error_is_raised_where_the_result_is_wanted() -> None:

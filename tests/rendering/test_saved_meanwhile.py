@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError, SimulationError
+from physanimator.physics.threads import THREADS
 from physanimator.rendering import pipeline
 from physanimator.rendering.composite import LayeredRenderer
 from physanimator.rendering.options import Saving, Timing, Watch
@@ -16,6 +17,11 @@ from physanimator.rendering.pictures import load_image
 from physanimator.rendering.pipeline import animate
 
 FRAMES = 6
+
+
+@pytest.fixture(autouse=True)
+def two_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(THREADS, "2")
 
 
 def animated(save: Saving | None = None, **more: Any) -> Any:

@@ -10,6 +10,7 @@ from physanimator.physics.runtime import taichi_runtime
 from physanimator.physics.runtime.worker import TaichiWorker
 from physanimator.physics.scene import Body, Scene, automatic_scene
 from physanimator.physics.simulation import begin_aside, simulate, simulated_beside
+from physanimator.physics.threads import THREADS
 
 
 @pytest.fixture
@@ -25,6 +26,31 @@ def test_the_motion_is_the_same(scene: Scene) -> None:
         aside = simulate(scene, frames=6).positions
     np.testing.assert_array_equal(aside, here)
     assert np.ptp(aside, axis=0).max() > 0.01
+
+
+def test_of_one_thread_no_process_is_begun(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(self: TaichiWorker) -> None:
+        pytest.fail("a process was begun")
+
+    monkeypatch.setenv(THREADS, "1")
+    monkeypatch.setattr(TaichiWorker, "start", fail)
+    begin_aside()
+    with simulated_beside():
+        assert np.ptp(simulate(scene, frames=6).positions, axis=0).max() > 0.01
+
+
+def test_parts_move_alike_on_any_number_of_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whether there are fewer threads than parts or more."""
+    masks = [np.zeros((160, 60)) for _ in range(5)]
+    for number, mask in enumerate(masks):
+        mask[10 : 40 + 25 * number, 10:50] = 1
+    scene, found = automatic_scene([Body(mesh_from_mask(mask, spacing=10)) for mask in masks]), []
+    for threads in ("1", "2", "8"):
+        monkeypatch.setenv(THREADS, threads)
+        found.append(simulate(scene, frames=6).positions)
+    assert np.ptp(found[0], axis=0).max() > 0.01
+    for each in found[1:]:
+        np.testing.assert_array_equal(each, found[0])
 
 
 def test_where_no_process_can_be_started_it_runs_here(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:

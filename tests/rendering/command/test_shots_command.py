@@ -7,13 +7,17 @@ import os
 import re
 import shlex
 import subprocess
+import threading
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from unittest.mock import ANY
 
+import cv2
 import pytest
 from command_status import status
 from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.threads import THREADS, thread_variables
 from physanimator.rendering.command import shot_task
 from physanimator.rendering.command.shot_list import check_shot, read_list
 from physanimator.rendering.shots import Animated, read_shot_record
@@ -28,6 +32,14 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     draw(tmp_path)
     monkeypatch.chdir(tmp_path)
     return tmp_path
+
+
+@pytest.fixture
+def opencv_as_before() -> Iterator[None]:
+    """What a command has told OpenCV about threads is forgotten again."""
+    before = cv2.getNumThreads()
+    yield
+    cv2.setNumThreads(before)
 
 
 def problems(text: str, folder: Path, name: str = "list.toml") -> list[str]:
@@ -52,6 +64,35 @@ def test_shots_are_what_animate_makes_of_the_same_options(folder: Path, capsys: 
     assert (folder / "two.gif").read_bytes() == (folder / "a.gif").read_bytes()
     assert json.loads((folder / "out" / "two.json").read_text())["bodies"]
     assert litter(folder / "out") == ["two.json"]
+
+
+@pytest.mark.parametrize("name", ["a.mp4", "a.webm", "a.mov", "a.gif", "a.webp", "a.apng"])
+@pytest.mark.usefixtures("opencv_as_before")
+def test_the_bytes_are_the_same_whatever_the_number_of_threads(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    made = []
+    words = ("animate", "girl.png", "--mask", "hair.png", "--frames", "8", "--quiet", "--output", name)
+    for threads in ("2", "1", "3"):
+        for variable, said in thread_variables(int(threads)).items():  # which the command sets
+            monkeypatch.setenv(variable, said)
+        begun, start = [], threading.Thread.start
+        monkeypatch.setattr(
+            threading.Thread, "start", lambda each, start=start, begun=begun: (begun.append(each.name), start(each))
+        )
+        assert status(*words) == 0
+        assert bool([each for each in begun if each == "physanimator-beside"]) == (threads != "1")
+        made.append((folder / name).read_bytes())
+    assert made[0] == made[1] == made[2]
+
+
+def test_a_wrong_number_of_threads_is_told(folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: Output) -> None:
+    monkeypatch.setenv(THREADS, "many")
+    write_list(folder / "list.toml", ['name = "a"'])
+    for words in (SHOTS, ("animate", "girl.png", "--mask", "hair.png", "--output", "a.mp4")):
+        assert status(*words) == 2
+        assert "PHYSANIMATOR_THREADS must be 1 to 1024. Got: many" in capsys.readouterr().err
+    assert not (folder / "out").exists()
 
 
 def test_what_was_changed_since_is_kept(folder: Path, capsys: Output) -> None:

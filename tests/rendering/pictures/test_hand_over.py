@@ -9,11 +9,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from physanimator.physics.interruption import checkpoint
+from physanimator.physics.interruption import checkpoint, interruptible
+from physanimator.physics.threads import THREADS
 from physanimator.rendering.pictures import video, write_animation
 from physanimator.rendering.pictures.hand_over import consumed_beside
 
 FRAME = np.full((32, 32, 3), 120, np.uint8)
+
+
+@pytest.fixture(autouse=True)
+def two_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(THREADS, "2")
 
 
 def writing_threads() -> list[threading.Thread]:
@@ -50,8 +56,40 @@ def test_items_are_made_while_earlier_ones_are_consumed_but_not_far_ahead() -> N
     assert 1 <= max(most) <= 4  # two wait, one is consumed, one is about to be handed over
 
 
+def test_of_one_thread_each_is_consumed_before_the_next_is_made(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(THREADS, "1")
+    made: list[int] = []
+
+    def items() -> Iterator[int]:
+        for number in range(20):
+            made.append(number)
+            yield number
+
+    def consume(arriving: Iterator[int]) -> None:
+        for number in arriving:
+            assert made[-1] == number
+            assert not writing_threads()
+
+    consumed_beside(items(), consume)
+    assert made == list(range(20))
+
+    def refuse() -> None:
+        raise InterruptedError
+
+    with pytest.raises(InterruptedError), interruptible(refuse):
+        write_animation([FRAME] * 3, tmp_path / "clip.mp4", 24.0)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("threads", ["1", "2"])
 @pytest.mark.parametrize("error", [ValueError("drawn badly"), KeyboardInterrupt()])
-def test_an_error_while_drawing_stops_the_writing_and_leaves_nothing(tmp_path: Path, error: BaseException) -> None:
+def test_an_error_while_drawing_stops_the_writing_and_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: BaseException, threads: str
+) -> None:
+    monkeypatch.setenv(THREADS, threads)
+
     def frames() -> Iterator[np.ndarray]:
         yield from [FRAME] * 5
         raise error

@@ -11,7 +11,17 @@ from typing import Any
 import pytest
 from physanimator import __version__
 from physanimator.physics.errors import InvalidInputError
-from physanimator.rendering.shots import Animated, Job, Shot, Word, check_workers, command_lines, openjd_template
+from physanimator.physics.threads import THREADS
+from physanimator.rendering.shots import (
+    Animated,
+    Job,
+    Shot,
+    Word,
+    check_workers,
+    cluster,
+    command_lines,
+    openjd_template,
+)
 from physanimator.rendering.shots.shipping import packed, perform_elsewhere, unpacked
 from physanimator.rendering.shots.table_lines import table_lines
 
@@ -129,3 +139,17 @@ def test_farms_get_what_they_can_take() -> None:
     line = command_lines(shots[:1], listed="l.toml", out="it's", program="nice physanimator")  # type: ignore[arg-type]
     assert line.startswith("nice physanimator shots ")
     assert line.count("\n") == 1
+
+
+def test_cores_are_shared_out_where_shots_are_fewer(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(THREADS, raising=False)
+    monkeypatch.setattr(cluster, "_cores", lambda: 8)
+    monkeypatch.setattr("distributed.system.MEMORY_LIMIT", 64 << 30)
+    assert cluster.usual_workers() == 8
+    assert [cluster.threads_each(each) for each in (1, 2, 3, 8, 20)] == [8, 4, 2, 1, 1]
+    monkeypatch.setattr("distributed.system.MEMORY_LIMIT", 4 << 30)
+    assert cluster.usual_workers() == 3
+    monkeypatch.setattr("distributed.system.MEMORY_LIMIT", 64 << 30)
+    monkeypatch.setenv(THREADS, "4")
+    assert cluster.usual_workers() == 2
+    assert cluster.threads_each(1) == cluster.threads_each(8) == 4

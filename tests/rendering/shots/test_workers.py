@@ -1,0 +1,115 @@
+"""Real workers: how many threads each may use, and which of them get shots that ask for a graphics card."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import cv2
+import pytest
+from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.threads import THREADS, allowed_threads
+from physanimator.rendering.command import shots_run
+from physanimator.rendering.shots import Animated, Job, Shot, check_workers, engine, local_cluster, outcomes_of
+from shot_lists import environment
+
+distributed = pytest.importorskip("distributed")
+
+
+HERE: dict[str, Any] = {}  # what shots of workers in this process tell
+LOCK = threading.Lock()
+
+
+def by_networks(_: Sequence[str]) -> Animated:
+    with LOCK:
+        HERE["places"]["gpu"].add(distributed.get_worker().name)
+        HERE["at work"] += 1
+        HERE["most"] = max(HERE["most"], HERE["at work"])
+    time.sleep(0.05)
+    with LOCK:
+        HERE["at work"] -= 1
+    return Animated(0)
+
+
+def plainly(_: Sequence[str]) -> Animated:
+    HERE["places"]["plain"].add(distributed.get_worker().name)
+    return Animated(0)
+
+
+def nothing_written(_: str) -> list[str]:
+    return []
+
+
+def job(folder: Path, name: str, run: Any, *, on_gpu: bool) -> Job:
+    shot = Shot(name, (), {}, str(folder / f"{name}.shot.json"), on_gpu=on_gpu)
+    return Job(shot, name, run, nothing_written, str(folder / "notes"))
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_worker_of_ours_keeps_to_its_threads(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, threads: int) -> None:
+    monkeypatch.syspath_prepend(environment(tmp_path)["PYTHONPATH"])
+    monkeypatch.delenv(THREADS, raising=False)
+    with local_cluster(1, threads=threads) as client:
+        assert list(client.run(allowed_threads).values()) == [threads]
+        assert list(client.run(cv2.getNumThreads).values()) == [threads]
+
+
+@pytest.fixture
+def workers(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    """A cluster in this process, which can be given workers: ``add(name, **resources)``."""
+    monkeypatch.setattr(engine, "keep_to_threads", lambda _: None)  # this process is not theirs
+    made = distributed.SpecCluster(
+        scheduler={
+            "cls": distributed.Scheduler,
+            "options": {"port": 0, "dashboard_address": "127.0.0.1:0", "host": "127.0.0.1"},
+        }
+    )
+    count = [0]
+
+    def add(name: str, **resources: int) -> None:
+        options = {"nthreads": 2, "name": name, "resources": resources, "host": "127.0.0.1", "dashboard": False}
+        made.worker_spec[name] = {"cls": distributed.Worker, "options": options}
+        count[0] += 1
+        made.sync(made._correct_state)
+        client.wait_for_workers(count[0])
+
+    with made, distributed.Client(made, set_as_default=False) as client:
+        client.add = add
+        yield client
+
+
+def test_a_shot_with_networks_waits_for_a_card_and_has_it_alone(
+    tmp_path: Path, workers: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where no worker has a card it is refused; one that has two threads and one card does one such shot at a time."""
+    places: dict[str, set[str]] = {"gpu": set(), "plain": set()}
+    monkeypatch.setitem(HERE, "places", places)
+    monkeypatch.setitem(HERE, "at work", 0)
+    monkeypatch.setitem(HERE, "most", 0)
+    jobs = [
+        job(tmp_path, f"{kind}{n}", {"gpu": by_networks, "plain": plainly}[kind], on_gpu=kind == "gpu")
+        for n in range(6)
+        for kind in ("gpu", "plain")
+    ]
+    assert "those with networks wait for one with a graphics card" in shots_run._when(0, jobs)
+    workers.add("plain")
+    with pytest.raises(InvalidInputError, match=r"need a worker with a graphics card.* Got: gpu0, and 1 workers"):
+        check_workers(workers, jobs, ship=False)
+
+    ended = []
+    going = threading.Thread(
+        target=lambda: ended.extend(outcomes_of(workers, jobs, ship=False, token="t", heard=lambda: None))
+    )
+    going.start()
+    until = time.monotonic() + 30
+    while len(list(tmp_path.glob("plain*.shot.json"))) < 6 and time.monotonic() < until:
+        time.sleep(0.02)
+    assert places == {"gpu": set(), "plain": {"plain"}}  # those with networks wait, the others do not wait for them
+    workers.add("card", GPU=1)
+    going.join(30)
+    assert sorted((each.name, each.state) for each in ended) == sorted((each.shot.name, "done") for each in jobs)
+    assert places["gpu"] == {"card"}
+    assert HERE["most"] == 1
