@@ -33,7 +33,7 @@ from .models import find_model_file
 from .models.inpainting import inpainted_frames, refused_inpainting
 from .models.inpainting_inputs import inpainting_inputs
 from .models.svd import missing_svd_files, svd_frames
-from .models.svd_inputs import svd_inputs
+from .models.svd_inputs import dual_clock_inputs, svd_inputs
 from .models.tooncrafter import missing_tooncrafter_files, tooncrafter_backend
 from .models.tooncrafter_inputs import tooncrafter_inputs
 
@@ -48,6 +48,8 @@ if TYPE_CHECKING:
 __all__ = ["Interpolate", "Render"]
 
 _COMPOSITE, _SVD, _INPAINTING = "composite", "sketch-guided SVD", "soft inpainting"
+_DUAL_CLOCK = "animation-guided SVD"
+_RENDERERS = (_COMPOSITE, _SVD, _INPAINTING, _DUAL_CLOCK)
 _TOONCRAFTER = "tooncrafter"
 _FRAMES, _ALPHA, _PLATE = 0, 1, 2  # numbers of the outputs
 _IMAGES_ARE = ("all frames", "keyframes")
@@ -61,7 +63,7 @@ class Render(io.ComfyNode):
             display_name="Render (PhysAnimator)",
             category="PhysAnimator/render",
             description="Paints the frames: each body stretched along with its mesh, over the picture without it; or by"
-            " a video model that follows sketches; or with holes painted by an image model.",
+            " a video model that follows sketches or that animation; or with holes painted by an image model.",
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 MotionWire.Input(
@@ -76,11 +78,13 @@ class Render(io.ComfyNode):
                         io.DynamicCombo.Option(_COMPOSITE, []),
                         io.DynamicCombo.Option(_SVD, svd_inputs()),
                         io.DynamicCombo.Option(_INPAINTING, inpainting_inputs()),
+                        io.DynamicCombo.Option(_DUAL_CLOCK, dual_clock_inputs()),
                     ],
                     optional=True,
                     tooltip="composite: the illustration's own pixels, without any model."
                     " sketch-guided SVD: the paper's renderer, for which two model files are needed. soft inpainting:"
-                    " composite, with what the parts have uncovered painted by Stable Diffusion.",
+                    " composite, with what the parts have uncovered painted by Stable Diffusion. animation-guided SVD:"
+                    " composite's frames, repainted by Stable Video Diffusion alone.",
                 ),
                 io.Image.Input(
                     "clean_plate",
@@ -132,7 +136,7 @@ class Render(io.ComfyNode):
     ) -> io.NodeOutput:
         from ..rendering.pictures import over
 
-        name, choice = chosen(renderer, "renderer", (_COMPOSITE, _SVD, _INPAINTING)) if renderer else (_COMPOSITE, {})
+        name, choice = chosen(renderer, "renderer", _RENDERERS) if renderer else (_COMPOSITE, {})
         behind, by_model = background_chosen(background), name != _COMPOSITE
         picture = picture_with_alpha(image, image_alpha)
         plate = None if clean_plate is None else picture_with_alpha(clean_plate, name="clean_plate")

@@ -1,4 +1,4 @@
-"""Sketch-guided Stable Video Diffusion: the paper's renderer, for the public LVCD weights."""
+"""Stable Video Diffusion led by sketches, the paper's renderer for the public LVCD weights, or by an animation."""
 
 from __future__ import annotations
 
