@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from .configuration import NetworkConfiguration
+from .crude_animation import CrudeAnimation
 from .frame_layout import CLIP_FRAMES, FrameLayout
 from .options import SVDOptions
 
 __all__ = [
     "CLIP_FRAMES",
+    "CrudeAnimation",
     "FrameLayout",
     "NetworkConfiguration",
     "SVDOptions",

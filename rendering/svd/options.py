@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...physics.checks import check_number, check_whole
+from ...physics.checks import check_number, check_whole, require_kind
 from ...physics.errors import InvalidInputError, require
 from ..networks import LARGEST_AREA, SMALLEST_AREA, TRAINED_HEIGHT, TRAINED_WIDTH
 from .frame_layout import CLIP_FRAMES, LEAST_OVERLAP, OVERLAP
@@ -75,7 +75,8 @@ class SVDOptions:
         check_whole("area", self.area, SMALLEST_AREA, LARGEST_AREA, unit=" px^2")
         check_whole("decoded_together", self.decoded_together, 1, 10_000, unit=" frames")
         check_whole("seed", self.seed, -(2**63), 2**64 - 1)
-        require("follow", repr(self.follow)[:80], self.follow in FOLLOWED, f"one of {', '.join(FOLLOWED)}")
+        require_kind("follow", self.follow, str, "text")
+        require("follow", repr(self.follow[:80]), self.follow in FOLLOWED, f"one of {', '.join(FOLLOWED)}")
         check_number("weak", self.weak, 0, 1)
         check_number("strong", self.strong, 0, 1)
         require("strong", self.strong, self.weak <= self.strong, f"weak, which is {self.weak}, or more")

@@ -70,7 +70,10 @@ def frames(animation: Animation, **how: Any) -> NDArray[Any]:
         ({"interpolate_with": "film"}, "interpolate_with must be one of motion, flow, blend, tooncrafter. Got: 'film'"),
         ({"extractor": None}, "extractor must be one of gaussians, informative. Got: None"),
         ({"segmenter": 1}, "segmenter must be one of grabcut, sam. Got: 1"),
-        ({"renderer": "svd", "svd": "a"}, "lvcd must be a file where renderer is svd. Got: none"),
+        (
+            {"renderer": "svd", "svd": "a"},
+            "lvcd must be a file where renderer is svd, unless svd_options have follow=animation. Got: none",
+        ),
         ({"sam": "a"}, "sam must be left out unless segmenter is sam. Got: a"),
         ({"renderer": "svd", "svd": 3, "lvcd": "a"}, "svd must be the path of a file. Got: int"),
         ({"dtype": "fp8"}, "dtype must be one of auto, fp32, fp16, bf16. Got: 'fp8'"),
