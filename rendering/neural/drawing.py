@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...physics.progress import Progress
 from ..composite import keep_still_parts, moving_region
 from ..pictures import as_float
-from ..svd import SVDOptions
+from ..svd import CrudeAnimation, SVDOptions
 from .options import NetworkOptions, StrPath
 
 if TYPE_CHECKING:
@@ -35,19 +35,22 @@ def sketch_guided_frames(
     *,
     options: SVDOptions,
     placement: Placement,
+    animation: CrudeAnimation | None = None,
     alphas: Iterable[FloatImage] | None = None,
     soft_edge: float = 24.0,
     progress: Progress | None = None,
     watch: Callable[[SampledStep], None] | None = None,
 ) -> Iterator[FloatImage]:
-    """The frames of a clip that follow sketches.
+    """The frames of a clip that follow sketches, an animation, or both.
 
     Args:
         models: the networks.
         image: the illustration, RGB, shape [h, w, 3].
-        sketches: dark lines on white, one for each frame, the illustration's own first.
+        sketches: dark lines on white, one for each frame, the illustration's own first; none where only
+            an animation is followed.
         options: settings.
         placement: where the networks compute.
+        animation: see :class:`SVDRenderer`.
         alphas: how much moving parts cover of each pixel in each frame, 0..1, shape [h, w]: what none ever covers is
             taken from the illustration. None: everything is as the networks draw it.
         soft_edge: width of the transition to it [px].
@@ -60,7 +63,7 @@ def sketch_guided_frames(
     from ..svd.renderer import SVDRenderer
 
     renderer = SVDRenderer(models, options=options, placement=placement)
-    frames = renderer.frames(image, sketches, progress=progress, watch=watch)
+    frames = renderer.frames(image, sketches, animation=animation, progress=progress, watch=watch)
     if alphas is None:
         return frames
     picture, region = as_float(image), moving_region(alphas, soft_edge=soft_edge)
@@ -84,7 +87,7 @@ def load_svd(options: NetworkOptions, *, as_saved: bool = False) -> tuple[SVDMod
     gc.collect()  # networks hold themselves in circles: those of an earlier stage go before others come
     device = device_of(options.device)
     dtype = None if as_saved else dtype_of(options.dtype, device)
-    return load_models(Path(str(options.svd)), Path(str(options.lvcd)), dtype=dtype), placement_on(device)
+    return load_models(Path(str(options.svd)), _path(options.lvcd), dtype=dtype), placement_on(device)
 
 
 def load_tooncrafter(options: NetworkOptions, *, as_saved: bool = False) -> tuple[ToonCrafterModels, Placement]:
