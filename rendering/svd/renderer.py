@@ -18,13 +18,13 @@ from ..networks.memory import autoencoder_bytes, sampling_bytes
 from ..networks.placement import Placement
 from ..pictures import as_float, as_grey, as_picture
 from .conditioning import Conditioning, condition_on
-from .decoding import decode, decoding_chunks
+from .decoding import around_the_wrap, decode, decoding_chunks
 from .frame_layout import CLIP_FRAMES, FrameLayout
+from .loop_segments import plan_clip
 from .models import SVDModels
 from .noise_schedule import noise_levels
 from .options import SVDOptions
 from .sampler import LATENT_SCALE, SampledStep, sample_clip
-from .segments import plan_segments
 
 __all__ = ["SVDRenderer"]
 
@@ -61,6 +61,7 @@ class SVDRenderer:
         *,
         progress: Progress | None = None,
         watch: Callable[[SampledStep], None] | None = None,
+        loops: bool = False,
     ) -> Iterator[FloatImage]:
         """All frames of the clip; frame 0 is the illustration as the autoencoder sees it.
 
@@ -70,6 +71,7 @@ class SVDRenderer:
             progress: called after each sampling step and each decoded chunk with the number done and the number in all;
                 may raise to stop.
             watch: called in each sampling step; may raise to stop.
+            loops: the last frame leads to frame 1, which follows it when the clip is shown again without frame 0.
 
         Returns:
             An iterator over float32 pictures, 0..1, shape [h, w, 3]. Bad input raises here.
@@ -82,7 +84,7 @@ class SVDRenderer:
             f"of the illustration's size, {width} x {height} px",
         )
         require("sketches", sorted(sizes), sizes == {(height, width)}, expected)
-        return self._frames(image, sketches, progress, watch)
+        return self._frames(image, sketches, progress, watch, loops)
 
     def _frames(
         self,
@@ -90,10 +92,12 @@ class SVDRenderer:
         sketches: Sequence[NDArray[Any]],
         progress: Progress | None,
         watch: Callable[[SampledStep], None] | None,
+        loops: bool,
     ) -> Iterator[FloatImage]:
         options, frame = self.options, Frame.around(image.shape[1], image.shape[0], area=self.options.area)
-        steps = options.steps * len(plan_segments(len(sketches), options.overlap))
-        total = steps + len(list(decoding_chunks(len(sketches), options.decoded_together)))
+        steps = options.steps * len(plan_clip(len(sketches), options.overlap, loops=loops))
+        decoded = around_the_wrap(len(sketches)) if loops else list(range(len(sketches)))
+        total = steps + len(list(decoding_chunks(len(decoded), options.decoded_together)))
 
         def report(done: int) -> None:
             if progress is not None:
@@ -115,14 +119,22 @@ class SVDRenderer:
             generator=generator,
         )
         hints = torch.cat([_hint(frame.inward(as_grey(sketch))) for sketch in sketches])
-        latents = self._sampled(conditioning, hints, noise, each_step)
-        for number, pictures in enumerate(self._decoded(latents), start=1):
+        latents = self._sampled(conditioning, hints, noise, each_step, loops)
+        more = (len(decoded) - len(sketches)) // 2
+        shown = iter([number == 0 or more < number < len(decoded) - more for number in range(len(decoded))])
+        for number, pictures in enumerate(self._decoded(latents[decoded]), start=1):
             report(steps + number)
             for picture in pictures:
-                yield frame.outward(picture.permute(1, 2, 0).contiguous().numpy())
+                if next(shown):
+                    yield frame.outward(picture.permute(1, 2, 0).contiguous().numpy())
 
     def _sampled(
-        self, conditioning: Conditioning, hints: Tensor, noise: Tensor, watch: Callable[[SampledStep], None]
+        self,
+        conditioning: Conditioning,
+        hints: Tensor,
+        noise: Tensor,
+        watch: Callable[[SampledStep], None],
+        loops: bool,
     ) -> Tensor:
         """Latents of all frames, scaled, on the device."""
         device, unet, control, dtype = self.placement.device, self.models.unet, self.models.control, self.models.dtype
@@ -142,6 +154,7 @@ class SVDRenderer:
                 noise.to(device),
                 sigmas=noise_levels(self.options.steps),
                 overlap=self.options.overlap,
+                loops=loops,
                 watch=watch,
             )
 

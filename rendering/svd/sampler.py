@@ -11,8 +11,9 @@ import torch
 from torch import Tensor
 
 from .frame_layout import OVERLAP, FrameLayout
+from .loop_segments import plan_clip
 from .noise_schedule import Preconditioning, denoised, euler_step, noise_levels
-from .segments import Segment, plan_segments
+from .segments import Segment
 
 __all__ = ["LATENT_SCALE", "Predictor", "SampledStep", "sample_clip"]
 
@@ -68,6 +69,7 @@ def sample_clip(
     *,
     sigmas: Tensor | None = None,
     overlap: int = OVERLAP,
+    loops: bool = False,
     watch: Callable[[SampledStep], None] | None = None,
 ) -> Tensor:
     """The latents of all frames.
@@ -79,15 +81,17 @@ def sample_clip(
         noise: standard normal, one for each slot of a segment, shape [15 + overlap, 4, h, w].
         sigmas: noise levels, the last 0; those of 25 steps by default.
         overlap: frames that neighbouring segments share.
+        loops: whether the last frame leads to frame 1.
         watch: called in every step; may raise to stop.
 
     Returns:
         Scaled latents, the reference picture's first, float32, shape [f, 4, h, w].
     """
     levels = (noise_levels(25) if sigmas is None else sigmas).to(noise.device)
-    segments = plan_segments(len(sketches), overlap)
+    segments = plan_clip(len(sketches), overlap, loops=loops)
     steps = len(levels) - 1
     found, made = _Found(first_latent, noise), [LATENT_SCALE * first_latent]
+    opening: _Found | None = None
     for number, segment in enumerate(segments):
 
         def report(step: int, noisy: Tensor, clean: Tensor, number: int = number) -> None:
@@ -95,7 +99,10 @@ def sample_clip(
                 done = number * steps + step + 1
                 watch(SampledStep(number, step, done, len(segments) * steps, noisy, clean))
 
-        found = _sample_segment(predict, segment, found, sketches, noise, levels, report)
+        before = found if opening is None or not segment.closes else found.followed_by(opening)
+        found = _sample_segment(predict, segment, before, sketches, noise, levels, report)
+        if loops and opening is None:
+            opening = found
         made.append(found.result[list(segment.made)])
     return torch.cat(made)
 
@@ -114,6 +121,11 @@ class _Found:
     result: Tensor
     clean: tuple[Tensor, ...] = ()
 
+    def followed_by(self, other: _Found) -> _Found:
+        """The slots of both, one after the other."""
+        clean = tuple(torch.cat(both) for both in zip(self.clean, other.clean, strict=True))
+        return _Found(self.first, torch.cat([self.result, other.result]), clean)
+
 
 def _sample_segment(
     predict: Predictor,
@@ -125,7 +137,6 @@ def _sample_segment(
     report: Callable[[int, Tensor, Tensor], None],
 ) -> _Found:
     condition, hint = _condition(segment, before), sketches[list(segment.sketches)]
-    shared = slice(segment.layout.references, segment.layout.references + len(segment.blended))
     x = noise[list(segment.noise)] * (1 + levels[0] ** 2).sqrt()
     predictions = []
     for step, (sigma, following) in enumerate(pairwise(levels)):
@@ -135,7 +146,7 @@ def _sample_segment(
         predictions.append(clean)
         if segment.blended:
             clean = clean.clone()
-            clean[shared] = before.clean[step][list(segment.blended)]
+            clean[list(segment.held)] = before.clean[step][list(segment.blended)]
         x = euler_step(x, clean, sigma, following)
     return _Found(before.first, x, tuple(predictions))
 
