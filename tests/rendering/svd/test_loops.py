@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -62,7 +63,7 @@ def test_the_clip_of_the_last_segment_ends_with_the_first_frames(cycle: int) -> 
 def test_surplus_frames_go_on_into_the_loop_instead_of_standing_still(cycle: int) -> None:
     before = plan_loop(cycle + 1)[-2]
     clip = before.sketches[before.layout.references :]
-    assert all(1 + one % cycle == other for one, other in zip(clip, clip[1:], strict=False))
+    assert all(1 + one % cycle == other for one, other in itertools.pairwise(clip))
 
 
 class Recorder:
