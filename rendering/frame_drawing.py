@@ -7,17 +7,20 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.mesh import coverage_of
 from ..physics.motion import FlowSequence, Motion
-from .composite import Background, LayeredRenderer, PixelArtRenderer, shown_frame
+from .composite import Background, LayeredRenderer, PixelArtRenderer, shown_frame, shown_frame_and_alpha
 from .neural import NetworkOptions
-from .pictures import as_uint8, over
+from .pictures import as_float, as_uint8, over
 from .stages import StageProgress, stage_of
+
+if TYPE_CHECKING:
+    from .neural.colour_drift import Reference
 
 __all__ = ["DrawsFrames", "FrameDrawing", "drawn_elsewhere", "frames_drawn_by"]
 
@@ -78,6 +81,12 @@ class FrameDrawing:
         """The motion's frames that are shown."""
         return range(self.first, len(self.motion))
 
+    @property
+    def closes(self) -> bool:
+        """Whether the last shown frame leads to the first, as what draws frames is to know."""
+        loop, count = self.motion.loop, len(self.shown)
+        return self.networks.close_loop and loop is not None and count > 1 and count % loop.frames == 0
+
     def sketches(self) -> Iterator[Image]:
         """The line drawing of each frame, lines dark on white, float32, shape [h, w]."""
         return self._sketches(self.motion, self.shown)
@@ -94,13 +103,17 @@ class FrameDrawing:
         """All frames, of which those between keyframes are filled in.
 
         Args:
-            at: numbers of the keyframes among the frames that are shown, increasing.
+            at: numbers of the keyframes among the frames that are shown, increasing. Of a clip that closes, all other
+                frames are in-betweens.
             background: what is there where nothing moves; opaque.
             progress: called with the steps of models.
         """
         led = self.networks.sketch_encoder is not None
         guides = self._guides() if led or self.networks.draws_all else []
         drawn = self._kept(at, guides, background, progress)
+        if self.closes and len(at) > 1:
+            yield from self._between([drawn(t) for t in at], at, guides if led else [], progress, loop=len(self.shown))
+            return
         count = len(self.shown)
         yield from map(drawn, range(at[0]))
         yield from self._between([drawn(t) for t in at], at, guides if led else [], progress)
@@ -112,7 +125,8 @@ class FrameDrawing:
         """What gives each frame that is no in-between; a model draws all of them at once."""
         if not self.networks.draws_opaque:
             return lambda t: shown_frame(self.renderer, self.first + t, background)
-        wanted = sorted({*at, *range(at[0]), *range(at[-1], len(self.shown))})
+        around = () if self.closes and len(at) > 1 else (*range(at[0]), *range(at[-1], len(self.shown)))
+        wanted = sorted({*at, *around})
         if not self.networks.draws_all:
             painted = self._composed([self.first + t for t in wanted], background, progress)
             return dict(zip(wanted, painted, strict=True)).__getitem__
@@ -150,19 +164,25 @@ class FrameDrawing:
             yield t
 
     def _between(
-        self, keyframes: list[Image], at: Sequence[int], guides: list[Image], progress: StageProgress | None
+        self,
+        keyframes: list[Image],
+        at: Sequence[int],
+        guides: list[Image],
+        progress: StageProgress | None,
+        loop: int | None = None,
     ) -> Iterator[Image]:
-        """Keyframes, and what is between them."""
+        """Keyframes, and what is between them; of a loop all frames."""
         from .inbetweens import interpolate
         from .matting import shown_part
         from .neural.drawing import in_between_backend
 
         backend = in_between_backend(self.networks, stage_of("tooncrafter", progress))
         if not isinstance(backend, str):
-            return interpolate(keyframes, at, backend=backend, sketches=guides)
+            return interpolate(keyframes, at, backend=backend, sketches=guides, loop=loop)
         masks = [coverage_of(mask) for mask in self.masks]
         shown = masks if self.own else [shown_part(self.image, mask) for mask in masks]
-        return interpolate(keyframes, [self.first + t for t in at], backend=backend, motion=self.motion, masks=shown)
+        motion = self.motion[self.first :]
+        return interpolate(keyframes, at, backend=backend, motion=motion, masks=shown, loop=loop)
 
     def _guides(self) -> list[Image]:
         """The sketches, as video models follow them."""
@@ -184,6 +204,7 @@ class FrameDrawing:
         self, guides: list[Image], background: Background, progress: StageProgress | None
     ) -> Iterator[Image]:
         """All frames by the video model, which begins with the illustration: where none of them shows it, one more."""
+        from .neural.colour_drift import own_colours
         from .neural.drawing import load_svd, sketch_guided_frames
 
         begins_at_rest = self.first == 0 and self.motion.loop is None
@@ -192,14 +213,27 @@ class FrameDrawing:
             resting = replace(self.motion, positions=rest, loop=None)
             guides = [*map(as_uint8, self._sketches(resting, [0])), *guides]
         models, placement = load_svd(self.networks)
+        image = over(self.image, background.colour)
+        composed = self._colours(background, [] if begins_at_rest else [own_colours(as_float(image))])
         frames = sketch_guided_frames(
             models,
-            over(self.image, background.colour),
+            image,
             guides,
             options=self.networks.svd_options,
             placement=placement,
             alphas=map(self.renderer.alpha, self.shown) if self.networks.still_parts else None,
             soft_edge=self.networks.edge_width,
             progress=stage_of("svd", progress),
+            loops=self.closes,
+            colour_match=self.networks.colour_match,
+            references=composed,
         )
         return itertools.islice(frames, 0 if begins_at_rest else 1, None)
+
+    def _colours(self, background: Background, before: Sequence[Reference]) -> Iterator[Reference]:
+        """What colours frames should have: those of the illustration's own pixels, where no hole is."""
+        yield from before
+        renderer: Any = self.renderer
+        for t in self.shown:
+            frame, alpha = shown_frame_and_alpha(renderer, t, background)
+            yield as_float(frame), 1 - renderer.uncovered_by(alpha)

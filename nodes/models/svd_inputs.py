@@ -7,6 +7,7 @@ from typing import Any
 from comfy_api.latest import io
 
 from ...rendering.svd import CLIP_FRAMES, SVDOptions
+from .clip_inputs import colour_match_input, loop_input
 from .model_files import lvcd_choices, svd_choices
 from .option_inputs import area_input, count_input, precision_input, seed_input
 
@@ -84,4 +85,6 @@ def svd_inputs() -> list[Any]:
             step=1.0,
             tooltip="Width of the transition to the kept pixels [px].",
         ),
+        loop_input("the last frames lead to the first, for which up to one segment more is drawn"),
+        colour_match_input("composite outside holes, or of the illustration where no motion is connected"),
     ]

@@ -106,7 +106,7 @@ def with_colours(
     change = _change(found, wanted, amount)
     if change is None:
         return picture
-    finite = np.isfinite(picture).all(axis=2)
+    finite = np.asarray(np.isfinite(picture).all(axis=2))
     changed = lab_to_rgb(cv2.transform(rgb_to_lab(np.where(finite[..., None], picture, 0)), change))
     return np.where(finite[..., None], changed, picture).astype(np.float32, copy=False)
 

@@ -14,12 +14,13 @@ __all__ = ["lab_to_rgb", "rgb_to_lab"]
 FloatImage = NDArray[np.float32]
 
 # From linear sRGB to CIE XYZ over its white, D65 (IEC 61966-2-1): grey has no a and b.
-_TO_XYZ = np.array(
+_PRIMARIES = np.array(
     [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.072175], [0.0193339, 0.119192, 0.9503041]]
 )
-_TO_XYZ = (_TO_XYZ / _TO_XYZ.sum(axis=1, keepdims=True)).astype(np.float32)
-_TO_RGB = np.linalg.inv(_TO_XYZ.astype(np.float64)).astype(np.float32)
-_TO_LAB = np.float32([[0, 116, 0], [500, -500, 0], [0, 200, -200]])
+_WHITE = _PRIMARIES.sum(axis=1, keepdims=True)
+_TO_XYZ = (_PRIMARIES / _WHITE).astype(np.float32)
+_TO_RGB = np.linalg.inv(_PRIMARIES / _WHITE).astype(np.float32)
+_TO_LAB = np.array([[0, 116, 0], [500, -500, 0], [0, 200, -200]], np.float32)
 _FROM_LAB = np.linalg.inv(_TO_LAB.astype(np.float64)).astype(np.float32)
 _DARK, _SLOPE, _FOOT = np.float32(6 / 29), np.float32(841 / 108), np.float32(4 / 29)
 
