@@ -33,12 +33,14 @@ from .models import find_model_file
 from .models.clip_inputs import AS_THE_MOTION, is_loop, loop_input
 from .models.inpainting import inpainted_frames, refused_inpainting
 from .models.inpainting_inputs import inpainting_inputs
-from .models.svd import missing_svd_files, svd_frames
-from .models.svd_inputs import svd_inputs
+from .models.svd import check_followed, missing_svd_files, svd_frames
+from .models.svd_inputs import dual_clock_inputs, svd_inputs
 from .models.tooncrafter import missing_tooncrafter_files, tooncrafter_backend
 from .models.tooncrafter_inputs import tooncrafter_inputs
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     import torch
     from numpy.typing import NDArray
 
@@ -49,6 +51,8 @@ if TYPE_CHECKING:
 __all__ = ["Interpolate", "Render"]
 
 _COMPOSITE, _SVD, _INPAINTING = "composite", "sketch-guided SVD", "soft inpainting"
+_DUAL_CLOCK = "animation-guided SVD"
+_RENDERERS = (_COMPOSITE, _SVD, _INPAINTING, _DUAL_CLOCK)
 _TOONCRAFTER = "tooncrafter"
 _FRAMES, _ALPHA, _PLATE = 0, 1, 2  # numbers of the outputs
 _IMAGES_ARE = ("all frames", "keyframes")
@@ -62,7 +66,7 @@ class Render(io.ComfyNode):
             display_name="Render (PhysAnimator)",
             category="PhysAnimator/render",
             description="Paints the frames: each body stretched along with its mesh, over the picture without it; or by"
-            " a video model that follows sketches; or with holes painted by an image model.",
+            " a video model that follows sketches or that animation; or with holes painted by an image model.",
             inputs=[
                 io.Image.Input("image", tooltip="The illustration (one picture)."),
                 MotionWire.Input(
@@ -77,11 +81,13 @@ class Render(io.ComfyNode):
                         io.DynamicCombo.Option(_COMPOSITE, []),
                         io.DynamicCombo.Option(_SVD, svd_inputs()),
                         io.DynamicCombo.Option(_INPAINTING, inpainting_inputs()),
+                        io.DynamicCombo.Option(_DUAL_CLOCK, dual_clock_inputs()),
                     ],
                     optional=True,
                     tooltip="composite: the illustration's own pixels, without any model."
                     " sketch-guided SVD: the paper's renderer, for which two model files are needed. soft inpainting:"
-                    " composite, with what the parts have uncovered painted by Stable Diffusion.",
+                    " composite, with what the parts have uncovered painted by Stable Diffusion. animation-guided SVD:"
+                    " composite's frames, repainted by Stable Video Diffusion alone.",
                 ),
                 io.Image.Input(
                     "clean_plate",
@@ -109,6 +115,8 @@ class Render(io.ComfyNode):
         # Before the simulation, not after it. The host hands over what a choice brings only if every input is taken.
         sent = sent_inputs() or {"motion": []}
         checks = [lambda: background_chosen(background)]
+        if renderer and renderer.get("renderer") == _DUAL_CLOCK:
+            checks.append(lambda: check_followed(renderer, sketches="renderer.sketches" in sent))
         if "motion" not in sent:
             checks.append(lambda: _check_without_motion(renderer, plate="clean_plate" in sent))
         refused = missing_svd_files(renderer or {}) or refused_inpainting(renderer or {})
@@ -133,7 +141,7 @@ class Render(io.ComfyNode):
     ) -> io.NodeOutput:
         from ..rendering.pictures import over
 
-        name, choice = chosen(renderer, "renderer", (_COMPOSITE, _SVD, _INPAINTING)) if renderer else (_COMPOSITE, {})
+        name, choice = chosen(renderer, "renderer", _RENDERERS) if renderer else (_COMPOSITE, {})
         behind, by_model = background_chosen(background), name != _COMPOSITE
         picture = picture_with_alpha(image, image_alpha)
         plate = None if clean_plate is None else picture_with_alpha(clean_plate, name="clean_plate")
@@ -156,12 +164,7 @@ class Render(io.ComfyNode):
         told = all_told(told, told_of_another_picture(cls, motion, picture))
         layers = drawing(motion.motion)
         if by_model and frames is not None:
-            of_svd = name == _SVD
-            for frame in (
-                svd_frames(picture, _sketches_of(choice), layers, choice)
-                if of_svd
-                else inpainted_frames(layers, behind, choice)
-            ):
+            for frame in _drawn_by_model(name, picture, layers, behind, choice):
                 frames.put(frame)
         _compose(layers, behind, None if by_model else frames, alpha)
         both = (("frames", frames), ("alpha", alpha))
@@ -189,8 +192,22 @@ def _check_without_motion(renderer: dict[str, Any] | None, *, plate: bool) -> No
         require("motion", "nothing", not wanted, f"connected {reason}")
 
 
+def _drawn_by_model(
+    name: str, picture: NDArray[Any], layers: LayeredRenderer, background: Background, choice: dict[str, Any]
+) -> Iterator[NDArray[Any]]:
+    """All frames by the model of a choice."""
+    if name == _INPAINTING:
+        return inpainted_frames(layers, background, choice)
+    sketches = _sketches_of(choice)
+    if name == _SVD:
+        return svd_frames(picture, sketches, layers, choice)
+    check_followed(choice, sketches=bool(sketches))
+    return svd_frames(picture, sketches, layers, choice, background)
+
+
 def _sketches_of(choice: dict[str, Any]) -> list[NDArray[Any]]:
-    return list(pictures_of(choice["sketches"], name="sketches"))
+    given = choice.get("sketches")
+    return [] if given is None else list(pictures_of(given, name="sketches"))
 
 
 def _from_sketches(

@@ -18,6 +18,7 @@ from .composite import Background, LayeredRenderer, PixelArtRenderer, shown_fram
 from .neural import NetworkOptions
 from .pictures import as_float, as_uint8, over
 from .stages import StageProgress, stage_of
+from .svd import CrudeAnimation
 
 if TYPE_CHECKING:
     from .neural.colour_drift import Reference
@@ -95,7 +96,8 @@ class FrameDrawing:
         """All frames, each drawn anew."""
         if not self.networks.draws_all:
             return self._composed(self.shown, background, progress)
-        return self._sketch_guided(self._guides(), background, progress)
+        guides = self._guides() if self.networks.follows_sketches else []
+        return self._by_video_model(guides, background, progress)
 
     def with_in_betweens(
         self, at: Sequence[int], background: Background, progress: StageProgress | None
@@ -109,7 +111,7 @@ class FrameDrawing:
             progress: called with the steps of models.
         """
         led = self.networks.sketch_encoder is not None
-        guides = self._guides() if led or self.networks.draws_all else []
+        guides = self._guides() if led or self.networks.follows_sketches else []
         drawn = self._kept(at, guides, background, progress)
         if self.closes and len(at) > 1:
             yield from self._between([drawn(t) for t in at], at, guides if led else [], progress, loop=len(self.shown))
@@ -130,7 +132,7 @@ class FrameDrawing:
         if not self.networks.draws_all:
             painted = self._composed([self.first + t for t in wanted], background, progress)
             return dict(zip(wanted, painted, strict=True)).__getitem__
-        frames = enumerate(self._sketch_guided(guides, background, progress))
+        frames = enumerate(self._by_video_model(guides, background, progress))
         return {t: frame for t, frame in frames if t in wanted}.__getitem__
 
     def _composed(
@@ -200,35 +202,59 @@ class FrameDrawing:
         for each in warped_sketches(sketch, FlowSequence(motion), frames, mode=mode, blur_sigma=blur, **layers):
             yield each.sketch
 
-    def _sketch_guided(
+    def _by_video_model(
         self, guides: list[Image], background: Background, progress: StageProgress | None
     ) -> Iterator[Image]:
-        """All frames by the video model, which begins with the illustration: where none of them shows it, one more."""
+        """All frames by the video model, which begins with the illustration: where none of them shows it, one more.
+
+        Args:
+            guides: the sketches of all frames; not used where only the animation is followed.
+            background: what is there where nothing moves; opaque.
+            progress: called with its steps.
+        """
         from .neural.colour_drift import own_colours
         from .neural.drawing import load_svd, sketch_guided_frames
 
+        networks, picture = self.networks, over(self.image, background.colour)
         begins_at_rest = self.first == 0 and self.motion.loop is None
-        if not begins_at_rest:
-            rest = np.concatenate([body.mesh.vertices for body in self.motion.bodies])[None]
-            resting = replace(self.motion, positions=rest, loop=None)
-            guides = [*map(as_uint8, self._sketches(resting, [0])), *guides]
-        models, placement = load_svd(self.networks)
-        image = over(self.image, background.colour)
-        composed = self._colours(background, [] if begins_at_rest else [own_colours(as_float(image))])
+        sketches = guides if networks.follows_sketches else []
+        if sketches and not begins_at_rest:
+            sketches = [*map(as_uint8, self._sketches(self._resting, [0])), *sketches]
+        models, placement = load_svd(networks)
+        composed = self._colours(background, [] if begins_at_rest else [own_colours(as_float(picture))])
         frames = sketch_guided_frames(
             models,
-            image,
-            guides,
-            options=self.networks.svd_options,
+            picture,
+            sketches,
+            options=networks.svd_options,
             placement=placement,
-            alphas=map(self.renderer.alpha, self.shown) if self.networks.still_parts else None,
-            soft_edge=self.networks.edge_width,
+            animation=self._followed(picture, begins_at_rest, background) if networks.follows_animation else None,
+            alphas=map(self.renderer.alpha, self.shown) if networks.still_parts else None,
+            soft_edge=networks.edge_width,
             progress=stage_of("svd", progress),
             loops=self.closes,
             colour_match=self.networks.colour_match,
             references=composed,
         )
         return itertools.islice(frames, 0 if begins_at_rest else 1, None)
+
+    @property
+    def _resting(self) -> Motion:
+        """One frame of the illustration as it is."""
+        rest = np.concatenate([body.mesh.vertices for body in self.motion.bodies])[None]
+        return replace(self.motion, positions=rest, loop=None)
+
+    def _followed(self, picture: Image, begins_at_rest: bool, background: Background) -> CrudeAnimation:
+        """Composite's frames, and where parts move in them; before them the illustration, where none shows it."""
+        layers: Any = self.renderer
+        before = 0 if begins_at_rest else 1
+
+        def at(number: int) -> tuple[Image, Image]:
+            if number < before:
+                return picture, layers.alpha_at_rest
+            return shown_frame_and_alpha(layers, self.shown[number - before], background)
+
+        return CrudeAnimation(before + len(self.shown), at)
 
     def _colours(self, background: Background, before: Sequence[Reference]) -> Iterator[Reference]:
         """What colours frames should have: those of the illustration's own pixels, where no hole is."""

@@ -82,7 +82,7 @@ MAY_IMPORT = {
         "physics physics/assembly physics/document physics/material physics/mesh physics/motion physics/rig "
         "physics/scene physics/simulation rendering/artwork rendering/composite rendering/export rendering/files "
         "rendering/inbetweens rendering/matting rendering/neural rendering/overlays rendering/pictures "
-        "rendering/segmentation rendering/sketch"
+        "rendering/segmentation rendering/sketch rendering/svd"
     ),
     "rendering/evaluation/columns": (
         "physics physics/motion rendering/metrics rendering/metrics/learned rendering/neural rendering/pictures "

@@ -61,6 +61,7 @@ _REMEDIES = (
     ("max_minutes", re.compile(r"\bset max_minutes\b"), "set --max-minutes"),
     ("spacing", re.compile(r"\ba (larger|smaller) spacing\b"), r"a \1 --spacing"),
     *((name, re.compile(rf"\b(where|unless) {name} is\b"), rf"\1 {_OPTIONS[name]} is") for name in _CHOICES),
+    ("svd_options", re.compile(r"\bsvd_options have\b"), "--svd-options have"),
     ("sway", re.compile(r"\ba lower sway_frequency\b"), "a lower --sway"),
 )
 

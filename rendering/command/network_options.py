@@ -19,7 +19,7 @@ CHOICES = {
 DTYPES = ("auto", "fp32", "fp16", "bf16")
 SVD_SETTINGS = (
     "steps=25, motion_bucket=160, frames_per_second=6, picture_noise=0.0, overlap=4, area=184320, decoded_together=10,"
-    " seed=0"
+    " seed=0, follow=sketches, weak=0.32, strong=0.42, guidance=1.0"
 )
 INPAINTING_SETTINGS = (
     "prompt=, negative_prompt=, steps=25, strength=1.0, guidance=7.5, seed=0, shared_noise=True, area=None"
@@ -55,8 +55,9 @@ def add_networks(parser: argparse.ArgumentParser, *, points: bool, in_betweens: 
 
     choice(
         "renderer",
-        "who draws frames. svd: sketch-guided Stable Video Diffusion, the paper's way, on opaque pictures; inpainting:"
-        " composite, with what the parts have uncovered painted by Stable Diffusion, on opaque flat pictures",
+        "who draws frames. svd: Stable Video Diffusion, after sketches, the paper's way, or after composite's frames,"
+        " on opaque pictures; inpainting: composite, with what the parts have uncovered painted by Stable Diffusion, on"
+        " opaque flat pictures",
     )
     file(
         "svd",
@@ -66,9 +67,16 @@ def add_networks(parser: argparse.ArgumentParser, *, points: bool, in_betweens: 
     file(
         "lvcd",
         "lvcd.ckpt from huggingface.co/luckyhzt/lvcd_pretrained_models, or lvcd-fp16.safetensors from"
-        " huggingface.co/Kijai/LVCD-pruned",
+        " huggingface.co/Kijai/LVCD-pruned; needed only where svd follows sketches",
     )
-    _add_settings(group, "--svd-options", SVD_SETTINGS)
+    _add_settings(
+        group,
+        "--svd-options",
+        SVD_SETTINGS,
+        "; follow is sketches, animation (composite's frames; needs no LVCD, and its defaults are motion_bucket=17,"
+        " picture_noise=0.02, guidance=3.0) or both; moving parts are held to the animation from the part weak to the"
+        " part strong of the steps",
+    )
     group.add_argument(
         "--still-parts",
         action=argparse.BooleanOptionalAction,

@@ -54,6 +54,8 @@ def _settings(usual: Settings, text: str) -> Settings:
         if name in texts:
             raise InvalidInputError(f"settings must each be given once. Got: {name} twice")
         texts[name], last = value, name
+    if "follow" in texts:
+        usual = usual.following(texts["follow"])  # type: ignore[attr-defined]
     return replace(usual, **{name: _value(name, known[name], said) for name, said in texts.items()})  # type: ignore[type-var]
 
 
@@ -100,7 +102,7 @@ def check_networks_used(options: argparse.Namespace) -> None:
             raise InvalidInputError(
                 "--interpolate-with needs --interpolate N or --keyframes-at; the paper draws every 15th. Got: neither"
             )
-        drawn = options.save_sketch or networks.draws_all or networks.sketch_encoder is not None
+        drawn = options.save_sketch or networks.follows_sketches or networks.sketch_encoder is not None
         if networks.extractor != "gaussians" and not drawn:
             raise InvalidInputError(
                 "--extractor informative needs --save-sketch, --renderer svd or --sketch-encoder, for which it draws."

@@ -279,7 +279,7 @@ class LayeredRenderer:
 
     def uncovered_by(self, alpha: FloatImage) -> FloatImage:
         """What is uncovered in a frame whose alpha is known, shape [h, w]; see ``uncovered``."""
-        return np.asarray(np.clip(self._at_rest - alpha, 0, 1), dtype=np.float32)
+        return np.asarray(np.clip(self.alpha_at_rest - alpha, 0, 1), dtype=np.float32)
 
     @cached_property
     def in_front(self) -> FloatImage:
@@ -292,8 +292,8 @@ class LayeredRenderer:
         return shown
 
     @cached_property
-    def _at_rest(self) -> FloatImage:
-        """How much of each pixel the bodies cover as drawn, shape [h, w]."""
+    def alpha_at_rest(self) -> FloatImage:
+        """How much of each pixel the bodies cover as drawn, 0 to 1, shape [h, w]."""
         rest = np.concatenate([body.mesh.vertices for body in self.motion.bodies]).astype(np.float32)
         return self._covered(self._laid(Motion(self.motion.bodies, rest[None], self.motion.frame_rate), 0))
 

@@ -75,15 +75,19 @@ def network_options(which: EvaluationSet, method: Method, sample: int) -> Networ
     chosen: dict[str, Any] = {"renderer": method.renderer}
     if method.interpolate > 1:
         chosen["interpolate_with"] = method.interpolate_with
-    if which.weights.lines and method.renderer == "svd":
+    by_svd = method.renderer == "svd"
+    if which.weights.lines and by_svd and method.follow != "animation":
         chosen["extractor"] = "informative"
     used = {name for name, (which_choice, network, _) in FILES.items() if chosen.get(which_choice) == network}
+    if by_svd and method.follow == "animation":
+        used -= {"lvcd"}
     files: dict[str, Any] = {name: which.weights.of(name) for name in used}
     usual = NetworkOptions()
     seed = (which.seed + sample) % _LARGEST_SEED
     told: dict[str, Any] = {}
     filled = [(method.interpolate_with, method.interpolate_settings)] if method.interpolate > 1 else []
-    for network, settings in [(method.renderer, method.settings), *filled]:
+    settings_of_svd: dict[str, float | int | bool | str] = {"follow": method.follow} if by_svd else {}
+    for network, settings in [(method.renderer, settings_of_svd | method.settings), *filled]:
         name = f"{network}_options"
         if hasattr(usual, name):
             told[name] = _settings(getattr(usual, name), {"seed": seed, **settings})
@@ -107,6 +111,8 @@ def _settings(usual: Any, told: dict[str, Any]) -> Any:
             raise InvalidInputError(
                 f"settings must be among {', '.join(known)}{suggestion(name, known)}. Got: {name!r}"
             )
+    if "follow" in told:
+        usual = usual.following(told["follow"])
     return replace(usual, **told)
 
 

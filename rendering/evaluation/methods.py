@@ -15,7 +15,7 @@ from ..sketch import WARP_MODES, WarpMode
 from .mask_errors import MASK_ERRORS
 from .names import check_name, suggestion
 
-__all__ = ["ABLATIONS", "METHODS", "PAPER_INTERVAL", "Method", "method_named"]
+__all__ = ["ABLATIONS", "DUAL_CLOCK", "METHODS", "PAPER_INTERVAL", "Method", "method_named"]
 
 PAPER_INTERVAL = 15
 """Frames from keyframe to keyframe in the paper's in-betweening, n."""
@@ -23,11 +23,18 @@ PAPER_INTERVAL = 15
 WARP = "warp-inpaint"
 """Draws each frame by warping the picture and filling what is left by itself, without knowing of other frames."""
 
+DUAL_CLOCK = "dual-clock"
+"""Draws by Stable Video Diffusion that follows the animation of composite."""
+
 _RENDERERS = {"svd": "sketch-guided"}
 """Renderers that a method calls otherwise than the command line does."""
 
 DRAWS: Mapping[str, str] = MappingProxyType(
-    {WARP: "composite", **{_RENDERERS.get(each, each): each for each in CHOICES["renderer"]}}
+    {
+        WARP: "composite",
+        **{_RENDERERS.get(each, each): each for each in CHOICES["renderer"]},
+        DUAL_CLOCK: "svd",
+    }
 )
 """What can draw frames, with its renderer. A renderer that the package gains is a method of that name at once."""
 
@@ -123,8 +130,15 @@ class Method:
         if self.interpolate > 1:
             chosen["interpolate_with"] = self.interpolate_with
         return tuple(
-            name for name, (which, network, needed) in FILES.items() if needed and chosen.get(which) == network
+            name
+            for name, (which, network, needed) in FILES.items()
+            if needed and chosen.get(which) == network and (name != "lvcd" or self.follow != "animation")
         )
+
+    @property
+    def follow(self) -> str:
+        """What frames of Stable Video Diffusion follow: see :class:`~physanimator.rendering.svd.SVDOptions`."""
+        return str(self.settings.get("follow", "animation" if self.draws == DUAL_CLOCK else "sketches"))
 
     def as_record(self) -> dict[str, Any]:
         """All that its clips depend on: their name is no part of it."""
@@ -146,6 +160,7 @@ _USED_BY_RENDERERS = {
     "interpolate_settings",
 }
 _USED_BY = {
+    DUAL_CLOCK: _USED_BY_RENDERERS - {"sketch_blur", "sketch_warp"},
     WARP: {"weight", "mask_error", "mask_error_px", "contact"},
     "composite": _USED_BY_RENDERERS - {"sketch_blur", "sketch_warp", "settings"},
     "inpainting": _USED_BY_RENDERERS - {"sketch_blur", "sketch_warp"},
@@ -169,6 +184,7 @@ def _built_in() -> dict[str, Method]:
     found = [
         *other,
         *filled,
+        Method(name="sketch-guided-dual-clock", draws="sketch-guided", settings={"follow": "both"}),
         Method(name="composite-no-contact", draws="composite", contact=False),
         Method(name=f"{WARP}-paper-weight", draws=WARP, weight="paper"),
         Method(name="sketch-guided-paper-weight", draws="sketch-guided", sketch_warp="paper"),
@@ -193,6 +209,7 @@ ABLATIONS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "sketch-guided",
             *(f"sketch-guided-{each}" for each in MASK_ERRORS),
         ),
+        "dual-clock": ("composite", "sketch-guided", DUAL_CLOCK, "sketch-guided-dual-clock"),
         "contact": ("composite", "composite-no-contact"),
         "warp-weight": ("composite", WARP, f"{WARP}-paper-weight", "sketch-guided", "sketch-guided-paper-weight"),
         "interpolation": (

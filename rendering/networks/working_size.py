@@ -80,6 +80,20 @@ class Frame:
         framed = cv2.copyMakeBorder(scaled, top, bottom, left, right, cv2.BORDER_REPLICATE)
         return np.clip(framed, 0, 1).astype(np.float32, copy=False)
 
+    def cells_touched(self, mask: NDArray[np.bool_], *, cell: int) -> NDArray[np.bool_]:
+        """Which cells of the frame any part of a mask lies in, however small it becomes there.
+
+        Args:
+            mask: in the illustration, shape [height, width].
+            cell: side of the square cells [px of the frame], of which the frame's sides are multiples.
+
+        Returns:
+            Shape [frame's height / cell, frame's width / cell]; margins are as the illustration's edge beside them.
+        """
+        (left, top), (columns, rows) = self._margins, self.size
+        across = _touched(mask.T, self.scaled[0], left, columns, cell)
+        return _touched(across.T, self.scaled[1], top, rows, cell)
+
     def outward(self, picture: FloatImage) -> FloatImage:
         """What lies in the frame where the illustration is, in the illustration's size, shape [height, width, c]."""
         left, top = self._margins
@@ -88,3 +102,28 @@ class Frame:
         size = (self.width, self.height)
         scaled = cv2.resize(inside, size, interpolation=cv2.INTER_AREA if shrinks else cv2.INTER_CUBIC)
         return np.clip(scaled, 0, 1).astype(np.float32, copy=False)
+
+
+def _touched(mask: NDArray[np.bool_], scaled: int, margin: int, length: int, cell: int) -> NDArray[np.bool_]:
+    """Rows of cells that touch a mask, along its first axis.
+
+    Row p of it covers scaled / rows * [p, p + 1) + margin in the frame: computed in whole numbers, so exactly.
+
+    Args:
+        mask: shape [rows, n].
+        scaled: length of all its rows in the frame [px].
+        margin: before them [px].
+        length: of the frame [px].
+        cell: length of a cell [px].
+
+    Returns:
+        Shape [length / cell, n].
+    """
+    rows = len(mask)
+    found = []
+    for start in range(0, length, cell):
+        first = (start - margin) * rows // scaled
+        end = -(-(start + cell - margin) * rows // scaled)
+        first, end = min(max(first, 0), rows - 1), max(min(end, rows), 1)
+        found.append(mask[first:end].any(axis=0))
+    return np.stack(found)

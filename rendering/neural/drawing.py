@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...physics.progress import Progress
 from ..composite import keep_still_parts, moving_region
 from ..pictures import as_float
-from ..svd import SVDOptions
+from ..svd import CrudeAnimation, SVDOptions
 from .colour_drift import Reference, own_colours, without_drift
 from .options import NetworkOptions, StrPath
 
@@ -36,6 +36,7 @@ def sketch_guided_frames(
     *,
     options: SVDOptions,
     placement: Placement,
+    animation: CrudeAnimation | None = None,
     alphas: Iterable[FloatImage] | None = None,
     soft_edge: float = 24.0,
     progress: Progress | None = None,
@@ -44,14 +45,16 @@ def sketch_guided_frames(
     colour_match: float = 1.0,
     references: Iterable[Reference] | None = None,
 ) -> Iterator[FloatImage]:
-    """The frames of a clip that follow sketches.
+    """The frames of a clip that follow sketches, an animation, or both.
 
     Args:
         models: the networks.
         image: the illustration, RGB, shape [h, w, 3].
-        sketches: dark lines on white, one for each frame, the illustration's own first.
+        sketches: dark lines on white, one for each frame, the illustration's own first; none where only
+            an animation is followed.
         options: settings.
         placement: where the networks compute.
+        animation: see :class:`SVDRenderer`.
         alphas: how much moving parts cover of each pixel in each frame, 0..1, shape [h, w]: what none ever covers is
             taken from the illustration. None: everything is as the networks draw it.
         soft_edge: width of the transition to it [px].
@@ -67,10 +70,11 @@ def sketch_guided_frames(
     from ..svd.renderer import SVDRenderer
 
     renderer = SVDRenderer(models, options=options, placement=placement)
-    frames = renderer.frames(image, sketches, progress=progress, watch=watch, loops=loops)
+    frames = renderer.frames(image, sketches, animation=animation, progress=progress, watch=watch, loops=loops)
     picture = as_float(image)
     if colour_match > 0:
-        wanted = [own_colours(picture)] * len(sketches) if references is None else references
+        count = len(sketches) if animation is None else animation.count
+        wanted = [own_colours(picture)] * count if references is None else references
         frames = without_drift(frames, wanted, colour_match)
     if alphas is None:
         return frames
@@ -95,7 +99,7 @@ def load_svd(options: NetworkOptions, *, as_saved: bool = False) -> tuple[SVDMod
     gc.collect()  # networks hold themselves in circles: those of an earlier stage go before others come
     device = device_of(options.device)
     dtype = None if as_saved else dtype_of(options.dtype, device)
-    return load_models(Path(str(options.svd)), Path(str(options.lvcd)), dtype=dtype), placement_on(device)
+    return load_models(Path(str(options.svd)), _path(options.lvcd), dtype=dtype), placement_on(device)
 
 
 def load_tooncrafter(options: NetworkOptions, *, as_saved: bool = False) -> tuple[ToonCrafterModels, Placement]:

@@ -48,11 +48,12 @@ class NetworkOptions:
     """Networks, each beside what is used without it. Weights are files that the user has; nothing is fetched.
 
     Attributes:
-        renderer: "composite" moves the illustration's own pixels; "svd" has sketch-guided Stable Video Diffusion draw
-            every frame, the paper's way; "inpainting" is composite with what the parts have uncovered painted by Stable
-            Diffusion, the paper's ablation, for flat pictures without a clean plate.
+        renderer: "composite" moves the illustration's own pixels; "svd" has Stable Video Diffusion draw every frame,
+            after sketches, the paper's way, or after composite's frames, as ``svd_options`` say; "inpainting" is
+            composite with what the parts have uncovered painted by Stable Diffusion, the paper's ablation, for flat
+            pictures without a clean plate.
         svd: Stable Video Diffusion, image to video, 14 frames: svd.safetensors, or the folder of its diffusers version.
-        lvcd: lvcd.ckpt or lvcd-fp16.safetensors.
+        lvcd: lvcd.ckpt or lvcd-fp16.safetensors; only where frames follow sketches.
         svd_options: settings of the renderer.
         still_parts: take what no part ever covers from the illustration, as video models repaint all of it.
         inpainting: Stable Diffusion 1 or 2, best one for inpainting, as a diffusers folder.
@@ -94,6 +95,11 @@ class NetworkOptions:
         ... )
         >>> options.draws_all, options.svd_options.seed
         (True, 0)
+        >>> options = NetworkOptions(
+        ...     renderer="svd", svd="svd.safetensors", svd_options=SVDOptions.following("animation")
+        ... )
+        >>> options.follows_sketches
+        False
     """
 
     renderer: str = "composite"
@@ -130,13 +136,14 @@ class NetworkOptions:
             file = getattr(self, name)
             require_kind(name, file, (str, os.PathLike, type(None)), "the path of a file")
             chosen = getattr(self, choice) == network
-            if file is None and chosen and needed:
+            if file is None and chosen and needed and name != "lvcd":
                 kind = "folder" if name == "inpainting" else "file"
                 raise InvalidInputError(f"{name} must be a {kind} where {choice} is {network}. Got: none")
             if file is not None and not chosen:
                 raise InvalidInputError(
                     f"{name} must be left out unless {choice} is {network}. Got: {os.fspath(file)[:80]}"
                 )
+        self._check_lvcd()
         require("dtype", repr(self.dtype), self.dtype in DTYPES, f"one of {', '.join(DTYPES)}")
         check_number("grow", self.grow, 0, 1000, unit=" px")
         check_number("soft_edge", self.edge_width, 0, 1000 if self.renderer == "inpainting" else 10_000, unit=" px")
@@ -147,10 +154,29 @@ class NetworkOptions:
         if self.lines_size:
             check_whole("lines_size", self.lines_size, 16, 16384, unit=" px")
 
+    def _check_lvcd(self) -> None:
+        where = "where renderer is svd"
+        if self.follows_sketches:
+            without = f"{where}, unless svd_options have follow=animation"
+            require("lvcd", "none", self.lvcd is not None, f"a file {without}")
+        elif self.draws_all:
+            got = str(self.lvcd)[:80]
+            require("lvcd", got, self.lvcd is None, f"left out {where} and svd_options have follow=animation")
+
     @property
     def draws_all(self) -> bool:
-        """Whether a video model draws whole frames, after sketches."""
+        """Whether a video model draws whole frames."""
         return self.renderer == "svd"
+
+    @property
+    def follows_sketches(self) -> bool:
+        """Whether it draws them after sketches."""
+        return self.draws_all and self.svd_options.follows_sketches
+
+    @property
+    def follows_animation(self) -> bool:
+        """Whether it draws them after composite's frames."""
+        return self.draws_all and self.svd_options.follows_animation
 
     @property
     def draws_opaque(self) -> bool:

@@ -75,6 +75,11 @@ class FrameLayout:
         return cls(max(count - CLIP_FRAMES, 0), runs if others else runs[:1])
 
     @classmethod
+    def plain(cls) -> FrameLayout:
+        """Stable Video Diffusion's own clip: no references, and every frame attends to itself."""
+        return cls(0, (KeyFrames(tuple(range(CLIP_FRAMES))),))
+
+    @classmethod
     def first_segment(cls, overlap: int = OVERLAP) -> FrameLayout:
         """The first segment of a clip: 1 + overlap references, which attend to themselves only."""
         references = _references(overlap)

@@ -12,31 +12,54 @@ from dataclasses import replace
 from math import log
 
 from .frame_layout import CLIP_FRAMES, LEAST_OVERLAP, OVERLAP, FrameLayout, KeyFrames
+from .plain_segments import plan_plain_segments
 from .segments import Segment, plan_segments
 
 __all__ = ["closing_layout", "plan_clip", "plan_loop"]
 
 
-def plan_clip(frames: int, overlap: int = OVERLAP, *, loops: bool = False) -> tuple[Segment, ...]:
-    """The segments that make a clip, which may repeat; see :func:`plan_loop` and :func:`plan_segments`."""
-    return plan_loop(frames, overlap) if loops else plan_segments(frames, overlap)
+def plan_clip(frames: int, overlap: int = OVERLAP, *, loops: bool = False, plain: bool = False) -> tuple[Segment, ...]:
+    """The segments that make a clip, which may repeat, by LVCD or by plain Stable Video Diffusion.
+
+    See :func:`plan_loop`, :func:`plan_segments` and :func:`plan_plain_segments`.
+    """
+    if loops:
+        return plan_loop(frames, overlap, plain=plain)
+    return plan_plain_segments(frames, overlap) if plain else plan_segments(frames, overlap)
 
 
-def plan_loop(frames: int, overlap: int = OVERLAP) -> tuple[Segment, ...]:
+def plan_loop(frames: int, overlap: int = OVERLAP, *, plain: bool = False) -> tuple[Segment, ...]:
     """The segments that make a clip whose last frame leads to frame 1.
 
     Args:
         frames: of the clip, the reference picture included; 2 or more.
         overlap: frames that neighbouring segments share; the closing one shares at most 6 at either end.
+        plain: Stable Video Diffusion alone makes them; see :func:`plan_plain_segments`.
     """
     cycle = frames - 1
     if cycle < 2:
-        return plan_segments(frames, overlap)
+        return plan_clip(frames, overlap, plain=plain)
     shared = min(overlap, (CLIP_FRAMES - 1) // 2, cycle - 1)
     new = min(CLIP_FRAMES - 2 * shared, cycle - shared)
-    *whole, last = plan_segments(frames - new, overlap)
+    *whole, last = plan_clip(frames - new, overlap, plain=plain)
     segments = (*whole, _led_on(last, frames - new, cycle))
-    return (*segments, _closing(segments, cycle, shared=shared, new=new))
+    closing = _closing(segments, cycle, shared=shared, new=new)
+    return (*segments, _without_references(closing) if plain else closing)
+
+
+def _without_references(segment: Segment) -> Segment:
+    """A closing segment for a network that reads none: it is conditioned on its own first frame."""
+    references, count = segment.layout.references, segment.layout.count
+    return Segment(
+        FrameLayout(0, (KeyFrames(tuple(range(count - references))),)),
+        segment.sketches[references:],
+        (),
+        segment.blended,
+        segment.noise[references:],
+        tuple(slot - references for slot in segment.made),
+        conditioned_on=segment.blended[0],
+        closes=segment.closes,
+    )
 
 
 def closing_layout(shared: int, new: int, *, amplification: float = 10.0) -> FrameLayout:
@@ -71,12 +94,12 @@ def _led_on(segment: Segment, frames: int, cycle: int) -> Segment:
 
 def _closing(segments: tuple[Segment, ...], cycle: int, *, shared: int, new: int) -> Segment:
     first, before = segments[0], segments[-1]
-    end, start = before.made[-1] + 1, first.layout.references
+    end, start = before.made[-1] + 1, first.made[0]
     ending, opening = range(end - shared, end), range(start, start + shared)
     led = range(cycle - new - shared + 1, cycle - new + 1)
     held = (*ending, *(before.layout.count + slot for slot in opening))
     noise = [before.noise[slot] for slot in ending], [first.noise[slot] for slot in opening]
-    unused = [slot for slot in range(start, first.layout.count) if slot not in {*noise[0], *noise[1]}]
+    unused = [slot for slot in range(first.layout.references, first.layout.count) if slot not in {*noise[0], *noise[1]}]
     layout = closing_layout(shared, new)
     return Segment(
         layout,

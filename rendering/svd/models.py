@@ -1,4 +1,4 @@
-"""All networks of the sketch-guided renderer, loaded from the files that users have."""
+"""All networks of the renderer by Stable Video Diffusion, loaded from the files that users have."""
 
 from __future__ import annotations
 
@@ -42,13 +42,13 @@ class SVDModels:
     Attributes:
         image_encoder: embeds the illustration.
         autoencoder: float32; pictures to latents and back.
-        control: reads the sketches.
+        control: reads the sketches; None: the networks are Stable Video Diffusion's alone, and read none.
         unet: predicts the frames.
     """
 
     image_encoder: ImageEncoder
     autoencoder: AutoencoderKLTemporalDecoder
-    control: SketchControlNet
+    control: SketchControlNet | None
     unet: SpatioTemporalUNet
 
     @property
@@ -58,13 +58,13 @@ class SVDModels:
 
 
 def load_models(
-    svd: Path, lvcd: Path, *, dtype: torch.dtype | None = torch.float32, sizes: ModelSizes | None = None
+    svd: Path, lvcd: Path | None = None, *, dtype: torch.dtype | None = torch.float32, sizes: ModelSizes | None = None
 ) -> SVDModels:
     """Load all networks. Tensors already in the wanted precision stay mapped from their files.
 
     Args:
         svd: Stable Video Diffusion: its single file or its diffusers folder.
-        lvcd: LVCD's file, .ckpt or .safetensors.
+        lvcd: LVCD's file, .ckpt or .safetensors; None for Stable Video Diffusion alone, which cannot follow sketches.
         dtype: in which all but the autoencoder compute; None leaves weights as their files have them.
         sizes: of the networks in a single file; the public ones by default.
 
@@ -72,12 +72,18 @@ def load_models(
         CheckpointError: a file is missing, damaged or another one; it tells what is wrong and what is wanted.
     """
     weights = read_svd(svd, sizes=sizes)
-    control, attention = _read_lvcd(lvcd, weights.sizes)
     network = weights.sizes.network
+    control: SketchControlNet | None = None
+    attention: dict[str, Tensor] = {}
+    if lvcd is not None:
+        tensors, attention = _read_lvcd(lvcd, weights.sizes)
+        control = network_of(
+            lambda: SketchControlNet(network), tensors, dtype=dtype, file=str(lvcd), wanted=WANTED_LVCD
+        )
     return SVDModels(
         _loaded(lambda: ImageEncoder(weights.sizes.image_encoder), weights.image_encoder, weights, dtype),
         _loaded(lambda: build_autoencoder(weights.sizes.autoencoder), weights.autoencoder, weights, torch.float32),
-        network_of(lambda: SketchControlNet(network), control, dtype=dtype, file=str(lvcd), wanted=WANTED_LVCD),
+        control,
         _loaded(lambda: SpatioTemporalUNet(network), {**weights.unet, **attention}, weights, dtype),
     )
 

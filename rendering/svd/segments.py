@@ -20,13 +20,14 @@ class Segment:
 
     Attributes:
         layout: which slots are references, and which keys each attends to.
-        sketches: frame whose sketch each slot gets.
+        sketches: frame that each slot shows, whose sketch it gets.
         carried: slots of the segment before whose results condition slots 1, 2, ... of this one; all other slots are
             conditioned on the reference picture.
         blended: slots of the segment before whose denoised latents replace, in every step, those of the first clip
             slots of this one.
         noise: slot of the first segment whose initial noise each slot gets.
         made: slots whose results are new frames.
+        conditioned_on: slot of the segment before whose result takes the place of the reference picture's latent.
         closes: so many of the last carried and blended slots are of the first segment, counted on from those of the
             segment before, and stand at the end of this one's clip.
     """
@@ -37,6 +38,7 @@ class Segment:
     blended: tuple[int, ...]
     noise: tuple[int, ...]
     made: tuple[int, ...]
+    conditioned_on: int | None = None
     closes: int = 0
 
     @property

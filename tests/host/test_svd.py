@@ -93,6 +93,47 @@ def test_the_whole_workflow_runs(host: Any, chosen: dict[str, str]) -> None:
     assert (changes[8] > 60).mean() > 0.02, "random weights draw something else where bodies are"
 
 
+def repainted(**changes: Any) -> dict[str, Any]:
+    """The published graph whose frames follow the animation: three frames, small."""
+    graph = prompt()
+    _node(graph, "Simulate")["inputs"]["frames"] = 3
+    _node(graph, "Interpolate")["inputs"]["every"] = 1
+    render = _node(graph, "Render")["inputs"]
+    kept = {name: value for name, value in render.items() if not name.startswith("renderer")}
+    given = {"steps": 3, "working_size": "448 x 256", "precision": "fp32", "soft_edge": 8.0, "motion_bucket": 17}
+    given |= {"weak": 0.32, "strong": 0.42, "guidance": 3.0, "noise_from": 0, "overlap": 4, "frames_per_second": 6}
+    given |= {"picture_noise": 0.02, "decoded_together": 10, "keep_still_parts": True, "lvcd_model": "none", **changes}
+    _node(graph, "Render")["inputs"] = {
+        **kept,
+        "renderer": "animation-guided SVD",
+        **{f"renderer.{name}": value for name, value in given.items()},
+    }
+    return graph
+
+
+def test_the_animation_leads_without_lvcd(host: Any, chosen: dict[str, str]) -> None:
+    graph = repainted(svd_model=chosen["svd_model"])
+    (drawn,) = [node["inputs"]["images"] for node in graph.values() if node["class_type"] == "CreateVideo"]
+    graph["drawn"] = core("PreviewImage", images=drawn)
+    assert len(host.run(graph)["drawn"]["images"]) == 3
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"svd_model": "svd.safetensors"}, "svd.safetensors is missing"),
+        ({"lvcd_model": "lvcd-fp16.safetensors"}, "lvcd_model must be none where no sketches are connected"),
+        ({"weak": 0.6}, "strong must be weak, which is 0.6, or more. Got: 0.42"),
+    ],
+)
+def test_what_the_animation_lacks_is_told_before_the_work(
+    host: Any, chosen: dict[str, str], changes: dict[str, Any], sentence: str
+) -> None:
+    graph = repainted(**{"svd_model": chosen["svd_model"], **changes})
+    _, answer = host.post("/prompt", {"prompt": graph, "client_id": host.client})
+    assert sentence in json.dumps(answer), answer
+
+
 def test_too_few_sketches_are_named(host: Any, chosen: dict[str, str]) -> None:
     graph = prompt(**chosen, steps=2)
     _node(graph, "Simulate")["inputs"]["frames"] = 3

@@ -139,7 +139,31 @@ def test_keyframes_may_be_listed_and_frames_around_them_are_drawn() -> None:
     ("arguments", "sentence"),
     [
         (["--renderer", "svd"], "--svd must be a file where --renderer is svd. Got: none"),
-        (["--renderer", "svd", "--svd", "absent"], "--lvcd must be a file where --renderer is svd. Got: none"),
+        (
+            ["--renderer", "svd", "--svd", "absent"],
+            "--lvcd must be a file where --renderer is svd, unless --svd-options have follow=animation. Got: none",
+        ),
+        (
+            ["--renderer", "svd", "--svd", "absent", "--lvcd", "no", "--svd-options", "follow=animation"],
+            "--lvcd must be left out where --renderer is svd and --svd-options have follow=animation. Got: no",
+        ),
+        (
+            ["--renderer", "svd", "--svd", "absent", "--svd-options", "follow=film"],
+            "--svd-options: follow must be one of sketches, animation, both. Got: 'film'",
+        ),
+        (
+            ["--renderer", "svd", "--svd", "absent", "--svd-options", "weak=0.2"],
+            "--svd-options: weak must be left out unless follow is animation or both. Got: 0.2",
+        ),
+        (
+            ["--renderer", "svd", "--svd", "absent", "--svd-options", "follow=animation,strong=0.2"],
+            "--svd-options: strong must be weak, which is 0.32, or more. Got: 0.2",
+        ),
+        (
+            ["--renderer", "svd", "--svd", "absent", "--svd-options", "follow=animation", "--extractor", "informative",
+             "--lines", "no.pth"],
+            "--extractor informative needs --save-sketch, --renderer svd or --sketch-encoder, for which it draws.",
+        ),
         (["--svd", "absent"], "--svd must be left out unless --renderer is svd. Got: absent"),
         (["--sketch-encoder", "a"], "--sketch-encoder must be left out unless --interpolate-with is tooncrafter."),
         (["--renderer", "svd", "--svd", "absent", "--lvcd", "no"], "--svd: absent does not exist. Wanted: Stable"),

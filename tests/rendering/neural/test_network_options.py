@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from physanimator.physics.errors import InvalidInputError
 from physanimator.rendering.animation import Animation
 from physanimator.rendering.networks.checkpoints import CheckpointError
-from physanimator.rendering.neural import NetworkOptions
+from physanimator.rendering.neural import NetworkOptions, line_drawing
 from physanimator.rendering.neural import drawing as neural_drawing
 from physanimator.rendering.neural.checking import check_networks
 from physanimator.rendering.neural.devices import device_of, dtype_of
@@ -70,7 +70,10 @@ def frames(animation: Animation, **how: Any) -> NDArray[Any]:
         ({"interpolate_with": "film"}, "interpolate_with must be one of motion, flow, blend, tooncrafter. Got: 'film'"),
         ({"extractor": None}, "extractor must be one of gaussians, informative. Got: None"),
         ({"segmenter": 1}, "segmenter must be one of grabcut, sam. Got: 1"),
-        ({"renderer": "svd", "svd": "a"}, "lvcd must be a file where renderer is svd. Got: none"),
+        (
+            {"renderer": "svd", "svd": "a"},
+            "lvcd must be a file where renderer is svd, unless svd_options have follow=animation. Got: none",
+        ),
         ({"sam": "a"}, "sam must be left out unless segmenter is sam. Got: a"),
         ({"renderer": "svd", "svd": 3, "lvcd": "a"}, "svd must be the path of a file. Got: int"),
         ({"dtype": "fp8"}, "dtype must be one of auto, fp32, fp16, bf16. Got: 'fp8'"),
@@ -129,6 +132,47 @@ def test_a_loop_is_led_by_the_illustration_as_well(drawing: NetworkOptions, monk
     assert len(given) == len(drawn) + 1 == 7
     assert np.abs(given[0] / 255 - cv2.GaussianBlur(extract_sketch(PICTURE), (0, 0), 0.8)).max() < 0.02
     assert np.abs(given[1].astype(float) - given[0]).mean() > 0.5, "frame 0 of a loop has moved"
+
+
+@pytest.fixture
+def repainting(files: dict[str, Path]) -> NetworkOptions:
+    options = replace(SVDOptions.following("animation"), steps=3, area=64 * 64)
+    return NetworkOptions(renderer="svd", svd=files["svd"], svd_options=options, soft_edge=2)
+
+
+@pytest.mark.parametrize(("timing", "before"), [({"frames": 4}, 0), ({"frames": 5, "skip": 2}, 1), ({"loop": 0.25}, 1)])
+def test_the_animation_that_leads_is_composite_s_and_begins_with_the_illustration(
+    repainting: NetworkOptions, timing: dict[str, Any], before: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    led: list[Any] = []
+
+    def draw(models: object, image: object, sketches: list[Any], *, animation: Any, **how: object) -> Any:
+        assert sketches == []
+        led.append(animation)
+        return (np.full((HEIGHT, WIDTH, 3), float(number)) for number in range(animation.count))
+
+    monkeypatch.setattr(neural_drawing, "sketch_guided_frames", draw)
+    monkeypatch.setattr(line_drawing, "line_extractor", lambda options: pytest.fail("no lines are needed"))
+    drawn = frames(moving(repainting, **timing))
+    composed = frames(moving(NetworkOptions(), **timing))
+    (animation,) = led
+    assert animation.count == len(composed) + before
+    np.testing.assert_array_equal(drawn[:, 0, 0, 0], range(before, before + len(composed)))
+    np.testing.assert_array_equal(animation.at(0)[0], PICTURE)
+    assert (animation.at(0)[1][BAR > 0] > 0.9).mean() > 0.95
+    for number, composite in enumerate(composed, start=before):
+        picture, coverage = animation.at(number)
+        np.testing.assert_array_equal(picture, composite)
+        dark = composite.max(axis=2) < 60
+        assert coverage[dark].min() > 0.5, "the mask moves along"
+
+
+def test_the_video_model_alone_repaints_the_animation(repainting: NetworkOptions) -> None:
+    led = frames(moving(repainting, frames=4))
+    assert led.shape == (4, HEIGHT, WIDTH, 3)
+    np.testing.assert_allclose(led[:, :, :12], 220 / 255, atol=1e-6)
+    free = replace(repainting, svd_options=replace(repainting.svd_options, strong=1.0))
+    assert np.abs(frames(moving(free, frames=4)) - led).max() > 1e-3
 
 
 def led_by(monkeypatch: pytest.MonkeyPatch) -> list[NDArray[Any]]:

@@ -10,6 +10,7 @@ import pytest
 import torch
 from physanimator.rendering.svd import CLIP_FRAMES, FrameLayout, SVDOptions
 from physanimator.rendering.svd.decoding import around_the_wrap
+from physanimator.rendering.svd.dual_clock import DualClock
 from physanimator.rendering.svd.loop_segments import plan_loop
 from physanimator.rendering.svd.models import SVDModels
 from physanimator.rendering.svd.noise_schedule import noise_levels
@@ -23,8 +24,9 @@ LENGTHS = [*range(2, 41), 97]
 
 @pytest.mark.parametrize("cycle", LENGTHS)
 @pytest.mark.parametrize("overlap", [3, 4, 6, 7, 13])
-def test_every_frame_is_made_once_from_its_own_sketch(cycle: int, overlap: int) -> None:
-    segments = plan_loop(cycle + 1, overlap)
+@pytest.mark.parametrize("plain", [False, True])
+def test_every_frame_is_made_once_from_its_own_sketch(cycle: int, overlap: int, plain: bool) -> None:
+    segments = plan_loop(cycle + 1, overlap, plain=plain)
     made = [segment.sketches[slot] for segment in segments for slot in segment.made]
     assert made == list(range(1, cycle + 1))
     for segment in segments:
@@ -57,6 +59,48 @@ def test_the_clip_of_the_last_segment_ends_with_the_first_frames(cycle: int) -> 
     assert [frame_of(segments, slot) for slot in closing.blended] == held
     assert sorted((*closing.held, *closing.made)) == list(range(closing.layout.references, closing.layout.count))
     assert len(clip) == min(CLIP_FRAMES, cycle + closing.closes)
+
+
+@pytest.mark.parametrize("cycle", LENGTHS)
+def test_plain_segments_close_as_well(cycle: int) -> None:
+    segments = plan_loop(cycle + 1, plain=True)
+    closing = segments[-1]
+    assert closing.layout.references == 0
+    assert closing.conditioned_on == closing.blended[0]
+    assert frame_of(segments, closing.blended[0]) == closing.sketches[0]
+    held = [closing.sketches[slot] for slot in closing.held]
+    assert [frame_of(segments, slot) for slot in closing.blended] == held
+    assert closing.sketches == tuple(
+        1 + (closing.sketches[0] - 1 + slot) % cycle for slot in range(len(held) + len(closing.made))
+    )
+    noise = [(*segments[-2].noise, *segments[0].noise)[slot] for slot in closing.blended]
+    assert noise == [closing.noise[slot] for slot in closing.held]
+
+
+@pytest.mark.parametrize("plain", [False, True])
+@pytest.mark.parametrize("cycle", [5, 12, 20, 27])
+def test_a_loop_that_follows_an_animation_holds_its_first_frames_too(cycle: int, plain: bool) -> None:
+    """Also while latents of the animation are put back: noise and level are those of the first segment."""
+    steps, networks, weak = 6, Recorder(), 1
+    generator = torch.Generator().manual_seed(1)
+    latents = torch.randn(cycle + 1, 4, 2, 2, generator=generator)
+    moves = torch.rand(cycle + 1, 1, 2, 2, generator=generator) > 0.5
+    segments = plan_loop(cycle + 1, plain=plain)
+    noise = torch.randn(segments[0].layout.count, 4, 2, 2, generator=generator)
+    sketches = torch.zeros(cycle + 1, 3, 8, 8)
+    sample_clip(
+        networks,
+        torch.full((1, 4, 2, 2), 0.5),
+        sketches,
+        noise,
+        sigmas=noise_levels(steps),
+        segments=segments,
+        clock=DualClock(latents, moves, weak, 4),
+    )
+    shared, start, done = segments[-1].closes, segments[0].made[0], steps - weak
+    for step in range(done):
+        began, ends = networks.given[step][0], networks.given[step - done][0]
+        assert torch.equal(ends[-shared:], began[start : start + shared])
 
 
 @pytest.mark.parametrize("cycle", LENGTHS)
