@@ -69,7 +69,7 @@ def test_there_is_something_to_translate() -> None:
     assert {"Undo", "repel", "Body {number}", "degrees"} <= set(editor_texts())
     render = read("en", "nodeDefs.json")["PhysAnimator_Render"]
     assert render["inputs"]["renderer_steps"]["tooltip"].startswith("sketch-guided SVD: ")
-    assert render["inputs"]["renderer_steps"]["tooltip"].count("\n") == 1
+    assert render["inputs"]["renderer_steps"]["tooltip"].count("\n") == 2
     assert set(render["outputs"]) == {"0", "1", "2"}
 
 
