@@ -30,6 +30,7 @@ from .host import (
 from .host.running import is_linked
 from .host.wires import MaskedMotion, MotionWire
 from .models import find_model_file
+from .models.clip_inputs import AS_THE_MOTION, is_loop, loop_input
 from .models.inpainting import inpainted_frames, refused_inpainting
 from .models.inpainting_inputs import inpainting_inputs
 from .models.svd import check_followed, missing_svd_files, svd_frames
@@ -299,6 +300,7 @@ class Interpolate(io.ComfyNode):
                     " end, as in Render, and not where a blurred, grown or hand-painted mask does.",
                 ),
                 image_alpha_input(),
+                loop_input("in-betweens also lead from the last keyframe to the first"),
             ],
             outputs=[io.Image.Output(display_name="frames", tooltip="Keyframes and in-betweens.")],
         )
@@ -326,6 +328,7 @@ class Interpolate(io.ComfyNode):
         keyframes_at: str = "",
         image: torch.Tensor | None = None,
         image_alpha: torch.Tensor | None = None,
+        loop: str = AS_THE_MOTION,
     ) -> io.NodeOutput:
         from ..rendering.inbetweens import BACKENDS, interpolate
 
@@ -334,11 +337,15 @@ class Interpolate(io.ComfyNode):
         drawn_by_model = name == _TOONCRAFTER
         pictures = pictures_of(images, name="images", alpha=not drawn_by_model)
         at = _numbers_of(keyframes_at, images_are)
-        keyframes, indices = _keyframes(pictures, images_are, every, at, known)
+        cycle = _cycle(pictures, images_are, every, at, known)
+        loops = is_loop(loop, known, cycle)
+        keyframes, indices = _keyframes(pictures, images_are, every, at, known, loops=loops)
+        loops = loops and len(indices) > 1
         count = indices[-1] + 1 if images_are == _IMAGES_ARE[1] else len(pictures)
+        count = cycle if loops else count
         told = announce_batch(cls, count, pictures.shape[2], pictures.shape[1], channels=pictures.shape[3])
         sketches = choice.get("sketches")
-        before, after = _kept(pictures, images_are, indices)
+        before, after = ([], []) if loops else _kept(pictures, images_are, indices)
         frames = interpolate(
             list(keyframes),
             indices,
@@ -350,6 +357,7 @@ class Interpolate(io.ComfyNode):
             progress=None if drawn_by_model else host_progress(),
             before=before,
             after=after,
+            loop=cycle if loops else None,
         )
         return io.NodeOutput(batch_of_pictures(frames, count), ui=told or None)
 
@@ -379,8 +387,17 @@ def _numbers_of(keyframes_at: str, images_are: str | None) -> tuple[int, ...]:
     return at
 
 
+def _cycle(pictures: NDArray[Any], images_are: str, every: int, at: tuple[int, ...], motion: Motion | None) -> int:
+    """How many frames the clip has if it is a loop."""
+    if images_are != _IMAGES_ARE[1]:
+        return len(pictures)
+    if motion is not None:
+        return len(motion)
+    return at[-1] + every if at else every * len(pictures)
+
+
 def _keyframes(
-    pictures: NDArray[Any], images_are: str, every: int, at: tuple[int, ...], motion: Motion | None
+    pictures: NDArray[Any], images_are: str, every: int, at: tuple[int, ...], motion: Motion | None, *, loops: bool
 ) -> tuple[NDArray[Any], list[int]]:
     """The keyframes among the pictures and their frame numbers."""
     from ..rendering.inbetweens import keyframe_indices
@@ -389,7 +406,7 @@ def _keyframes(
         last = len(motion) - 1 if motion else every * len(pictures)
         regular = [min(every * number, last) for number in range(len(pictures))]
         return pictures, list(at) or regular
-    indices = keyframe_indices(len(pictures), every, at=at)
+    indices = keyframe_indices(len(pictures), every, at=at, loops=loops)
     return pictures[indices], indices
 
 

@@ -121,19 +121,20 @@ class Animation:
                 :mod:`~physanimator.rendering.composite.background`); None keeps the transparency that the picture has,
                 if it is not drawn by a model.
             keyframes_at: numbers of the frames that are drawn, from 0, instead of each so many-th; frames before the
-                first and after the last of them are drawn as well.
+                first and after the last of them are drawn as well, except in a loop, where they are filled in too.
 
         Raises:
             InvalidInputError: in-betweens, or a model's frames, and transparency are asked for together, the
                 background is unknown, or there is no such frame.
         """
         check_drawing(every=every)
-        at = keyframe_indices(len(self), every, at=keyframes_at) if every > 1 or keyframes_at else []
+        drawing = self._drawing
+        closes = drawing.closes
+        at = keyframe_indices(len(self), every, at=keyframes_at, loops=closes) if every > 1 or keyframes_at else []
         chosen = self.background("transparent" if transparent and background is None else background)
         if background is None and not transparent and at:
             chosen = Background()
         check_drawing(transparent=chosen.has_alpha, in_betweens=bool(at), pixel_art=self.pixel_art)
-        drawing = self._drawing
         pictures = drawing.with_in_betweens(at, chosen, progress) if at else drawing.frames(chosen, progress)
         return self._measured("render", pictures, progress)
 

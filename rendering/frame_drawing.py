@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,12 @@ from ..physics.mesh import coverage_of
 from ..physics.motion import FlowSequence, Motion
 from .composite import Background, LayeredRenderer, PixelArtRenderer, shown_frame, shown_frame_and_alpha
 from .neural import NetworkOptions
-from .pictures import as_uint8, over
+from .pictures import as_float, as_uint8, over
 from .stages import StageProgress, stage_of
 from .svd import CrudeAnimation
+
+if TYPE_CHECKING:
+    from .neural.colour_drift import Reference
 
 __all__ = ["DrawsFrames", "FrameDrawing", "drawn_elsewhere", "frames_drawn_by"]
 
@@ -79,6 +82,12 @@ class FrameDrawing:
         """The motion's frames that are shown."""
         return range(self.first, len(self.motion))
 
+    @property
+    def closes(self) -> bool:
+        """Whether the last shown frame leads to the first, as what draws frames is to know."""
+        loop, count = self.motion.loop, len(self.shown)
+        return self.networks.close_loop and loop is not None and count > 1 and count % loop.frames == 0
+
     def sketches(self) -> Iterator[Image]:
         """The line drawing of each frame, lines dark on white, float32, shape [h, w]."""
         return self._sketches(self.motion, self.shown)
@@ -96,13 +105,17 @@ class FrameDrawing:
         """All frames, of which those between keyframes are filled in.
 
         Args:
-            at: numbers of the keyframes among the frames that are shown, increasing.
+            at: numbers of the keyframes among the frames that are shown, increasing. Of a clip that closes, all other
+                frames are in-betweens.
             background: what is there where nothing moves; opaque.
             progress: called with the steps of models.
         """
         led = self.networks.sketch_encoder is not None
         guides = self._guides() if led or self.networks.follows_sketches else []
         drawn = self._kept(at, guides, background, progress)
+        if self.closes and len(at) > 1:
+            yield from self._between([drawn(t) for t in at], at, guides if led else [], progress, loop=len(self.shown))
+            return
         count = len(self.shown)
         yield from map(drawn, range(at[0]))
         yield from self._between([drawn(t) for t in at], at, guides if led else [], progress)
@@ -114,7 +127,8 @@ class FrameDrawing:
         """What gives each frame that is no in-between; a model draws all of them at once."""
         if not self.networks.draws_opaque:
             return lambda t: shown_frame(self.renderer, self.first + t, background)
-        wanted = sorted({*at, *range(at[0]), *range(at[-1], len(self.shown))})
+        around = () if self.closes and len(at) > 1 else (*range(at[0]), *range(at[-1], len(self.shown)))
+        wanted = sorted({*at, *around})
         if not self.networks.draws_all:
             painted = self._composed([self.first + t for t in wanted], background, progress)
             return dict(zip(wanted, painted, strict=True)).__getitem__
@@ -152,19 +166,25 @@ class FrameDrawing:
             yield t
 
     def _between(
-        self, keyframes: list[Image], at: Sequence[int], guides: list[Image], progress: StageProgress | None
+        self,
+        keyframes: list[Image],
+        at: Sequence[int],
+        guides: list[Image],
+        progress: StageProgress | None,
+        loop: int | None = None,
     ) -> Iterator[Image]:
-        """Keyframes, and what is between them."""
+        """Keyframes, and what is between them; of a loop all frames."""
         from .inbetweens import interpolate
         from .matting import shown_part
         from .neural.drawing import in_between_backend
 
         backend = in_between_backend(self.networks, stage_of("tooncrafter", progress))
         if not isinstance(backend, str):
-            return interpolate(keyframes, at, backend=backend, sketches=guides)
+            return interpolate(keyframes, at, backend=backend, sketches=guides, loop=loop)
         masks = [coverage_of(mask) for mask in self.masks]
         shown = masks if self.own else [shown_part(self.image, mask) for mask in masks]
-        return interpolate(keyframes, [self.first + t for t in at], backend=backend, motion=self.motion, masks=shown)
+        motion = self.motion[self.first :]
+        return interpolate(keyframes, at, backend=backend, motion=motion, masks=shown, loop=loop)
 
     def _guides(self) -> list[Image]:
         """The sketches, as video models follow them."""
@@ -192,6 +212,7 @@ class FrameDrawing:
             background: what is there where nothing moves; opaque.
             progress: called with its steps.
         """
+        from .neural.colour_drift import own_colours
         from .neural.drawing import load_svd, sketch_guided_frames
 
         networks, picture = self.networks, over(self.image, background.colour)
@@ -200,6 +221,7 @@ class FrameDrawing:
         if sketches and not begins_at_rest:
             sketches = [*map(as_uint8, self._sketches(self._resting, [0])), *sketches]
         models, placement = load_svd(networks)
+        composed = self._colours(background, [] if begins_at_rest else [own_colours(as_float(picture))])
         frames = sketch_guided_frames(
             models,
             picture,
@@ -210,6 +232,9 @@ class FrameDrawing:
             alphas=map(self.renderer.alpha, self.shown) if networks.still_parts else None,
             soft_edge=networks.edge_width,
             progress=stage_of("svd", progress),
+            loops=self.closes,
+            colour_match=self.networks.colour_match,
+            references=composed,
         )
         return itertools.islice(frames, 0 if begins_at_rest else 1, None)
 
@@ -230,3 +255,11 @@ class FrameDrawing:
             return shown_frame_and_alpha(layers, self.shown[number - before], background)
 
         return CrudeAnimation(before + len(self.shown), at)
+
+    def _colours(self, background: Background, before: Sequence[Reference]) -> Iterator[Reference]:
+        """What colours frames should have: those of the illustration's own pixels, where no hole is."""
+        yield from before
+        renderer: Any = self.renderer
+        for t in self.shown:
+            frame, alpha = shown_frame_and_alpha(renderer, t, background)
+            yield as_float(frame), 1 - renderer.uncovered_by(alpha)

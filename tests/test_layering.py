@@ -120,8 +120,8 @@ MAY_IMPORT = {
     ),
     "nodes/models": (
         "nodes/host physics rendering/composite rendering/inbetweens rendering/inpainting rendering/networks "
-        "rendering/neural rendering/segmentation/sam rendering/sketch/drawings rendering/svd "
-        "rendering/tooncrafter"
+        "rendering/neural rendering/pictures rendering/segmentation/sam rendering/sketch rendering/sketch/drawings "
+        "rendering/svd rendering/tooncrafter"
     ),
     "nodes": (
         "nodes/host nodes/models nodes/preview physics physics/document physics/forces physics/material "

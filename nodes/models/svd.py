@@ -16,6 +16,7 @@ from ...physics.errors import InvalidInputError, require
 from ...rendering.neural.drawing import sketch_guided_frames
 from ...rendering.svd import CLIP_FRAMES, CrudeAnimation, SVDOptions
 from ..host import dtype_of, watched_sampling
+from .clip_inputs import is_loop
 from .model_files import SVD_FILES, lvcd_file, svd_file
 from .networks import Networks, kept_networks
 from .svd_inputs import AREAS, NO_LVCD
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     import torch
 
     from ...rendering.composite import Background, LayeredRenderer
+    from ...rendering.neural.colour_drift import Reference
     from ...rendering.svd.models import SVDModels
 
 __all__ = ["check_followed", "missing_svd_files", "svd_frames"]
@@ -62,25 +64,49 @@ def svd_frames(
     began = time.perf_counter()
     networks = _networks(*files, dtype_of(choice["precision"], device))
     kept = choice["keep_still_parts"] and layers is not None
-    animation, before = None, 0
+    loops = is_loop(choice.get("loop"), None if layers is None else layers.motion, len(sketches) or len(layers or ()))
+    # In a loop no frame is the illustration, which the model begins with.
+    animation, before = None, 1 if loops else 0
     if layers is not None and background is not None:
-        before = 1 if layers.motion.loop is not None and not sketches else 0
+        before = 1 if loops or (layers.motion.loop is not None and not sketches) else 0
         animation = _followed(image, layers, background, before)
     frames = sketch_guided_frames(
         networks.held,
         image,
-        sketches,
+        [*[_lines_of(image)] * before, *sketches] if sketches else [],
         options=_options(choice, _follow_of(choice) if animation else "sketches"),
         placement=networks.placement(device),
         animation=animation,
         alphas=map(layers.alpha, range(len(layers))) if kept else None,
         soft_edge=choice["soft_edge"],
+        loops=loops,
+        colour_match=choice.get("colour_match", 1.0),
+        references=None if layers is None else _colours(image, layers, before),
         **watched_sampling(device, lambda clean: clean[len(clean) - CLIP_FRAMES // 2 :][:1]),
     )
     yield from itertools.islice(frames, before, None)
     seconds, peak = time.perf_counter() - began, peak_memory(device) / 2**30
     count = len(sketches) or len(layers or ())
     logging.info("Render: %d frames in %.0f s, at most %.1f GiB of memory", count, seconds, peak)
+
+
+def _lines_of(image: FloatImage) -> FloatImage:
+    """The illustration's own sketch, shape [h, w, 3]."""
+    from ...rendering.sketch import extract_sketch
+
+    return np.repeat(extract_sketch(image)[..., None], 3, axis=2)
+
+
+def _colours(image: FloatImage, layers: LayeredRenderer, before: int) -> Iterator[Reference]:
+    """The colours that frames should have: composite's outside its holes, and first those of the illustration."""
+    from ...rendering.composite import Background, shown_frame_and_alpha
+    from ...rendering.neural.colour_drift import own_colours
+    from ...rendering.pictures import as_float
+
+    yield from [own_colours(as_float(image))] * before
+    for number in range(len(layers)):
+        frame, alpha = shown_frame_and_alpha(layers, number, Background())
+        yield as_float(frame), 1 - layers.uncovered_by(alpha)
 
 
 def _followed(image: FloatImage, layers: LayeredRenderer, background: Background, before: int) -> CrudeAnimation:

@@ -7,6 +7,7 @@ from typing import Any
 from comfy_api.latest import io
 
 from ...rendering.svd import CLIP_FRAMES, SVDOptions
+from .clip_inputs import colour_match_input, loop_input
 from .model_files import lvcd_choices, svd_choices
 from .option_inputs import area_input, count_input, precision_input, seed_input
 
@@ -30,6 +31,7 @@ def svd_inputs() -> list[Any]:
             tooltip="LVCD: lvcd.ckpt or lvcd-fp16.safetensors in models/controlnet, models/checkpoints or models/lvcd.",
         ),
         *_of_sampler(_USUAL),
+        *_of_clip(),
     ]
 
 
@@ -77,6 +79,15 @@ def dual_clock_inputs() -> list[Any]:
             tooltip="Needed only with sketches: lvcd.ckpt or lvcd-fp16.safetensors in models/controlnet,"
             " models/checkpoints or models/lvcd.",
         ),
+        *_of_clip(),
+    ]
+
+
+def _of_clip() -> list[Any]:
+    """How a clip ends, and which colours it has."""
+    return [
+        loop_input("the last frames lead to the first, for which up to one segment more is drawn"),
+        colour_match_input("composite outside holes, or of the illustration where no motion is connected"),
     ]
 
 

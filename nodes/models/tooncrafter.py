@@ -45,6 +45,7 @@ def tooncrafter_backend(choice: dict[str, Any]) -> ToonCrafterInterpolator:
         placement=networks.placement(device),
         look=_look(choice.get("clip_vision")),
         prompts=_prompts(choice, models),
+        colour_match=choice.get("colour_match", 1.0),
         **watched_sampling(device, lambda clean: clean[:1, :, clean.shape[2] // 2]),
     )
 

@@ -7,6 +7,7 @@ from typing import Any
 from comfy_api.latest import io
 
 from ...rendering.tooncrafter import SOLVERS, ToonCrafterOptions
+from .clip_inputs import colour_match_input
 from .option_inputs import area_input, count_input, precision_input, seed_input
 from .tooncrafter_files import model_choices, sketch_model_choices
 
@@ -97,4 +98,5 @@ def tooncrafter_inputs() -> list[Any]:
             optional=True,
             tooltip="CLIP-ViT-H-14, from Load CLIP Vision. Left out: the one in model.ckpt.",
         ),
+        colour_match_input("the keyframes before and after"),
     ]

@@ -37,7 +37,17 @@ _FILES = ("svd", "lvcd", "inpainting", "tooncrafter", "sketch_encoder", "image_e
 _CHOICES = ("renderer", "interpolate_with", "extractor", "segmenter")
 _OPTIONS |= {
     name: f"--{name.replace('_', '-')}"
-    for name in (*_FILES, *_CHOICES, "device", "dtype", "grow", "soft_edge", "lines_size", "keyframes_at")
+    for name in (
+        *_FILES,
+        *_CHOICES,
+        "device",
+        "dtype",
+        "grow",
+        "soft_edge",
+        "colour_match",
+        "lines_size",
+        "keyframes_at",
+    )
 }
 _OPTIONS["keyframes"] = "--keyframes-at"
 _LISTS = {"masks": ("mask", "--mask"), "colliders": ("collider", "--collider"), "points": ("points", "--points")}

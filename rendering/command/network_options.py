@@ -93,6 +93,19 @@ def add_networks(parser: argparse.ArgumentParser, *, points: bool, in_betweens: 
     _add_inpainting(group)
     if in_betweens:
         _add_in_betweens(group, choice, file)
+        group.add_argument(
+            "--close-loop",
+            action=argparse.BooleanOptionalAction,
+            help="with --loop: svd draws the last frames between the end and the beginning, for which it may need one"
+            " segment more, and frames are also filled in between the last keyframe and the first (default: yes)",
+        )
+    group.add_argument(
+        "--colour-match",
+        metavar="SHARE",
+        type=float,
+        help="with svd or tooncrafter: how much of the model's colour drift is taken out, 0 to 1, by the colours of"
+        " composite outside holes, or of the keyframes (default: 1)",
+    )
     choice("extractor", "who draws the lines of sketches. informative: a network that draws them")
     file(
         "lines",

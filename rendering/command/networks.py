@@ -118,6 +118,8 @@ def check_networks_used(options: argparse.Namespace) -> None:
     ):
         if getattr(options, name, None) is not None and getattr(options, choice) != kind:
             raise InvalidInputError(f"{option_of(name)} needs {option_of(choice)} {kind}. Got: without")
+    if options.colour_match is not None and not (networks.draws_all or networks.interpolate_with == "tooncrafter"):
+        raise InvalidInputError("--colour-match needs --renderer svd or --interpolate-with tooncrafter. Got: without")
     if options.soft_edge is not None and not networks.draws_opaque:
         raise InvalidInputError("--soft-edge needs --renderer svd or inpainting. Got: without")
     for name in ("device", "dtype"):

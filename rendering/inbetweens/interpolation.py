@@ -21,6 +21,7 @@ from ...physics.progress import Progress
 from ..pictures import as_dtype, as_picture, is_transparent, premultiplied, straight
 from .backend import Clip, Interpolator, ModelFile
 from .flow import FlowInterpolator
+from .loop import check_loop, led_around, loop_frames
 from .motion import MotionInterpolator
 
 __all__ = [
@@ -59,14 +60,15 @@ BACKENDS: dict[str, Interpolator] = {
 """Every available backend by its name; further ones register by adding themselves."""
 
 
-def keyframe_indices(count: int, every: int = DEFAULT_GAP, *, at: Sequence[int] = ()) -> list[int]:
+def keyframe_indices(count: int, every: int = DEFAULT_GAP, *, at: Sequence[int] = (), loops: bool = False) -> list[int]:
     """Frames 0, n, 2n, ... of a clip and its last one, or the listed ones.
 
     Args:
         count: number of frames of the clip.
         every: frames from one keyframe to the next.
         at: frame numbers of the keyframes, instead; frames before the first and after the last of them are no
-            in-betweens.
+            in-betweens, unless the clip is a loop.
+        loops: frame 0 comes again after the last one, which then need be no keyframe; there are two at least.
 
     Examples:
         >>> from physanimator.rendering.inbetweens import keyframe_indices
@@ -79,6 +81,9 @@ def keyframe_indices(count: int, every: int = DEFAULT_GAP, *, at: Sequence[int] 
     require("keyframes", list(at), known, f"frame numbers from 0 to {count - 1}")
     if at:
         return sorted({*at})
+    if loops and count > 1:
+        regular = list(range(0, count, every))
+        return regular if len(regular) > 1 else [0, count // 2]
     return sorted({*range(0, count, every), count - 1})
 
 
@@ -94,8 +99,9 @@ def interpolate(
     progress: Progress | None = None,
     before: Sequence[NDArray[Any]] = (),
     after: Sequence[NDArray[Any]] = (),
+    loop: int | None = None,
 ) -> Iterator[NDArray[Any]]:
-    """All frames from the first keyframe to the last; keyframes come out unchanged.
+    """All frames from the first keyframe to the last, or of a loop; keyframes come out unchanged.
 
     Args:
         keyframes: RGB or straight RGBA in any form that :func:`as_picture` takes, of one
@@ -112,10 +118,12 @@ def interpolate(
         progress: called after each frame.
         before: frames that come out ahead of the first keyframe as they are, in the keyframes' size and type.
         after: frames that follow the last keyframe in the same way.
+        loop: number of frames after which the clip begins again: in-betweens then lead from the last keyframe to the
+            first as well, and all frames of the loop come out, frame 0 first. None: no loop.
 
     Returns:
-        An iterator over ``before``, indices[-1] - indices[0] + 1 frames, and ``after``. Bad input raises here, not at
-        the first frame.
+        An iterator over ``before``, indices[-1] - indices[0] + 1 frames, and ``after``; or over the frames of the loop.
+        Bad input raises here, not at the first frame.
 
     Raises:
         InvalidInputError: keyframes and indices do not belong together, the backend is unknown, or its files are
@@ -137,12 +145,18 @@ def interpolate(
         require("indices", list(indices), indices[0] >= 0 and indices[-1] < len(motion), expected)
         counted = len(masks) in (0, len(motion.bodies))
         require("masks", f"{len(masks)}", counted, f"none or one per body ({len(motion.bodies)})")
+    if loop is not None:
+        check_loop(loop, indices, motion, alone=not (len(before) or len(after)))
     if len(sketches):
-        _check_sketches(sketches, indices[-1], keyframes[0].shape[:2])
+        _check_sketches(sketches, indices[-1] if loop is None else loop - 1, keyframes[0].shape[:2])
     # Hidden colours must not come into those that are seen.
     mixable = [premultiplied(each) for each in keyframes] if is_transparent(keyframes[0]) else keyframes
     files = _files(chosen, find_file)
     clip = Clip(mixable, tuple(indices), motion, tuple(map(coverage_of, masks)), files, sketches)
+    if loop is not None:
+        around_clip = led_around(clip, loop)
+        closed = loop_frames(lambda k: _between(chosen, around_clip, k, keyframes[k]), keyframes, start=indices[0])
+        return _counted(closed, loop, progress)
     total = clip.indices[-1] - clip.indices[0] + 1 + sum(map(len, around))
     frames = itertools.chain(around[0], _frames(chosen, clip, keyframes), around[1])
     return _counted(frames, total, progress)
@@ -150,13 +164,15 @@ def interpolate(
 
 def _frames(backend: Interpolator, clip: Clip, keyframes: Sequence[NDArray[Any]]) -> Iterator[NDArray[Any]]:
     for number, keyframe in enumerate(keyframes):
-        between: Iterable[NDArray[Any]] = ()
-        if number + 1 < len(keyframes):
-            between = backend.in_betweens(clip, number)
-        if is_transparent(keyframe):
-            between = (as_dtype(straight(each), keyframe.dtype) for each in between)
         yield keyframe
-        yield from between
+        if number + 1 < len(keyframes):
+            yield from _between(backend, clip, number, keyframe)
+
+
+def _between(backend: Interpolator, clip: Clip, number: int, keyframe: NDArray[Any]) -> Iterator[NDArray[Any]]:
+    """The frames between a keyframe and the next, in the form that the keyframe was given in."""
+    between = backend.in_betweens(clip, number)
+    return (as_dtype(straight(each), keyframe.dtype) for each in between) if is_transparent(keyframe) else between
 
 
 def _counted(frames: Iterable[NDArray[Any]], total: int, progress: Progress | None) -> Iterator[NDArray[Any]]:

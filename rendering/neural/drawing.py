@@ -14,6 +14,7 @@ from ...physics.progress import Progress
 from ..composite import keep_still_parts, moving_region
 from ..pictures import as_float
 from ..svd import CrudeAnimation, SVDOptions
+from .colour_drift import Reference, own_colours, without_drift
 from .options import NetworkOptions, StrPath
 
 if TYPE_CHECKING:
@@ -40,6 +41,9 @@ def sketch_guided_frames(
     soft_edge: float = 24.0,
     progress: Progress | None = None,
     watch: Callable[[SampledStep], None] | None = None,
+    loops: bool = False,
+    colour_match: float = 1.0,
+    references: Iterable[Reference] | None = None,
 ) -> Iterator[FloatImage]:
     """The frames of a clip that follow sketches, an animation, or both.
 
@@ -56,6 +60,9 @@ def sketch_guided_frames(
         soft_edge: width of the transition to it [px].
         progress: see :class:`SVDRenderer`.
         watch: see :class:`SVDRenderer`.
+        loops: the last frame leads to frame 1; see :class:`SVDRenderer`.
+        colour_match: share of the colour drift that is taken out, 0..1.
+        references: for each frame what its colours should be; those of the illustration when None.
 
     Returns:
         An iterator over float32 pictures, 0..1, shape [h, w, 3]. Bad input raises here.
@@ -63,10 +70,15 @@ def sketch_guided_frames(
     from ..svd.renderer import SVDRenderer
 
     renderer = SVDRenderer(models, options=options, placement=placement)
-    frames = renderer.frames(image, sketches, animation=animation, progress=progress, watch=watch)
+    frames = renderer.frames(image, sketches, animation=animation, progress=progress, watch=watch, loops=loops)
+    picture = as_float(image)
+    if colour_match > 0:
+        count = len(sketches) if animation is None else animation.count
+        wanted = [own_colours(picture)] * count if references is None else references
+        frames = without_drift(frames, wanted, colour_match)
     if alphas is None:
         return frames
-    picture, region = as_float(image), moving_region(alphas, soft_edge=soft_edge)
+    region = moving_region(alphas, soft_edge=soft_edge)
     return (keep_still_parts(frame, picture, region) for frame in frames)
 
 
@@ -130,4 +142,10 @@ def in_between_backend(options: NetworkOptions, progress: Progress | None = None
     from ..tooncrafter.interpolator import ToonCrafterInterpolator
 
     models, placement = load_tooncrafter(options)
-    return ToonCrafterInterpolator(models, options=options.tooncrafter_options, placement=placement, progress=progress)
+    return ToonCrafterInterpolator(
+        models,
+        options=options.tooncrafter_options,
+        placement=placement,
+        progress=progress,
+        colour_match=options.colour_match,
+    )

@@ -79,6 +79,10 @@ class NetworkOptions:
             elsewhere, and fp32 for Segment Anything everywhere.
         sketch_blur: standard deviation of the blur of sketches that lead video models [px].
         sketch_warp: how those are bent along the motion, one of ``WARP_MODES`` of ``rendering.sketch``.
+        close_loop: of a loop, have svd draw the last frames between the end and the beginning, and fill in frames
+            between the last keyframe and the first, so that no jump is seen where the loop begins again.
+        colour_match: share of the colour drift of svd and tooncrafter that is taken out, 0..1: frames get the colours
+            of composite outside holes, in-betweens those of their keyframes.
 
     Raises:
         InvalidInputError: there is no such choice, a file is missing for it, or one is given that nothing would read.
@@ -122,6 +126,8 @@ class NetworkOptions:
     dtype: str = "auto"
     sketch_blur: float = 0.8
     sketch_warp: WarpMode = "layered"
+    close_loop: bool = True
+    colour_match: float = 1.0
 
     def __post_init__(self) -> None:
         for name, choices in CHOICES.items():
@@ -142,6 +148,7 @@ class NetworkOptions:
         check_number("grow", self.grow, 0, 1000, unit=" px")
         check_number("soft_edge", self.edge_width, 0, 1000 if self.renderer == "inpainting" else 10_000, unit=" px")
         check_number("sketch_blur", self.sketch_blur, 0, 100, unit=" px")
+        check_number("colour_match", self.colour_match, 0, 1)
         modes = ", ".join(WARP_MODES)
         require("sketch_warp", repr(self.sketch_warp), self.sketch_warp in WARP_MODES, f"one of {modes}")
         if self.lines_size:

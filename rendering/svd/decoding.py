@@ -11,7 +11,7 @@ from torch import Tensor
 from ...physics.errors import require
 from .options import DECODED_TOGETHER
 
-__all__ = ["Chunk", "decode", "decoding_chunks"]
+__all__ = ["Chunk", "around_the_wrap", "decode", "decoding_chunks"]
 
 _OVERLAP = 3
 """Frames of the chunk before that are decoded once more, and dropped."""
@@ -44,6 +44,18 @@ def decoding_chunks(count: int, size: int = DECODED_TOGETHER) -> Iterator[Chunk]
         start = end - _OVERLAP
         end = start + size - 1
         yield Chunk((0, *range(start, min(end, count))), kept)
+
+
+def around_the_wrap(count: int) -> list[int]:
+    """Frames to decode of a clip whose last frame leads to frame 1, so that neighbours are mixed there as elsewhere.
+
+    Frame 0, the reference picture, then the loop with its last frames once more before it and its first ones after it.
+
+    Args:
+        count: frames of the clip, frame 0 included.
+    """
+    cycle, more = count - 1, min(_OVERLAP, count - 1)
+    return [0, *(1 + frame % cycle for frame in range(-more, cycle + more))]
 
 
 @torch.no_grad()

@@ -20,16 +20,16 @@ from ..networks.placement import Placement
 from ..pictures import as_float, as_grey, as_picture
 from .conditioning import Conditioning, condition_on
 from .crude_animation import CrudeAnimation
-from .decoding import decode, decoding_chunks
+from .decoding import around_the_wrap, decode, decoding_chunks
 from .dual_clock import DualClock, step_at
 from .encoded_animation import PIXELS_PER_LATENT, encode_animation
+from .loop_segments import plan_clip
 from .models import SVDModels
 from .noise_schedule import noise_levels
 from .options import SVDOptions
-from .plain_segments import plan_plain_segments
 from .prediction import plain_predictor, sketch_predictor
 from .sampler import LATENT_SCALE, SampledStep, sample_clip
-from .segments import Segment, plan_segments
+from .segments import Segment
 
 __all__ = ["SVDRenderer"]
 
@@ -72,6 +72,7 @@ class SVDRenderer:
         animation: CrudeAnimation | None = None,
         progress: Progress | None = None,
         watch: Callable[[SampledStep], None] | None = None,
+        loops: bool = False,
     ) -> Iterator[FloatImage]:
         """All frames of the clip; frame 0 is the illustration as the autoencoder sees it.
 
@@ -83,6 +84,7 @@ class SVDRenderer:
             progress: called after each encoded frame of the animation, each sampling step and each decoded chunk with
                 the number done and the number in all; may raise to stop.
             watch: called in each sampling step; may raise to stop.
+            loops: the last frame leads to frame 1, which follows it when the clip is shown again without frame 0.
 
         Returns:
             An iterator over float32 pictures, 0..1, shape [h, w, 3]. Bad input raises here.
@@ -100,7 +102,7 @@ class SVDRenderer:
             count = got
         else:
             require("animation", "one", animation is None, "left out where frames follow sketches alone")
-        return self._frames(image, sketches, animation, count, progress, watch)
+        return self._frames(image, sketches, animation, count, progress, watch, loops)
 
     def _frames(
         self,
@@ -110,14 +112,15 @@ class SVDRenderer:
         count: int,
         progress: Progress | None,
         watch: Callable[[SampledStep], None] | None,
+        loops: bool,
     ) -> Iterator[FloatImage]:
         options, frame = self.options, Frame.around(image.shape[1], image.shape[0], area=self.options.area)
         animation = animation if self._strong else None
-        plan = plan_segments if options.follows_sketches else plan_plain_segments
-        segments = plan(count, options.overlap)
+        segments = plan_clip(count, options.overlap, loops=loops, plain=not options.follows_sketches)
+        decoded = around_the_wrap(count) if loops else list(range(count))
         encoded = animation.count if animation is not None else 0
         steps = (options.steps - (self._weak if encoded else 0)) * len(segments)
-        total = encoded + steps + len(list(decoding_chunks(count, options.decoded_together)))
+        total = encoded + steps + len(list(decoding_chunks(len(decoded), options.decoded_together)))
 
         def report(done: int) -> None:
             if progress is not None:
@@ -142,10 +145,13 @@ class SVDRenderer:
         hints = [_hint(frame.inward(as_grey(sketch))) for sketch in sketches]
         guides = torch.cat(hints) if hints else torch.empty((count, 0))
         latents = self._sampled(conditioning, guides, noise, segments, clock, each_step)
-        for number, pictures in enumerate(self._decoded(latents), start=1):
+        more = (len(decoded) - count) // 2
+        shown = iter([number == 0 or more < number < len(decoded) - more for number in range(len(decoded))])
+        for number, pictures in enumerate(self._decoded(latents[decoded]), start=1):
             report(encoded + steps + number)
             for picture in pictures:
-                yield frame.outward(picture.permute(1, 2, 0).contiguous().numpy())
+                if next(shown):
+                    yield frame.outward(picture.permute(1, 2, 0).contiguous().numpy())
 
     @property
     def _weak(self) -> int:

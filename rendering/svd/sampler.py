@@ -12,8 +12,9 @@ from torch import Tensor
 
 from .dual_clock import DualClock
 from .frame_layout import OVERLAP, FrameLayout
+from .loop_segments import plan_clip
 from .noise_schedule import Preconditioning, denoised, euler_step, noise_levels
-from .segments import Segment, plan_segments
+from .segments import Segment
 
 __all__ = ["LATENT_SCALE", "Predictor", "SampledStep", "sample_clip"]
 
@@ -69,6 +70,7 @@ def sample_clip(
     *,
     sigmas: Tensor | None = None,
     overlap: int = OVERLAP,
+    loops: bool = False,
     watch: Callable[[SampledStep], None] | None = None,
     segments: Sequence[Segment] | None = None,
     clock: DualClock | None = None,
@@ -83,6 +85,7 @@ def sample_clip(
         noise: standard normal, one for each slot of a segment, shape [15 + overlap, 4, h, w].
         sigmas: noise levels, the last 0; those of 25 steps by default.
         overlap: frames that neighbouring segments share.
+        loops: whether the last frame leads to frame 1.
         watch: called in every step; may raise to stop.
         segments: that make the clip; those of LVCD by default.
         clock: an animation that leads as well.
@@ -91,11 +94,12 @@ def sample_clip(
         Scaled latents, the reference picture's first, float32, shape [f, 4, h, w].
     """
     levels = (noise_levels(25) if sigmas is None else sigmas).to(noise.device)
-    segments = plan_segments(len(sketches), overlap) if segments is None else segments
+    segments = plan_clip(len(sketches), overlap, loops=loops) if segments is None else segments
     start = 0 if clock is None else clock.weak
     steps = len(levels) - 1 - start
     shown = LATENT_SCALE * first_latent if clock is None else clock.latents[:1]  # those have no noise on the picture
     found, made = _Found(first_latent, noise), [shown]
+    opening: _Found | None = None
     for number, segment in enumerate(segments):
 
         def report(step: int, noisy: Tensor, clean: Tensor, number: int = number) -> None:
@@ -103,7 +107,10 @@ def sample_clip(
                 done = number * steps + step - start + 1
                 watch(SampledStep(number, step, done, len(segments) * steps, noisy, clean))
 
-        found = _sample_segment(predict, segment, found, sketches, noise, levels, report, clock)
+        before = found if opening is None or not segment.closes else found.followed_by(opening)
+        found = _sample_segment(predict, segment, before, sketches, noise, levels, report, clock)
+        if opening is None and segments[-1].closes:
+            opening = found
         made.append(found.result[list(segment.made)])
     return torch.cat(made)
 
@@ -122,6 +129,11 @@ class _Found:
     result: Tensor
     clean: tuple[Tensor, ...] = ()
 
+    def followed_by(self, other: _Found) -> _Found:
+        """The slots of both, one after the other."""
+        clean = tuple(torch.cat(both) for both in zip(self.clean, other.clean, strict=True))
+        return _Found(self.first, torch.cat([self.result, other.result]), clean)
+
 
 def _sample_segment(
     predict: Predictor,
@@ -134,7 +146,6 @@ def _sample_segment(
     clock: DualClock | None,
 ) -> _Found:
     condition, hint = _condition(segment, before), sketches[list(segment.sketches)]
-    shared = slice(segment.layout.references, segment.layout.references + len(segment.blended))
     noise = noise[list(segment.noise)]
     start = 0 if clock is None else clock.weak
     x = noise * (1 + levels[0] ** 2).sqrt() if clock is None else clock.start(segment.sketches, noise, levels[start])
@@ -146,7 +157,7 @@ def _sample_segment(
         predictions.append(clean)
         if segment.blended:
             clean = clean.clone()
-            clean[shared] = before.clean[step - start][list(segment.blended)]
+            clean[list(segment.held)] = before.clean[step - start][list(segment.blended)]
         x = euler_step(x, clean, sigma, following)
         if clock is not None:
             x = clock.put_back(x, segment.sketches, noise, step, following)

@@ -28,6 +28,8 @@ class Segment:
         noise: slot of the first segment whose initial noise each slot gets.
         made: slots whose results are new frames.
         conditioned_on: slot of the segment before whose result takes the place of the reference picture's latent.
+        closes: so many of the last carried and blended slots are of the first segment, counted on from those of the
+            segment before, and stand at the end of this one's clip.
     """
 
     layout: FrameLayout
@@ -37,6 +39,14 @@ class Segment:
     noise: tuple[int, ...]
     made: tuple[int, ...]
     conditioned_on: int | None = None
+    closes: int = 0
+
+    @property
+    def held(self) -> tuple[int, ...]:
+        """Clip slots whose denoised latents the blended ones replace."""
+        references, count = self.layout.references, self.layout.count
+        begin = range(references, references + len(self.blended) - self.closes)
+        return (*begin, *range(count - self.closes, count))
 
 
 def plan_segments(frames: int, overlap: int = OVERLAP) -> tuple[Segment, ...]:

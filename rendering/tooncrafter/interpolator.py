@@ -13,6 +13,7 @@ from ..inbetweens import Clip, FloatImage, ModelFile
 from ..networks.checkpoints import CheckpointError
 from ..networks.placement import Placement
 from ..pictures import as_dtype
+from ..pictures.colour_matching import colours_of, common_weights, with_colours
 from .gap_drawing import Gap, GapDrawing
 from .gap_plan import clips_in
 from .models import WANTED_SKETCH, ToonCrafterModels
@@ -40,6 +41,7 @@ class ToonCrafterInterpolator:
         prompts: Prompts | None = None,
         progress: Progress | None = None,
         watch: Watch | None = None,
+        colour_match: float = 1.0,
     ) -> None:
         """Prepare.
 
@@ -52,11 +54,13 @@ class ToonCrafterInterpolator:
             progress: called after each sampling step with the number done and the number in all, counted for each pair
                 of keyframes; may raise to stop.
             watch: called in each sampling step; may raise to stop.
+            colour_match: share of the colour drift that is taken out, 0..1: in-betweens get what lies between the
+                colours of their keyframes.
         """
         self.options = options or ToonCrafterOptions()
         place = placement or Placement(torch.device("cpu"))
         self._drawing = PairDrawing(models, self.options, place, look=look, prompts=prompts)
-        self._progress, self._watch = progress, watch
+        self._progress, self._watch, self._colour_match = progress, watch, colour_match
         self._clip: Clip | None = None
         self._drawn: dict[int, dict[int, FloatImage]] = {}
         self._done = 0
@@ -69,8 +73,17 @@ class ToonCrafterInterpolator:
             last = min(number + self.options.pairs_together, len(clip.keyframes) - 1)
             self._drawn = self._filled(clip, range(number, last))
         drawn = self._drawn.pop(number)
-        for frame, _ in clip.times(number):
-            yield as_dtype(drawn[frame], clip.keyframes[number].dtype)
+        for picture in self._matched(clip, number, drawn):
+            yield as_dtype(picture, clip.keyframes[number].dtype)
+
+    def _matched(self, clip: Clip, number: int, drawn: dict[int, FloatImage]) -> Iterator[FloatImage]:
+        """The frames between two keyframes, with colours between theirs."""
+        ends = [clip.keyframe(number), clip.keyframe(number + 1)]
+        first, last = (colours_of(end, common_weights(end)) for end in ends)
+        for frame, place in clip.times(number):
+            picture = drawn[frame]
+            found = colours_of(picture, common_weights(picture))
+            yield with_colours(picture, found, first.towards(last, place), amount=self._colour_match)
 
     def _filled(self, clip: Clip, numbers: range) -> dict[int, dict[int, FloatImage]]:
         """In-betweens of several pairs of keyframes."""

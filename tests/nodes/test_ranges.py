@@ -28,7 +28,14 @@ LONG = {
     "elements_across",
 }
 """Of these only the lower end is tried: the upper one would take minutes."""
-NETWORKS = {"sketch-guided SVD", "soft inpainting", "tooncrafter", "drawing network", "segment anything"}
+NETWORKS = {
+    "animation-guided SVD",
+    "drawing network",
+    "segment anything",
+    "sketch-guided SVD",
+    "soft inpainting",
+    "tooncrafter",
+}
 """Choices whose models a test does not have."""
 NAMES_ONE = {
     "FirstAndLastFrame first_frame",

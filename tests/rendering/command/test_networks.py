@@ -95,7 +95,7 @@ def test_from_points_to_a_video(kind: str, files: dict[str, dict[str, Path]], sm
     assert frames.shape == (6, HEIGHT, WIDTH, 3)
     beside, inside = frames[:, :, :12], frames[:, 14:54, 34:50]
     assert np.abs(beside[[0, 3, 5]] - 220).max() < 12, "in keyframes, what no part ever covers is the illustration"
-    assert np.abs(beside[[1, 2, 4]] - 220).mean(axis=(1, 2, 3)).min() > 20, "all of an in-between is drawn"
+    assert np.abs(beside[[1, 2, 4]] - 220).mean(axis=(1, 2, 3)).min() > 13, "all of an in-between is drawn"
     assert np.abs(inside - 40).mean() > 20, "random weights draw something else than the illustration has there"
     told = capsys.readouterr().err
     for stage in ("check", "svd", "tooncrafter", "networks on cpu with at most"):
