@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..runtime import LANES, aligned, check_aligned, taichi_runtime
 from .arguments import drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
-from .pace import counters, launch_faster, most_threads
+from .pace import launch_faster, most_threads, share_counters
 
 if TYPE_CHECKING:
     from .kernels import Kernels
@@ -88,7 +88,8 @@ def _advance_largest(kernels: Kernels, part: int, solid: Solid, drive: Drive, pa
 
 def _advance_shared(kernels: Kernels, part: int, threads: int, solid: Solid, ticks: int, packs: list[Any]) -> None:
     highest = np.zeros(ticks, dtype=np.float32)
-    kernels.advance_shared(part, threads, counters(int(solid.substeps[part]), ticks), highest, *packs)
+    counters = share_counters(threads, int(solid.substeps[part]), ticks)
+    kernels.advance_shared(part, threads, counters, highest, *packs)
 
 
 def _triangles(solid: Solid, part: int) -> int:
