@@ -20,6 +20,7 @@ from pathlib import Path
 from ..errors import PhysAnimatorError
 from ..interruption import checkpoint
 from ..runtime import TaichiWorker, kernel_cache, taichi_runtime
+from ..solver import read_kernels
 
 __all__ = ["begin_aside", "compile_aside", "simulated_aside", "simulated_beside"]
 
@@ -49,7 +50,7 @@ def compile_aside(*, contact: bool, check: Callable[[], None] = checkpoint) -> N
 
 def begin_aside() -> None:
     """Start the process in which ``simulated_beside`` simulates, and let it read its kernels; returns at once."""
-    taichi_runtime.begin_aside(_read_kernels)
+    taichi_runtime.begin_aside(read_kernels)
 
 
 def simulated_aside(*, contact: bool) -> AbstractContextManager[None]:
@@ -66,7 +67,7 @@ def simulated_beside() -> AbstractContextManager[None]:
 
     In this process, a kernel would hold Python's global lock.
     """
-    return taichi_runtime.aside()
+    return taichi_runtime.aside(beside=True)
 
 
 def _compile(contact: bool, done: threading.Event) -> None:
@@ -89,13 +90,6 @@ def _compile(contact: bool, done: threading.Event) -> None:
         logging.exception("PhysAnimator: kernels could not be compiled aside")
     finally:
         done.set()
-
-
-def _read_kernels(_constant: None, _state: None) -> None:
-    """Bring what bodies that do not touch need of kernels into the other process, on Taichi's thread there."""
-    from .sample_simulations import simulate_samples
-
-    simulate_samples(contact=False)
 
 
 def _compile_here(contact: bool) -> None:

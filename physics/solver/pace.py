@@ -16,7 +16,16 @@ from numpy.typing import NDArray
 
 from .stepping import MOST_REFINEMENT
 
-__all__ = ["CACHE_LINE", "FIRST_PHASE", "Pace", "counters", "launch_faster", "most_threads", "share_counters"]
+__all__ = [
+    "CACHE_LINE",
+    "FIRST_PHASE",
+    "TRIANGLES_PER_THREAD",
+    "Pace",
+    "counters",
+    "launch_faster",
+    "most_threads",
+    "share_counters",
+]
 
 TRIANGLES_PER_THREAD = 400
 """A smaller share of a part is not worth a thread's while: all threads wait for each other twice in every substep.
@@ -64,15 +73,16 @@ class Pace:
 _paces: dict[tuple[str, int], Pace] = {}  # by kernel and size of the work; used on the Taichi thread only
 
 
-def most_threads(triangles: int, share: int = TRIANGLES_PER_THREAD) -> int:
+def most_threads(triangles: int, share: int = TRIANGLES_PER_THREAD, spared: int = 0) -> int:
     """Threads that may compute so many triangles: at most one for each processor that this process may use.
 
     Args:
         triangles: of all threads together.
         share: triangles of a thread, at least.
+        spared: processors that are left to others.
     """
     available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return max(1, min(available, MOST_THREADS, triangles // share))
+    return max(1, min(available - spared, MOST_THREADS, triangles // share))
 
 
 def launch_faster(launch: Callable[[int], float], *, threads: int, kernel: str, triangles: int) -> None:

@@ -180,7 +180,7 @@ def test_threads_that_share_a_part_find_the_same_to_the_last_bit(threads: int, m
     launched: list[int] = []
     original = solver._advance_shared
     monkeypatch.setattr(solver, "_advance_shared", lambda *given: launched.append(given[2]) or original(*given))
-    monkeypatch.setattr(solver, "most_threads", lambda _: threads)
+    monkeypatch.setattr(solver, "most_threads", lambda *_: threads)
     monkeypatch.setattr(pace.Pace, "share", lambda _: True)
     for _ in range(3):
         advance(solid, shared, still(4, gravity=(40.0, 0.0)))
