@@ -81,8 +81,12 @@ def most_threads(triangles: int, share: int = TRIANGLES_PER_THREAD, spared: int 
         share: triangles of a thread, at least.
         spared: processors that are left to others.
     """
-    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return max(1, min(available - spared, MOST_THREADS, triangles // share))
+    return max(1, min(_processors() - spared, MOST_THREADS, triangles // share))
+
+
+def _processors() -> int:
+    """Processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def launch_faster(launch: Callable[[int], float], *, threads: int, kernel: str, triangles: int) -> None:

@@ -16,7 +16,7 @@ from physanimator.physics.material import (
     semi_implicit_euler,
     stiffness_matrix,
 )
-from physanimator.physics.runtime import aligned
+from physanimator.physics.runtime import aligned, taichi_runtime
 from physanimator.physics.solver import (
     SPEED_FLOOR,
     TICK,
@@ -189,6 +189,19 @@ def test_threads_that_share_a_part_find_the_same_to_the_last_bit(threads: int, m
     assert np.abs(alone.displacement).max() > 1e-3
     np.testing.assert_array_equal(shared.displacement, alone.displacement)
     np.testing.assert_array_equal(shared.velocity, alone.velocity)
+
+
+def test_beside_other_work_two_processors_are_left_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    rest = strip(24, 96)
+    solid, launched = solid_of(rest, led=tuple(range(25))), list[int]()
+    monkeypatch.setattr(solver, "_advance_shared", lambda *given: launched.append(given[2]))
+    monkeypatch.setattr(pace.Pace, "share", lambda _: True)
+    for processors in (2, 4):
+        monkeypatch.setattr(pace, "_processors", lambda processors=processors: processors)
+        for beside in (False, True):
+            with taichi_runtime.aside(False, beside=beside):
+                advance(solid, State.at_rest(solid), still(1))
+    assert launched == [2, 4, 2]
 
 
 @pytest.mark.parametrize("kind", ["wind", "repel", "attract"])
