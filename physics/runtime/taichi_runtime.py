@@ -36,6 +36,7 @@ __all__ = [
     "begin_aside",
     "compiled",
     "compiles_here",
+    "is_beside",
     "keep_compiled",
     "launch",
     "own_this_process",
@@ -52,6 +53,7 @@ _IDLE_SECONDS = 300.0  # after which a process of our own, which holds some 200 
 _WORTH_KEEPING = 0.25  # seconds of compiling: kernels that were on disk already take some hundredths to read
 
 _goes_aside: ContextVar[bool] = ContextVar("physanimator_goes_aside", default=False)
+_is_beside: ContextVar[bool] = ContextVar("physanimator_is_beside", default=False)
 
 
 class _Job:
@@ -291,16 +293,26 @@ def launch(function: Callable[..., T], constant: Any, state: Any, *arguments: An
 
 
 @contextmanager
-def aside(wanted: bool = True) -> Iterator[None]:
+def aside(wanted: bool = True, *, beside: bool = False) -> Iterator[None]:
     """What this thread launches meanwhile runs in a process of ours, where one can be had, and this one can answer.
 
     A whole simulation belongs inside: what it has noted in one process is not known in the other.
+
+    Args:
+        wanted: whether it does.
+        beside: whether other threads of this process work meanwhile, see :func:`is_beside`.
     """
-    token = _goes_aside.set(wanted)
+    tokens = _goes_aside.set(wanted), _is_beside.set(beside)
     try:
         yield
     finally:
-        _goes_aside.reset(token)
+        _goes_aside.reset(tokens[0])
+        _is_beside.reset(tokens[1])
+
+
+def is_beside() -> bool:
+    """Whether what this thread launches leaves processors to others, and may take long, as nobody waits for it."""
+    return _is_beside.get()
 
 
 def begin_aside(function: Callable[..., Any]) -> None:

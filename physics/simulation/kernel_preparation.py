@@ -20,6 +20,7 @@ from pathlib import Path
 from ..errors import PhysAnimatorError
 from ..interruption import checkpoint
 from ..runtime import TaichiWorker, kernel_cache, taichi_runtime
+from ..solver import read_kernels
 from ..threads import allowed_threads
 
 __all__ = ["begin_aside", "compile_aside", "simulated_aside", "simulated_beside"]
@@ -51,7 +52,7 @@ def compile_aside(*, contact: bool, check: Callable[[], None] = checkpoint) -> N
 def begin_aside() -> None:
     """Start the process in which ``simulated_beside`` simulates, and let it read its kernels; returns at once."""
     if allowed_threads() > 1:
-        taichi_runtime.begin_aside(_read_kernels)
+        taichi_runtime.begin_aside(read_kernels)
 
 
 def simulated_aside(*, contact: bool) -> AbstractContextManager[None]:
@@ -68,7 +69,7 @@ def simulated_beside() -> AbstractContextManager[None]:
 
     In this process, a kernel would hold Python's global lock; where it may use one thread only, nobody else needs that.
     """
-    return taichi_runtime.aside() if allowed_threads() > 1 else nullcontext()
+    return taichi_runtime.aside(beside=True) if allowed_threads() > 1 else nullcontext()
 
 
 def _compile(contact: bool, done: threading.Event) -> None:
@@ -91,13 +92,6 @@ def _compile(contact: bool, done: threading.Event) -> None:
         logging.exception("PhysAnimator: kernels could not be compiled aside")
     finally:
         done.set()
-
-
-def _read_kernels(_constant: None, _state: None) -> None:
-    """Bring what bodies that do not touch need of kernels into the other process, on Taichi's thread there."""
-    from .sample_simulations import simulate_samples
-
-    simulate_samples(contact=False)
 
 
 def _compile_here(contact: bool) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from .arguments import PackedArguments, argument_packs, array_types, drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
 from .pace import counters, launch_faster, most_threads
-from .solver import advance
+from .solver import advance, read_kernels
 from .stepping import (
     SAFETY,
     SPEED_FLOOR,
@@ -36,6 +36,7 @@ __all__ = [
     "frequency_limits",
     "launch_faster",
     "most_threads",
+    "read_kernels",
     "solid_group",
     "squared_frequencies",
     "state_group",

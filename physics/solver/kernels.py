@@ -4,7 +4,7 @@
 The unit is a tick (``Drive.tick_length``). At its start the external acceleration of every vertex is evaluated and the
 step is chosen; then follow whole substeps: forces of all triangles, then velocities and positions of all vertices.
 One launch runs several ticks. Connected parts do not feel each other: each takes its own steps, on a thread of its own,
-or a large one on several (``sharing``).
+or a large one on several (``shares``).
 """
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
@@ -18,7 +18,7 @@ from .elastic_functions import add_forces, planned_steps
 from .external_functions import begin_vertices
 from .kernel_functions import record, take_step
 from .kernel_types import any_value
-from .sharing import Shared, advance_with_others
+from .shares import Shared, advance_share
 
 __all__ = ["Kernels", "build_kernels"]
 
@@ -84,8 +84,8 @@ def build_kernels() -> Kernels:
         drive: packs.drive,
     ):
         ti.loop_config(block_dim=1)
-        for _ in range(threads):
-            advance_with_others(part, ti.static(Shared(solid, state, drive, counters, highest)))
+        for me in range(threads):
+            advance_share(part, me, threads, ti.static(Shared(solid, state, drive, counters, highest)))
 
     @ti.kernel
     def forces(corners: types.integers, elements: types.blocks, u: types.vectors, corner_forces: types.pair_blocks):

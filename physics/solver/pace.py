@@ -16,12 +16,21 @@ from numpy.typing import NDArray
 from ..threads import allowed_threads
 from .stepping import MOST_REFINEMENT
 
-__all__ = ["FIRST_PHASE", "Pace", "counters", "launch_faster", "most_threads"]
+__all__ = [
+    "CACHE_LINE",
+    "FIRST_PHASE",
+    "TRIANGLES_PER_THREAD",
+    "Pace",
+    "counters",
+    "launch_faster",
+    "most_threads",
+    "share_counters",
+]
 
-TRIANGLES_PER_THREAD = 1_000
+TRIANGLES_PER_THREAD = 400
 """A smaller share of a part is not worth a thread's while: all threads wait for each other twice in every substep.
 
-Two threads compute 2,000 triangles 1.4 times as fast as one, 10,000 1.5 times and 50,000 1.6 times, where no other
+Two threads compute 1,000 triangles 1.5 times as fast as one, 5,000 1.8 times and 50,000 1.9 times, where no other
 program has the processors.
 """
 
@@ -30,6 +39,9 @@ MOST_THREADS = 8
 
 FIRST_PHASE = 2
 """Counter of the pieces that are claimed in the first phase; those before count pieces that are done."""
+
+CACHE_LINE = 32
+"""Numbers that processors take from each other together, in two lines of 64 bytes side by side."""
 
 _TRY_AGAIN = 16  # launches after which the slower way is tried once more
 _LATEST = 0.5  # weight of the latest launch
@@ -61,14 +73,15 @@ class Pace:
 _paces: dict[tuple[str, int], Pace] = {}  # by kernel and size of the work; used on the Taichi thread only
 
 
-def most_threads(triangles: int, share: int = TRIANGLES_PER_THREAD) -> int:
+def most_threads(triangles: int, share: int = TRIANGLES_PER_THREAD, spared: int = 0) -> int:
     """Threads that may compute so many triangles: at most as many as this process may use.
 
     Args:
         triangles: of all threads together.
         share: triangles of a thread, at least.
+        spared: processors that are left to others.
     """
-    return max(1, min(allowed_threads(), MOST_THREADS, triangles // share))
+    return max(1, min(allowed_threads() - spared, MOST_THREADS, triangles // share))
 
 
 def launch_faster(launch: Callable[[int], float], *, threads: int, kernel: str, triangles: int) -> None:
@@ -87,6 +100,22 @@ def launch_faster(launch: Callable[[int], float], *, threads: int, kernel: str, 
     shared, start = pace.share(), time.perf_counter()
     work = launch(threads if shared else 1)
     pace.learn(shared=shared, work=work, seconds=time.perf_counter() - start)
+
+
+def share_counters(threads: int, substeps: int, ticks: int) -> NDArray[np.int32]:
+    """The counters of a launch in which each thread has a share of its own.
+
+    Two lines of the cache of each thread: one for pieces that it has done; then for each thread and phase one of
+    pieces of its share that are claimed.
+
+    Args:
+        threads: that share the work.
+        substeps: planned in a tick; each has two phases.
+        ticks: in the launch.
+    """
+    phases = 2 * MOST_REFINEMENT * substeps * ticks
+    lines = 1 + -(-phases // CACHE_LINE)
+    return np.zeros((2 + lines) * CACHE_LINE * threads, dtype=np.int32)
 
 
 def counters(substeps: int, ticks: int) -> NDArray[np.int32]:

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-"""Connected parts on several threads, with the same result to the last bit as on one.
+"""Many connected parts on several threads, with the same result to the last bit as on one.
 
 The work is cut into phases (the forces of a substep, then its vertices), and these into pieces. Threads claim one piece
 after the other from the phase's counter until none is left, and wait in a loop until all pieces are done before the
@@ -8,32 +8,21 @@ next phase begins. A thread that the system has put aside holds up the others by
 
 # Taichi reads the annotations as objects; "from __future__ import annotations" would turn them into strings.
 
-from typing import Any, NamedTuple
-
 import taichi as ti
 
-from .elastic_functions import BLOCK_MASK, add_forces, highest_frequency, steps_for
+from .elastic_functions import BLOCK_MASK, add_forces, highest_frequency
 from .external_functions import begin_vertices
 from .kernel_functions import move_vertices, record
 from .kernel_types import any_value
 from .pace import FIRST_PHASE
 
-__all__ = ["DONE", "Shared", "advance_with_others", "claim", "do_pieces", "finish", "pieces_of", "wait_until"]
+__all__ = ["BLOCKS_AT_ONCE", "DONE", "VERTICES_AT_ONCE", "claim", "do_pieces", "finish", "pieces_of", "wait_until"]
 
 DONE = 0
 """The counter of the pieces that are done."""
 
-_BLOCKS_AT_ONCE, _VERTICES_AT_ONCE = 24, 192  # of a piece: some 3 us of work, against 0.1 us for its claim
-
-
-class Shared(NamedTuple):
-    """All that the kernel works on."""
-
-    solid: Any
-    state: Any
-    drive: Any
-    counters: Any
-    highest: Any
+BLOCKS_AT_ONCE, VERTICES_AT_ONCE = 24, 192
+"""Sizes of a piece: some 2 us of work, against 0.1 us for a claim that another thread waits for as well."""
 
 
 @ti.func
@@ -59,7 +48,7 @@ def wait_until(counter: any_value, done: ti.i32, shared: any_value):
 def pieces_of(work: any_value, part: ti.i32, shared: any_value):
     """Pieces of a part's work in a phase."""
     column = ti.static(int(work in ("plan", "forces")))
-    size = ti.static(_BLOCKS_AT_ONCE if column else _VERTICES_AT_ONCE)
+    size = ti.static(BLOCKS_AT_ONCE if column else VERTICES_AT_ONCE)
     starts = ti.static(shared.solid.starts)
     return (starts[part + 1][column] - starts[part][column] + size - 1) // size
 
@@ -89,7 +78,7 @@ def do_pieces(
     """
     solid, state, drive = ti.static((shared.solid, shared.state, shared.drive))
     column = ti.static(int(work in ("plan", "forces")))
-    size = ti.static(_BLOCKS_AT_ONCE if column else _VERTICES_AT_ONCE)
+    size = ti.static(BLOCKS_AT_ONCE if column else VERTICES_AT_ONCE)
     first, end = solid.starts[part][column], solid.starts[part + 1][column]
     beyond, piece, done = before + pieces_of(work, part, shared), claimed, 0
     while piece < beyond:
@@ -109,34 +98,3 @@ def do_pieces(
         done = finish(DONE, shared)
         piece = claim(phase, shared)
     return piece, done
-
-
-@ti.func
-def do_phase(
-    work: any_value, part: ti.i32, tick: ti.i32, step: ti.i32, count: ti.i32, phase: ti.i32, shared: any_value
-):
-    """Do pieces of a phase until none is left; returns how many it has for all threads together."""
-    do_pieces(work, part, tick, step, count, phase, claim(phase, shared), 0, tick, shared)
-    return pieces_of(work, part, shared)
-
-
-@ti.func
-def advance_with_others(part: ti.i32, shared: any_value):
-    """What every thread does."""
-    phase, done = 0, 0
-    for tick in range(shared.drive.first_particles.shape[0] - 1):
-        done += do_phase("plan", part, tick, 0, 1, phase, shared)
-        wait_until(DONE, done, shared)
-        count = steps_for(ti.atomic_max(shared.highest[tick], 0.0), shared.solid.substeps[part])
-        # External accelerations and forces write to different arrays: nobody waits between them.
-        done += do_phase("begin", part, tick, 0, count, phase + 1, shared)
-        phase += 2
-        for step in range(count):
-            done += do_phase("forces", part, tick, step, count, phase, shared)
-            wait_until(DONE, done, shared)
-            done += do_phase("vertices", part, tick, step, count, phase + 1, shared)
-            wait_until(DONE, done, shared)
-            phase += 2
-        # The next tick's plan only reads what is recorded, and all wait after it.
-        done += do_phase("record", part, tick, 0, count, phase, shared)
-        phase += 1

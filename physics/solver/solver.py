@@ -14,12 +14,14 @@ from ..runtime import LANES, aligned, check_aligned, taichi_runtime
 from ..threads import allowed_threads
 from .arguments import drive_group, solid_group, state_group
 from .arrays import CALM, Drive, Solid, State, WindTable
-from .pace import counters, launch_faster, most_threads
+from .pace import TRIANGLES_PER_THREAD, launch_faster, most_threads, share_counters
 
 if TYPE_CHECKING:
     from .kernels import Kernels
 
-__all__ = ["CALM", "Drive", "Solid", "State", "WindTable", "advance", "internal_forces"]
+__all__ = ["CALM", "Drive", "Solid", "State", "WindTable", "advance", "internal_forces", "read_kernels"]
+
+_SPARED = 2  # processors for threads that work beside: one that draws, and one that writes
 
 
 def advance(solid: Solid, state: State, drive: Drive) -> None:
@@ -34,7 +36,26 @@ def advance(solid: Solid, state: State, drive: Drive) -> None:
         ValueError: an array lies where the kernels cannot read it.
     """
     check_aligned(solid.corners, solid.elements, state.corner_forces)
-    taichi_runtime.launch(_advance, solid, state, drive)
+    taichi_runtime.launch(_advance, solid, state, drive, _SPARED if taichi_runtime.is_beside() else 0)
+
+
+def read_kernels(_constant: None = None, _state: None = None) -> None:
+    """Bring the kernels of bodies that do not touch into this process: read from disk, or compiled."""
+    one = np.ones(3, dtype=np.float32)
+    solid = Solid.of_triangles(
+        starts=np.array([[0, 0], [3, 1]], dtype=np.int32),
+        substeps=np.ones(1, dtype=np.int32),
+        vertices=np.ones((3, 4), dtype=np.float32),
+        step_limits=one,
+        handles=np.full(3, -1, dtype=np.int32),
+        grips=0 * one,
+        triangles=np.arange(3, dtype=np.int32)[None],
+        inverse_edges=np.eye(2, dtype=np.float32).reshape(1, 4),
+        stiffness=one[None],
+    )
+    rig, nothing = np.zeros((2, 1, 6), dtype=np.float32), np.zeros((0, 6), dtype=np.float32)
+    counts = np.zeros(2, dtype=np.int32)
+    advance(solid, State.at_rest(solid), Drive(rig, rig, counts, nothing, np.zeros(0, dtype=np.int32), (0.0, 0.0)))
 
 
 def internal_forces(solid: Solid, displacement: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -55,22 +76,18 @@ def _kernels(_taichi: Any) -> Kernels:
     return build_kernels()
 
 
-def _advance(solid: Solid, state: State, drive: Drive) -> None:
+def _advance(solid: Solid, state: State, drive: Drive, spared: int) -> None:
     kernels = taichi_runtime.compiled(_kernels)
     packs = kernels.packed(solid_group(solid), state_group(state), drive_group(drive))
     work = np.diff(solid.starts[:, 1]) * solid.substeps
     parts = np.argsort(-work, kind="stable").astype(np.int32)  # the most work first, so that threads end together
     largest = int(parts[0])
-    if _may_be_shared(solid, largest, work):
-        _advance_largest(kernels, largest, solid, drive, packs)
+    threads = most_threads(_triangles(solid, largest), TRIANGLES_PER_THREAD, spared)
+    if threads > 1 and 2 * work[largest] > work.sum():  # all others would have to wait for it in the end
+        _advance_largest(kernels, largest, threads, solid, drive, packs)
         parts = parts[1:]
     if len(parts):
         _advance_each(kernels, parts, packs)
-
-
-def _may_be_shared(solid: Solid, part: int, work: NDArray[Any]) -> bool:
-    """Whether a part is large enough for several threads, and all others would have to wait for it in the end."""
-    return most_threads(_triangles(solid, part)) > 1 and bool(2 * work[part] > work.sum())
 
 
 def _advance_each(kernels: Kernels, parts: NDArray[np.int32], packs: list[Any]) -> None:
@@ -78,8 +95,8 @@ def _advance_each(kernels: Kernels, parts: NDArray[np.int32], packs: list[Any]) 
     kernels.advance(min(allowed_threads(), len(parts)), np.zeros(1, dtype=np.int32), parts, *packs)
 
 
-def _advance_largest(kernels: Kernels, part: int, solid: Solid, drive: Drive, packs: list[Any]) -> None:
-    """Advance a large part on one thread or on several."""
+def _advance_largest(kernels: Kernels, part: int, most: int, solid: Solid, drive: Drive, packs: list[Any]) -> None:
+    """Advance a large part on one thread or on as many as it may have at most."""
     triangles, ticks = _triangles(solid, part), len(drive.first_particles) - 1
 
     def launch(threads: int) -> float:
@@ -89,12 +106,13 @@ def _advance_largest(kernels: Kernels, part: int, solid: Solid, drive: Drive, pa
             _advance_each(kernels, np.array([part], dtype=np.int32), packs)
         return float(triangles * solid.substeps[part] * ticks)
 
-    launch_faster(launch, threads=most_threads(triangles), kernel="one part", triangles=triangles)
+    launch_faster(launch, threads=most, kernel="one part", triangles=triangles)
 
 
 def _advance_shared(kernels: Kernels, part: int, threads: int, solid: Solid, ticks: int, packs: list[Any]) -> None:
     highest = np.zeros(ticks, dtype=np.float32)
-    kernels.advance_shared(part, threads, counters(int(solid.substeps[part]), ticks), highest, *packs)
+    counters = share_counters(threads, int(solid.substeps[part]), ticks)
+    kernels.advance_shared(part, threads, counters, highest, *packs)
 
 
 def _triangles(solid: Solid, part: int) -> int:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..pictures import StructureTensor, gradients
+from .channels import over_channels
 from .line_end import HALF_WIDTH, LEAST_REACH, LineEnd
 
 __all__ = ["DISTANCE", "line_ends"]
@@ -87,7 +88,7 @@ def _structure(picture: FloatImage, known: FloatImage) -> _Field:
     dx, dy = (change * inner[..., None] for change in gradients(picture))
     weight = np.maximum(cv2.GaussianBlur(inner, (0, 0), _SIGMA), 1e-3)
     xx, xy, yy = (
-        (cv2.GaussianBlur(product.sum(axis=2), (0, 0), _SIGMA) / weight).astype(np.float64)
+        (cv2.GaussianBlur(over_channels(product), (0, 0), _SIGMA) / weight).astype(np.float64)
         for product in (dx * dx, dx * dy, dy * dy)
     )
     tensor = StructureTensor(xx, xy, yy)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ...physics.beside import Beside
 from ..pictures import window_around
+from .channels import over_channels
 from .colour_spreading import spread_sides
 
 __all__ = ["smooth_fill"]
@@ -76,16 +77,17 @@ def smooth_fill(picture: FloatImage, hole: Mask, *, continued: Mask | None = Non
         RGB, shape [h, w, 3]; unchanged outside the hole.
     """
     trend, curved = _trend(picture, hole)
-    sources = ~hole & ~_ink(picture, ~hole if continued is None else ~hole & ~continued)
     # A plane is harmonic by itself, and where the hole meets the picture's border better left out.
     flat = trend if curved else np.float32(0)
     with Beside(lambda: _harmonic(picture - flat, hole) + flat) as solving:
+        sources = ~hole & ~_ink(picture, ~hole if continued is None else ~hole & ~continued)
         near = spread_sides(picture - trend, sources, hole, power=_FILL_POWER) + trend
     deep, near = solving.result(), np.where(hole[..., None], near, picture)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.minimum(depth / np.float32(_DEPTH), 1)[..., None]
     # Where it is far from what is beside, colours of another side shine through.
-    share = share * np.exp(-((np.linalg.norm(deep - near, axis=-1, keepdims=True) / np.float32(_AGREEMENT)) ** 2))
+    apart = np.sqrt(over_channels((deep - near) ** 2))
+    share = share * np.exp(-((apart / np.float32(_AGREEMENT)) ** 2))[..., None]
     known = picture[~hole]
     if not len(known):
         return picture
@@ -98,7 +100,7 @@ def smooth_fill(picture: FloatImage, hole: Mask, *, continued: Mask | None = Non
 
 def _ink(picture: FloatImage, known: Mask) -> Mask:
     """Thin known lines, here and there, much darker than what is known on both their sides; with their rims."""
-    lightness = picture.mean(axis=2)
+    lightness = over_channels(picture) / np.float32(3)
     widened = cv2.dilate(np.where(known, lightness, -_NO_COLOUR), _LINE_DISC)
     closed = cv2.erode(np.where(widened > -_NO_COLOUR, widened, _NO_COLOUR), _LINE_DISC)
     dark = known & (closed - lightness > _INK)

@@ -16,7 +16,7 @@ from physanimator.physics.material import (
     semi_implicit_euler,
     stiffness_matrix,
 )
-from physanimator.physics.runtime import aligned
+from physanimator.physics.runtime import aligned, taichi_runtime
 from physanimator.physics.solver import (
     SPEED_FLOOR,
     TICK,
@@ -171,7 +171,8 @@ def test_ticks_may_be_launched_together_or_one_by_one() -> None:
     np.testing.assert_array_equal(together.displacement, single.displacement)
 
 
-@pytest.mark.parametrize("threads", [2, 3])
+# More threads than a machine has processors: those that begin late find their shares done by others.
+@pytest.mark.parametrize("threads", [2, 3, 40])
 def test_threads_that_share_a_part_find_the_same_to_the_last_bit(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
     rest = strip(24, 96)
     solid = solid_of(rest, led=tuple(range(25)))
@@ -180,7 +181,7 @@ def test_threads_that_share_a_part_find_the_same_to_the_last_bit(threads: int, m
     launched: list[int] = []
     original = solver._advance_shared
     monkeypatch.setattr(solver, "_advance_shared", lambda *given: launched.append(given[2]) or original(*given))
-    monkeypatch.setattr(solver, "most_threads", lambda _: threads)
+    monkeypatch.setattr(solver, "most_threads", lambda *_: threads)
     monkeypatch.setattr(pace.Pace, "share", lambda _: True)
     for _ in range(3):
         advance(solid, shared, still(4, gravity=(40.0, 0.0)))
@@ -188,6 +189,19 @@ def test_threads_that_share_a_part_find_the_same_to_the_last_bit(threads: int, m
     assert np.abs(alone.displacement).max() > 1e-3
     np.testing.assert_array_equal(shared.displacement, alone.displacement)
     np.testing.assert_array_equal(shared.velocity, alone.velocity)
+
+
+def test_beside_other_work_two_processors_are_left_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    rest = strip(24, 96)
+    solid, launched = solid_of(rest, led=tuple(range(25))), list[int]()
+    monkeypatch.setattr(solver, "_advance_shared", lambda *given: launched.append(given[2]))
+    monkeypatch.setattr(pace.Pace, "share", lambda _: True)
+    for processors in (2, 4):
+        monkeypatch.setattr(pace, "_processors", lambda processors=processors: processors)
+        for beside in (False, True):
+            with taichi_runtime.aside(False, beside=beside):
+                advance(solid, State.at_rest(solid), still(1))
+    assert launched == [2, 4, 2]
 
 
 @pytest.mark.parametrize("kind", ["wind", "repel", "attract"])
