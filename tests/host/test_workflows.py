@@ -72,7 +72,8 @@ def test_what_a_video_model_is_given_has_its_length_and_size(host: Any, path: Pa
     elif given["class_type"] == "PhysAnimator_Tracks":
         assert len(frames) == 41, "every second of 81 samples"
     else:
-        assert frames.shape == (81, 480, 832, 3)
+        form = [given["inputs"][name] for name in ("frames", "height", "width")]
+        assert frames.shape == (*form, 3)
         assert (np.abs(np.diff(frames.astype(np.int16), axis=0)) > 24).any(axis=(1, 2, 3)).mean() > 0.9
 
 
