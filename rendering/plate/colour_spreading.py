@@ -81,14 +81,14 @@ def _spread(picture: FloatImage, known: Mask, wanted: Mask, power: float, flat: 
 def _from_edge(picture: FloatImage, edge: Mask, wanted: Mask, power: float, flat: FloatImage | None) -> FloatArray:
     """The wanted colours from those along an edge, shape [n, 3]."""
     groups = _groups(picture, edge) if flat is not None else np.zeros(int(edge.sum()), dtype=np.int32)
-    weights, sums = _by_distance(picture, edge, wanted, groups, power)
-    shares = weights
+    values = picture if flat is None else np.dstack([picture, flat])
+    weights, sums = _by_distance(values, edge, wanted, groups, power)
+    shares, colours = weights, sums[:, :3]
     if len(weights) > 1 and flat is not None:
         depth = cv2.distanceTransform((~edge).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)[wanted]
         means = np.stack([picture[edge][groups == k].mean(axis=0) for k in range(len(weights))])
-        flatness = np.array([flat[edge][groups == k].mean() for k in range(len(weights))])
-        shares = _competing(weights, means, depth, flatness)
-    return np.asarray(np.einsum("kn,kcn->nc", shares / (shares.sum(axis=0) * weights), sums))
+        shares = _competing(weights, means, depth, sums[:, 3] / weights)
+    return np.asarray(np.einsum("kn,kcn->nc", shares / (shares.sum(axis=0) * weights), colours))
 
 
 def _groups(picture: FloatImage, edge: Mask) -> NDArray[np.int32]:
@@ -123,7 +123,7 @@ def _far_apart(colours: FloatArray, count: int) -> FloatArray:
 def _by_distance(
     picture: FloatImage, known: Mask, wanted: Mask, groups: NDArray[np.int32], power: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Sum of distance^-power to each group's pixels, shape [k, n], and the sum of their colours so weighted, [k, 3, n].
+    """Sum of distance^-power to each group's pixels, shape [k, n], and of their values so weighted, [k, c, n].
 
     Both are convolutions. Rows that are empty, or that nobody asks for, are left out of the transforms.
     """
@@ -144,11 +144,12 @@ def _by_distance(
     number = np.full(known.shape, -1, dtype=np.int32)
     number[known] = groups
     count = int(groups.max()) + 1
-    weights, sums = np.empty((count, int(wanted.sum()))), np.empty((count, 3, int(wanted.sum())))
+    channels, pixels = picture.shape[2], int(wanted.sum())
+    weights, sums = np.empty((count, pixels)), np.empty((count, channels, pixels))
     for k in range(count):
         own = (number == k).astype(np.float64)
         weights[k] = np.maximum(convolved(own), 1e-13)
-        for channel in range(3):
+        for channel in range(channels):
             sums[k, channel] = convolved(picture[..., channel] * own)
     return weights, sums
 
@@ -160,12 +161,13 @@ def _competing(weights: FloatArray, means: FloatImage, depth: FloatImage, flat: 
         weights: of each group at each pixel, shape [k, n].
         means: mean colour of each group, shape [k, 3]; groups of like colours support each other.
         depth: distance from the edge [px], shape [n].
-        flat: how flat each group is, shape [k]: the border of what is flat is sharp, whatever lies beyond it.
+        flat: how flat what is near of each group is, shape [k, n]: the border of what is flat is sharp, whatever lies
+            beyond it.
     """
     apart = np.linalg.norm(means[:, None] - means[None], axis=-1)
     shares = weights / weights.sum(axis=0)
     support = np.tensordot(np.exp(-((apart / _ALIKE) ** 2)), shares, axes=1)
-    drawn = (flat[:, None] * np.minimum(2 * shares, 1)).max(axis=0)
+    drawn = (flat * np.minimum(2 * shares, 1)).max(axis=0)
     sharpness = _SHARPNESS * np.exp(-((depth / _REACH) ** 2)) + _SHARP_EDGE * drawn * depth
     # Powers of small numbers vanish: only the proportion counts.
     return np.asarray(shares * (support / support.max(axis=0)) ** sharpness)
