@@ -393,9 +393,11 @@ class Animation:
             InvalidInputError: nothing can be written there, a width is out of its range, or the illustration is pixel
                 art.
         """
+        from .composite import PixelArtRenderer
         from .neural.uncovered_area import uncovered_area
 
-        require("pixel_art", self.pixel_art, not self.pixel_art, "off for a mask of what is uncovered")
+        if isinstance(self.renderer, PixelArtRenderer):
+            raise InvalidInputError("a mask of what is uncovered must be without pixel_art. Got: pixel art")
         check_text_output(path, ".png")
         numbers, hears = range(self.first, len(self.motion)), stage_of("uncovered", progress)
         widths, drawn = {"grow": grow, "soft_edge": soft_edge}, bool(self.own)
