@@ -27,6 +27,7 @@ from .search_words import findable
 from .sketch_nodes import ExtractSketch, WarpSketch
 from .stroke_nodes import EnergyStroke
 from .track_nodes import Tracks
+from .uncovered_nodes import UncoveredArea
 from .video_model_nodes import FirstAndLastFrame, LineControlVideo, WarpedVideo
 from .wind_nodes import Wind
 
@@ -63,6 +64,7 @@ NODES: list[type[io.ComfyNode]] = [
     WarpedVideo,
     LineControlVideo,
     FirstAndLastFrame,
+    UncoveredArea,
     LoadLayers,
     LayersFromImageBatch,
     SeeThroughLayers,

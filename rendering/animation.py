@@ -22,7 +22,7 @@ from .frame_drawing import FrameDrawing
 from .inbetweens import keyframe_indices
 from .moving_pieces import DEFAULT_TOLERANCE
 from .neural import NetworkOptions
-from .pictures import check_output, holds_alpha, is_transparent, over, resized, write_animation
+from .pictures import check_output, holds_alpha, is_transparent, over, resized, save_image, write_animation
 from .stages import StageProgress, stage_of
 
 if TYPE_CHECKING:
@@ -363,6 +363,47 @@ class Animation:
 
         check_text_output(path, ".svg")
         write_text(path, motion_to_svg(self.shown_motion, background=data_address(over(self.image))))
+
+    def save_plate(self, path: StrPath) -> None:
+        """Write the picture without its moving parts, as it is behind them in the frames.
+
+        Args:
+            path: a name in .png.
+
+        Raises:
+            InvalidInputError: nothing can be written there.
+        """
+        check_text_output(path, ".png")
+        save_image(path, self.renderer.plate)
+
+    def save_uncovered(
+        self, path: StrPath, *, grow: float = 8.0, soft_edge: float = 0.0, progress: StageProgress | None = None
+    ) -> None:
+        """Write a mask of what the parts uncover in the whole clip, for an image model that paints it once.
+
+        Give what it has painted to ``animate(..., plate=...)``. The mask of layered artwork is black: what is behind
+        its parts is drawn already.
+
+        Args:
+            path: a name in .png.
+            grow: how far the mask reaches beyond what is uncovered [px].
+            soft_edge: width of a transition around it [px].
+            progress: called after each frame with the stage "uncovered".
+
+        Raises:
+            InvalidInputError: nothing can be written there, a width is out of its range, or the illustration is pixel
+                art.
+        """
+        from .composite import PixelArtRenderer
+        from .neural.uncovered_area import uncovered_area
+
+        if isinstance(self.renderer, PixelArtRenderer):
+            raise InvalidInputError("a mask of what is uncovered must be without pixel_art. Got: pixel art")
+        check_text_output(path, ".png")
+        numbers, hears = range(self.first, len(self.motion)), stage_of("uncovered", progress)
+        widths, drawn = {"grow": grow, "soft_edge": soft_edge}, bool(self.own)
+        area = uncovered_area(self.renderer, **widths, drawn=drawn, numbers=numbers, progress=hears)
+        save_image(path, area)
 
     def save_tracks(self, path: StrPath, **options: Any) -> None:
         """Write tracks for motion-controlled video models as JSON; see :func:`~physanimator.physics.motion.tracks`.

@@ -127,7 +127,8 @@ MAY_IMPORT = {
         "nodes/host nodes/models nodes/preview physics physics/document physics/forces physics/material "
         "physics/mesh physics/motion physics/rig physics/scene physics/simulation rendering rendering/artwork "
         "rendering/composite rendering/control rendering/inbetweens rendering/matting rendering/metrics "
-        "rendering/metrics/learned rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
+        "rendering/metrics/learned rendering/neural rendering/overlays rendering/pictures "
+        "rendering/segmentation rendering/sketch"
     ),
     # the entry points
     "__init__": "nodes",

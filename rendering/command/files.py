@@ -56,6 +56,8 @@ OUTPUTS = (
     "save_motion",
     "save_svg",
     "save_scene",
+    "save_uncovered",
+    "save_plate",
     "save_gltf",
     "save_psd",
     "save_png",

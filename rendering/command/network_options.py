@@ -151,7 +151,8 @@ def _add_inpainting(group: argparse._ArgumentGroup) -> None:
         "--grow",
         metavar="PX",
         type=float,
-        help="with inpainting: how far holes reach beyond what parts have uncovered (default: 4)",
+        help="with inpainting: how far holes reach beyond what parts have uncovered (default: 4); and the mask of"
+        " --save-uncovered",
     )
 
 

@@ -112,7 +112,6 @@ def check_networks_used(options: argparse.Namespace) -> None:
         ("svd_options", "renderer", "svd"),
         ("still_parts", "renderer", "svd"),
         ("inpainting_options", "renderer", "inpainting"),
-        ("grow", "renderer", "inpainting"),
         ("tooncrafter_options", "interpolate_with", "tooncrafter"),
         ("lines_size", "extractor", "informative"),
     ):
@@ -120,8 +119,11 @@ def check_networks_used(options: argparse.Namespace) -> None:
             raise InvalidInputError(f"{option_of(name)} needs {option_of(choice)} {kind}. Got: without")
     if options.colour_match is not None and not (networks.draws_all or networks.interpolate_with == "tooncrafter"):
         raise InvalidInputError("--colour-match needs --renderer svd or --interpolate-with tooncrafter. Got: without")
-    if options.soft_edge is not None and not networks.draws_opaque:
-        raise InvalidInputError("--soft-edge needs --renderer svd or inpainting. Got: without")
+    masked = getattr(options, "save_uncovered", None) is not None
+    if options.grow is not None and not (masked or networks.renderer == "inpainting"):
+        raise InvalidInputError("--grow needs --renderer inpainting or --save-uncovered. Got: without")
+    if options.soft_edge is not None and not (masked or networks.draws_opaque):
+        raise InvalidInputError("--soft-edge needs --renderer svd or inpainting, or --save-uncovered. Got: without")
     for name in ("device", "dtype"):
         if getattr(options, name) is not None and not networks.uses_networks:
             raise InvalidInputError(f"{option_of(name)} needs a network, such as --renderer svd. Got: none")

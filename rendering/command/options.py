@@ -319,6 +319,19 @@ def _add_data(parser: argparse.ArgumentParser) -> None:
         help="how far --save-spine and --save-gltf may be from the motion (default: 0.25): with more there are fewer"
         " keys and targets",
     )
+    data.add_argument(
+        "--save-uncovered",
+        metavar="OUT.png",
+        help="write a mask of what the parts uncover in the whole clip, for an image model that paints it once"
+        " (black for layers, behind which all is drawn);"
+        " --grow says how far it reaches beyond that (default: 8), --soft-edge how soft its edge is (default: 0)",
+    )
+    data.add_argument(
+        "--save-plate",
+        metavar="OUT.png",
+        help="write the picture without its moving parts, to paint it over where --save-uncovered is white and give it"
+        " back to --plate",
+    )
     data.add_argument("--save-svg", metavar="OUT.svg", help="write the moving meshes as an SVG that plays in a browser")
 
 

@@ -39,6 +39,7 @@ _TEXTS = {
     "save_scene": ".json",
     "save_gltf": ".glb",
 }
+_PICTURES = ("save_uncovered", "save_plate")
 _EDITABLE = ("save_spine", "save_gltf")
 
 LARGEST_WIDTH = 8192
@@ -86,6 +87,7 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     if options.fps is not None:
         check_scene_rate(options.fps)
     _check_texts(options)
+    _check_pictures(options)
     _check_editable(options)
     if options.width is not None and not 16 <= options.width <= LARGEST_WIDTH:
         raise InvalidInputError(f"--width must be 16 to {LARGEST_WIDTH} px. Got: {options.width}")
@@ -176,6 +178,21 @@ def _check_texts(options: argparse.Namespace) -> None:
                 check_text_output(path, suffix, coming=coming)
 
 
+def _check_pictures(options: argparse.Namespace) -> None:
+    """Refuse places of single pictures, and a mask of what pixel art does not uncover in parts of pixels."""
+    from ...physics.errors import require
+    from ..files import check_text_output
+
+    coming = coming_folders(options)
+    if options.save_uncovered is not None:
+        require("--save-uncovered", "both", not options.pixel_art, "left out with --pixel-art")
+        wide = options.soft_edge is None or 0 <= options.soft_edge <= 1000
+        require("--soft-edge", options.soft_edge, wide, "0 to 1000 px with --save-uncovered")
+    for option, path in named(options, _PICTURES):
+        with named_as(option, "output", "the name"):
+            check_text_output(path, ".png", coming=coming)
+
+
 def _check_editable(options: argparse.Namespace) -> None:
     """Refuse places and tolerances of what other programs go on with."""
     from ...physics.errors import require
@@ -242,7 +259,7 @@ def write_outputs(
             )
         else:
             animation.write(drawn[name](progress=progress), path, width=options.width)
-    _save_data(options, animation)
+    _save_data(options, animation, progress)
     if options.save_gltf:
         told = animation.save_gltf(options.save_gltf, **_tolerance(options), progress=progress)
         _tell(options, options.save_gltf, told)
@@ -291,7 +308,7 @@ def _way(animation: Animation, planned: SimulationPlan) -> str:
     return f"connected parts: {planned.parts} side by side, a thread for each"
 
 
-def _save_data(options: argparse.Namespace, animation: Animation) -> None:
+def _save_data(options: argparse.Namespace, animation: Animation, progress: StageProgress | None) -> None:
     """Write what other programs read."""
     if options.save_tracks:
         wanted = {
@@ -308,6 +325,16 @@ def _save_data(options: argparse.Namespace, animation: Animation) -> None:
         animation.save_svg(options.save_svg)
     if options.save_scene:
         animation.save_scene(options.save_scene)
+    if options.save_uncovered:
+        animation.save_uncovered(options.save_uncovered, **_widths(options), progress=progress)
+    if options.save_plate:
+        animation.save_plate(options.save_plate)
+
+
+def _widths(options: argparse.Namespace) -> dict[str, float]:
+    """How far the mask of what is uncovered reaches, as far as it is said."""
+    said = {"grow": options.grow, "soft_edge": options.soft_edge}
+    return {name: value for name, value in said.items() if value is not None}
 
 
 def background_for(options: argparse.Namespace, image: Any) -> str:

@@ -59,7 +59,9 @@ _SOLVED = 16_000
 _MEAN_OF_FOUR = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]], dtype=np.float32) / 4
 
 
-def smooth_fill(picture: FloatImage, hole: Mask, *, continued: Mask | None = None) -> FloatImage:
+def smooth_fill(
+    picture: FloatImage, hole: Mask, *, continued: Mask | None = None, flat: FloatImage | None = None
+) -> FloatImage:
     """Fill a hole smoothly: near its edge with the colours there, deep inside harmonically.
 
     What changes evenly all around, such as a sky, is continued as a plane or a bowl, and the rest by distance, with a
@@ -72,20 +74,23 @@ def smooth_fill(picture: FloatImage, hole: Mask, *, continued: Mask | None = Non
         picture: RGB, shape [h, w, 3].
         hole: where colours are to be found, shape [h, w].
         continued: outside the hole, lines that have been drawn on through it, shape [h, w]; they do give colours.
+        flat: how much of what is around is flat, 0..1, shape [h, w]: there colours do not blend over a distance.
 
     Returns:
         RGB, shape [h, w, 3]; unchanged outside the hole.
     """
     trend, curved = _trend(picture, hole)
     # A plane is harmonic by itself, and where the hole meets the picture's border better left out.
-    flat = trend if curved else np.float32(0)
-    with Beside(lambda: _harmonic(picture - flat, hole) + flat) as solving:
+    bowl = trend if curved else np.float32(0)
+    with Beside(lambda: _harmonic(picture - bowl, hole) + bowl) as solving:
         sources = ~hole & ~_ink(picture, ~hole if continued is None else ~hole & ~continued)
-        near = spread_sides(picture - trend, sources, hole, power=_FILL_POWER) + trend
+        near = spread_sides(picture - trend, sources, hole, power=_FILL_POWER, flat=flat) + trend
     deep, near = solving.result(), np.where(hole[..., None], near, picture)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.minimum(depth / np.float32(_DEPTH), 1)[..., None]
     # Where it is far from what is beside, colours of another side shine through.
+    if flat is not None:
+        share = share * (1 - flat[..., None])
     apart = np.sqrt(over_channels((deep - near) ** 2))
     share = share * np.exp(-((apart / np.float32(_AGREEMENT)) ** 2))[..., None]
     known = picture[~hole]

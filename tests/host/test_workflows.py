@@ -21,7 +21,7 @@ WORKFLOWS = [path for path, api in ALL.items() if led_by(api) is None and not fo
 FOR_NEWER_HOSTS = [path for path, api in ALL.items() if for_newer_hosts(api)]
 FOR_VIDEO_MODELS = [path for path, api in ALL.items() if led_by(api) is not None]
 MOVING = {"PhysAnimator_Simulate", "PhysAnimator_AnimateIllustration"}
-LOADERS = {"UNETLoader", "CLIPLoader", "VAELoader", "CLIPVisionLoader"}
+LOADERS = {"CheckpointLoaderSimple", "UNETLoader", "CLIPLoader", "VAELoader", "CLIPVisionLoader"}
 
 
 def frames_of(video: bytes) -> np.ndarray:
@@ -67,10 +67,13 @@ def test_what_a_video_model_is_given_has_its_length_and_size(host: Any, path: Pa
     given = prompt[led_by(prompt) or ""]
     if given["class_type"] == "PhysAnimator_FirstAndLastFrame":
         assert frames.shape == (1, 480, 832, 3)
+    elif given["class_type"] == "PhysAnimator_UncoveredArea":
+        assert frames.shape == (1, 720, 1280, 3)
     elif given["class_type"] == "PhysAnimator_Tracks":
         assert len(frames) == 41, "every second of 81 samples"
     else:
-        assert frames.shape == (81, 480, 832, 3)
+        form = [given["inputs"][name] for name in ("frames", "height", "width")]
+        assert frames.shape == (*form, 3)
         assert (np.abs(np.diff(frames.astype(np.int16), axis=0)) > 24).any(axis=(1, 2, 3)).mean() > 0.9
 
 

@@ -28,6 +28,7 @@ from physanimator.physics.scene import Contact  # noqa: E402
 from physanimator.rendering.animation import Animation  # noqa: E402
 from physanimator.rendering.artwork import Artwork, load_artwork  # noqa: E402
 from physanimator.rendering.control import ModelFormat, line_frames, warped_frames  # noqa: E402
+from physanimator.rendering.neural.uncovered_area import uncovered_area  # noqa: E402
 from physanimator.rendering.options import AutomaticWind, Timing, Touching  # noqa: E402
 from physanimator.rendering.overlays import draw_tracks, preview  # noqa: E402
 from physanimator.rendering.pictures import load_image, load_mask  # noqa: E402
@@ -205,6 +206,14 @@ def _holes() -> tuple[Clip, Clip]:
     return grey, pink
 
 
+def _uncovered() -> Clip:
+    """The picture without its moving parts, with all that they uncover in colour."""
+    example = _example()
+    area = uncovered_area(example.renderer)[..., None]
+    plate = example.renderer.plate / np.float32(255)
+    return [_sized(plate + area * 0.6 * (np.float32([1.0, 0.2, 0.6]) - plate))] * COUNT
+
+
 def _lines() -> Clip:
     example = _example()
     form = ModelFormat(frames=COUNT + 1, width=832, height=464)
@@ -342,6 +351,7 @@ THUMBNAILS: dict[str, Callable[[], Clip]] = {
     "figure_stiffness": lambda: _grid([_gust(_hair(sway_frequency=rate)) for rate in (0.4, 0.8, 1.6, 3.2)]),
     "every_step": lambda: _beside(_over(wireframe=True), _sketches(), _every(_example().flows()), _frames(), same=True),
     "soft_inpaint": lambda: _cut(_beside(_frames(), _holes()[1]), 0.25, 0.0, 0.7),
+    "inpaint_plate": lambda: _cut(_beside(_uncovered(), _frames()), 0.25, 0.0, 0.7),
     "layers": _stack,
     "see_through": _tiles,
     "frame_interpolation": _film,

@@ -98,10 +98,31 @@ inpainting.
 Without the file, connect *control_video* to *Create Video* and see what the model is given.
 """
 
+_PLATE_NOTE = f"""\
+## What the motion uncovers, painted once
+
+*Uncovered Area* gives a mask of all that the hair uncovers in the clip, and the picture without it. Any checkpoint \
+paints there **once**; the result is *clean_plate* of *Render*, and lies still behind every frame. Outside the mask it \
+is our plate to the bit (*ImageCompositeMasked*).
+
+**Model file:** `models/checkpoints/{_CHECKPOINT}` from \
+https://huggingface.co/Comfy-Org/stable_diffusion_2.1_repackaged (CreativeML Open RAIL++-M licence), or any other \
+checkpoint: one for inpainting with *denoise* 1, any other with 0.6 to 0.9, which begins with what is there.
+
+**Without prompts:** nodes that take *image* and *mask*, such as LaMa's, fit in place of the sampler.
+
+**Large pictures:** models paint best at their own size. Of a larger picture, give the model what is around the mask, \
+with a node pack that crops and stitches.
+
+**Layers** need none of this: what is behind their parts is drawn already.
+
+Without the file, disconnect *clean_plate* of *Render*: it paints without a model.
+"""
+
 _PROMPT = "anime illustration, a girl whose long hair moves in the wind, clean lines, flat colours, still camera"
 _AVOID = "blurry, photographic, deformed, flicker, camera movement, text"
 _FORM = {"width": 832, "height": 480}
-_SHOWN = {"WarpedVideo": 0, "LineControlVideo": 0, "FirstAndLastFrame": 1, "Tracks": 2}
+_SHOWN = {"WarpedVideo": 0, "LineControlVideo": 0, "FirstAndLastFrame": 1, "Tracks": 2, "UncoveredArea": 0}
 
 
 def wan_vace() -> tuple[Group, ...]:
@@ -187,6 +208,44 @@ def differential_diffusion() -> tuple[Group, ...]:
         _painted(
             "differential_diffusion", "given.frame_rate", led, _sampled(25, 7.5, "dpmpp_2m"), models=("file", "file")
         ),
+    )
+
+
+def inpaint_plate() -> tuple[Group, ...]:
+    """What the motion uncovers, painted once by an image model, behind the frames of the composite."""
+    area = ours("given", "UncoveredArea", image="example.image", motion="simulate.motion")
+    file = core("file", "CheckpointLoaderSimple", 0, "", {"ckpt_name": _CHECKPOINT})
+    texts = {"prompt": "anime illustration, background, clean lines, flat colours", "avoid": "person, hair, blurry"}
+    led = core(
+        "led",
+        "InpaintModelConditioning",
+        positive="prompt.CONDITIONING",
+        negative="avoid.CONDITIONING",
+        vae="file.VAE",
+        pixels="given.image",
+        mask="given.mask",
+    )
+    values = {"steps": 25, "cfg": 6.0, "sampler_name": "dpmpp_2m", "scheduler": "karras"}
+    kept = {"destination": "given.clean_plate", "source": "decoded.IMAGE", "mask": "given.mask"}
+    painted = (
+        core("prompt", "CLIPTextEncode", 140, "What is behind", {"text": texts["prompt"]}, clip="file.CLIP"),
+        core("avoid", "CLIPTextEncode", 120, "What is not", {"text": texts["avoid"]}, clip="file.CLIP"),
+        led,
+        core("sampled", "KSampler", 0, "", values, model="file.MODEL", latent_image="led.latent", **_led()),
+        core("decoded", "VAEDecode", samples="sampled.LATENT", vae="file.VAE"),
+        core("plate", "ImageCompositeMasked", **kept),
+    )
+    result = (
+        core("seen", "PreviewImage", 300, "The plate", images="plate.IMAGE"),
+        ours("frames", "Render", image="example.image", motion="simulate.motion", clean_plate="plate.IMAGE"),
+        core("video", "CreateVideo", 0, "", {"fps": 24.0}, images="frames.frames"),
+        core("save", "SaveVideo", 420, "", {"filename_prefix": "PhysAnimator/inpaint_plate"}, video="video.VIDEO"),
+    )
+    return (
+        *_moved(_PLATE_NOTE),
+        Group("3 · What is uncovered", TEAL, (Column(340, (area, file)),)),
+        Group("4 · Painted once", ORANGE, (Column(380, painted),)),
+        Group("5 · Frames over it", PURPLE, (Column(420, result),)),
     )
 
 
@@ -311,6 +370,7 @@ def without_video_model(api: dict[str, Any]) -> dict[str, Any]:
 
 
 VIDEO_MODEL_WORKFLOWS = {
+    "inpaint_plate": inpaint_plate,
     "wan_vace": wan_vace,
     "wan_lines": wan_lines,
     "wan_first_last_frame": wan_first_last_frame,

@@ -21,6 +21,7 @@ GUESSED = ("quickstart",)
 LENGTHS = {
     "seamless_loop": 36,
     "differential_diffusion": 13,
+    "inpaint_plate": 1,
     "wan_first_last_frame": 1,
     "wan_lines": 13,
     "wan_tracks": 7,

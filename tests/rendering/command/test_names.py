@@ -147,6 +147,7 @@ def test_the_file_of_the_part_that_cannot_move_is_named(capsys: Output) -> None:
     [
         *((name, ".mp4") for name in ("--output", "--save-sketch", "--save-flow", "--preview")),
         *(("--save-tracks", ".json"), ("--save-motion", ".json"), ("--save-svg", ".svg")),
+        *(("--save-uncovered", ".png"), ("--save-plate", ".png")),
     ],
 )
 def test_outputs_are_refused_by_the_options_name(option: str, suffix: str, capsys: Output) -> None:

@@ -1,0 +1,104 @@
+"""Where drawn art is flat: areas that change evenly, with lines and soft edges between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["FlatSurroundings", "flat_surroundings"]
+
+FloatImage = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+# A pixel is flat where its surroundings deviate by no more than this many times the picture's noise, plus one level.
+_DEVIATIONS = 2.0
+_LEVEL = 1 / 255
+# The noise is that of this share of the picture, the quietest.
+_QUIET = 0.1
+# Brushwork is even over a few pixels, but not over a square of this side [px].
+_WIDE = 9
+# A flat area has as many pixels as a square of this side, at least: texture has smaller ones by chance [px].
+_LEAST = 8
+# Lines and the soft edges beside them are no wider than twice this [px].
+_LINE = 5.0
+# How flat the surroundings are is a mean over about this distance [px].
+_AROUND = 12.0
+
+
+@dataclass(frozen=True, eq=False)
+class FlatSurroundings:
+    """What is flat around a hole.
+
+    Attributes:
+        share: how much of what is nearest is flat, 0..1, shape [h, w]; 0 in photographs and brushwork.
+        plain: the picture with lines beside flat areas painted over by the nearest of them, RGB, shape [h, w, 3].
+        noise: deviation of what is flat, in 0 to 1.
+    """
+
+    share: FloatImage
+    plain: FloatImage
+    noise: float
+
+    @property
+    def cleanness(self) -> float:
+        """1 without noise; 1/2 where it is a level of 255, and can be seen to be missing."""
+        return 1 / (1 + (self.noise / _LEVEL) ** 2)
+
+
+def flat_surroundings(picture: FloatImage, hole: Mask) -> FlatSurroundings:
+    """Find flat areas by the picture's own noise.
+
+    Args:
+        picture: RGB in 0 to 1, shape [h, w, 3].
+        hole: true where colours are unknown, shape [h, w].
+    """
+    known = cv2.erode((~hole).astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    if not known.any():
+        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, 0.0)
+    deviation = _deviation(picture, 3)
+    noise = float(np.quantile(deviation[known], _QUIET))
+    most = _DEVIATIONS * noise + _LEVEL
+    even = (_deviation(picture, _WIDE) <= most).astype(np.uint8)
+    flat = _large(known & (deviation <= most) & (cv2.dilate(even, np.ones((_WIDE, _WIDE), np.uint8)) > 0))
+    if not flat.any():
+        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, noise)
+    away, nearest = cv2.distanceTransformWithLabels(
+        (~flat).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    beside = ~hole & ~flat & (away <= _LINE)
+    colours = np.zeros((int(nearest.max()) + 1, 3), dtype=np.float32)
+    weight = cv2.blur(flat.astype(np.float32), (3, 3))[flat]
+    colours[nearest[flat]] = cv2.blur(picture * flat[..., None], (3, 3))[flat] / weight[:, None]
+    plain = picture.copy()
+    plain[beside] = colours[nearest[beside]]
+    share = _carried((flat | (beside & known)).astype(np.float32), known, hole)
+    return FlatSurroundings(share, picture + share[..., None] * (plain - picture), noise)
+
+
+def _deviation(picture: FloatImage, side: int) -> FloatImage:
+    """Of the colours in a square around each pixel, shape [h, w]."""
+    mean, squares = cv2.blur(picture, (side, side)), cv2.blur(picture * picture, (side, side))
+    return np.sqrt(np.maximum(squares - mean * mean, 0).max(axis=2))
+
+
+def _large(flat: Mask) -> Mask:
+    _, parts, stats, _ = cv2.connectedComponentsWithStats(flat.astype(np.uint8), connectivity=4)
+    enough = stats[:, cv2.CC_STAT_AREA] >= _LEAST**2
+    enough[0] = False
+    return np.asarray(enough[parts])
+
+
+def _carried(flat: FloatImage, known: Mask, hole: Mask) -> FloatImage:
+    """By how much what is flat outweighs what is not, carried on into what is not known, shape [h, w]."""
+    weight = cv2.GaussianBlur(known.astype(np.float32), (0, 0), _AROUND)
+    share = cv2.GaussianBlur(flat, (0, 0), _AROUND) / np.maximum(weight, np.float32(1e-6))
+    share, known = np.clip(2 * share - 1, 0, 1), ~hole
+    _, nearest = cv2.distanceTransformWithLabels(
+        (~known).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    values = np.zeros(int(nearest.max()) + 1, dtype=np.float32)
+    values[nearest[known]] = share[known]
+    return np.asarray(np.clip(cv2.GaussianBlur(values[nearest], (0, 0), _AROUND / 2), 0, 1), dtype=np.float32)
