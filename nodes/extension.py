@@ -26,6 +26,7 @@ from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
 from .search_words import findable
 from .sketch_nodes import ExtractSketch, WarpSketch
 from .stroke_nodes import EnergyStroke
+from .time_to_move_nodes import TimeToMove
 from .track_nodes import Tracks
 from .video_model_nodes import FirstAndLastFrame, LineControlVideo, WarpedVideo
 from .wind_nodes import Wind
@@ -63,6 +64,7 @@ NODES: list[type[io.ComfyNode]] = [
     WarpedVideo,
     LineControlVideo,
     FirstAndLastFrame,
+    TimeToMove,
     LoadLayers,
     LayersFromImageBatch,
     SeeThroughLayers,

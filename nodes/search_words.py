@@ -176,6 +176,7 @@ SEARCH_WORDS: Mapping[str, tuple[str, ...]] = {
     "PhysAnimator_SeeThroughLayers": (*_LAYERS, "see-through", "decompose", "anime parts"),
     "PhysAnimator_SegmentByPoints": (*_CUT, "points", "click", "sam", "grabcut", "rotoscope", "part", "physics"),
     "PhysAnimator_Simulate": (*_PHYSICS, *_SWAY, *_ANIMATE, "simulation", "solver", "hair", "cloth", "jelly"),
+    "PhysAnimator_TimeToMove": (*_WAN, "ttm", "time to move", "cut and drag", "dual clock", "motion transfer", "drag"),
     "PhysAnimator_Tracks": (*_WAN, "trajectory", "point tracks", "motion path", "ati", "wan-move"),
     "PhysAnimator_WarpSketch": (*_LINES, "warp", "deform", "move lines"),
     "PhysAnimator_WarpedVideo": (*_WAN, "vace", "inpaint holes", "outpaint", "warp"),

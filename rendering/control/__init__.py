@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
+from .clip_rules import AREAS, TIMINGS, Timing, suitable_length, suitable_size, timed, told_rules
 from .control_video import first_and_last, line_frames, warped_frames
+from .crude_animation import LATENT_CELL, LatentStep, time_to_move
 from .model_format import FRAME_STEP, SIZE_STEP, ModelFormat
 
 __all__ = [
+    "AREAS",
     "FRAME_STEP",
+    "LATENT_CELL",
     "SIZE_STEP",
+    "TIMINGS",
+    "LatentStep",
     "ModelFormat",
+    "Timing",
     "first_and_last",
     "line_frames",
+    "suitable_length",
+    "suitable_size",
+    "time_to_move",
+    "timed",
+    "told_rules",
     "warped_frames",
 ]
