@@ -10,7 +10,7 @@ from .body_nodes import Body, Material
 from .contact_nodes import Contact
 from .editable_nodes import SaveSpineOrGltf
 from .example_nodes import ExampleIllustration
-from .flow_nodes import OpticalFlow, PreviewFlow
+from .flow_nodes import OpticalFlow, PreviewFlow, SaveMotionVectors
 from .host import checked, watch_prompts
 from .layer_nodes import LayersFromImageBatch, LoadLayers, SaveLayers, SeeThroughLayers
 from .mask_nodes import MaskToMesh, SegmentByPoints
@@ -53,6 +53,7 @@ NODES: list[type[io.ComfyNode]] = [
     PreviewMotion,
     OpticalFlow,
     PreviewFlow,
+    SaveMotionVectors,
     Tracks,
     ExtractSketch,
     WarpSketch,

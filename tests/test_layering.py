@@ -52,7 +52,7 @@ MAY_IMPORT = {
     "rendering/composite": (
         "physics physics/mesh physics/motion rendering/artwork rendering/matting rendering/pictures rendering/plate"
     ),
-    "rendering/export": "physics physics/mesh rendering/artwork rendering/files rendering/pictures",
+    "rendering/export": "physics physics/mesh physics/motion rendering/artwork rendering/files rendering/pictures",
     "rendering/overlays": (
         "physics physics/forces physics/mesh physics/motion physics/rig physics/scene rendering/pictures"
     ),

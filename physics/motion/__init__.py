@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .export import motion_to_json, motion_to_svg
 from .flow import FlowField, FlowSequence, layer_order, without_covered
+from .frame_flow import FrameFlow, MotionVectors
 from .motion import LoopReport, Motion
 from .resampling import frame_at, sample_times
 from .still_motion import stillness
@@ -14,8 +15,10 @@ __all__ = [
     "Fit",
     "FlowField",
     "FlowSequence",
+    "FrameFlow",
     "LoopReport",
     "Motion",
+    "MotionVectors",
     "Tracks",
     "check_track_options",
     "frame_at",

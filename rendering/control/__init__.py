@@ -1,4 +1,4 @@
-"""Inputs for video models that follow a motion: warped frames with holes, moving lines, sizes and lengths."""
+"""Inputs for video models that follow a motion: warped frames with holes, moving lines, crude animations."""
 
 from __future__ import annotations
 

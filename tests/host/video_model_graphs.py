@@ -6,6 +6,7 @@ import copy
 from typing import Any
 
 from graphs import BLUE, GREEN, ORANGE, PURPLE, TEAL, Column, Group, Node, core, ours
+from time_to_move_graphs import time_to_move, time_to_move_core
 
 __all__ = ["VIDEO_MODEL_WORKFLOWS", "led_by", "without_video_model"]
 
@@ -101,7 +102,8 @@ Without the file, connect *control_video* to *Create Video* and see what the mod
 _PROMPT = "anime illustration, a girl whose long hair moves in the wind, clean lines, flat colours, still camera"
 _AVOID = "blurry, photographic, deformed, flicker, camera movement, text"
 _FORM = {"width": 832, "height": 480}
-_SHOWN = {"WarpedVideo": 0, "LineControlVideo": 0, "FirstAndLastFrame": 1, "Tracks": 2}
+_SHOWN = {"WarpedVideo": 0, "LineControlVideo": 0, "FirstAndLastFrame": 1, "Tracks": 2, "TimeToMove": 0}
+_LOADERS = ("UNETLoader", "CheckpointLoaderSimple", "WanVideoModelLoader")
 
 
 def wan_vace() -> tuple[Group, ...]:
@@ -188,6 +190,16 @@ def differential_diffusion() -> tuple[Group, ...]:
             "differential_diffusion", "given.frame_rate", led, _sampled(25, 7.5, "dpmpp_2m"), models=("file", "file")
         ),
     )
+
+
+def wan_time_to_move() -> tuple[Group, ...]:
+    """A crude animation that Wan repaints, with the nodes of ComfyUI-WanVideoWrapper."""
+    return time_to_move(_moved, _PROMPT, _AVOID)
+
+
+def wan_time_to_move_core() -> tuple[Group, ...]:
+    """The same with the host's own samplers."""
+    return time_to_move_core(_moved, _models, _PROMPT, _AVOID)
 
 
 def _moved(note: str) -> tuple[Group, ...]:
@@ -289,7 +301,7 @@ def _painted(
 
 def led_by(api: dict[str, Any]) -> str | None:
     """Key of the node of this pack that leads a video model of the host, None where there is none."""
-    if not any(node["class_type"] in ("UNETLoader", "CheckpointLoaderSimple") for node in api.values()):
+    if not any(node["class_type"] in _LOADERS for node in api.values()):
         return None
     (found,) = [key for key, node in api.items() if node["class_type"].removeprefix("PhysAnimator_") in _SHOWN]
     return found
@@ -315,5 +327,7 @@ VIDEO_MODEL_WORKFLOWS = {
     "wan_lines": wan_lines,
     "wan_first_last_frame": wan_first_last_frame,
     "wan_tracks": wan_tracks,
+    "wan_time_to_move": wan_time_to_move,
+    "wan_time_to_move_core": wan_time_to_move_core,
     "differential_diffusion": differential_diffusion,
 }
