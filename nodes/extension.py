@@ -16,6 +16,7 @@ from .layer_nodes import LayersFromImageBatch, LoadLayers, SaveLayers, SeeThroug
 from .mask_nodes import MaskToMesh, SegmentByPoints
 from .metric_nodes import Metrics
 from .motion_nodes import PreviewMotion, Simulate
+from .noise_nodes import MovingNoise
 from .paint_nodes import PaintMaterial
 from .preview import register_routes
 from .render_nodes import Interpolate, Render
@@ -66,6 +67,7 @@ NODES: list[type[io.ComfyNode]] = [
     LineControlVideo,
     FirstAndLastFrame,
     TimeToMove,
+    MovingNoise,
     LoadLayers,
     LayersFromImageBatch,
     SeeThroughLayers,

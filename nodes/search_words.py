@@ -96,6 +96,16 @@ SEARCH_WORDS: Mapping[str, tuple[str, ...]] = {
     ),
     "PhysAnimator_Material": (*_MATERIALS, *_PHYSICS, "stiffness", "damping", "young's modulus", "softness", "wiggle"),
     "PhysAnimator_Metrics": ("quality", "measure", "evaluate", "score", "flicker", "fid", "flow warp error"),
+    "PhysAnimator_MovingNoise": (
+        *_WAN,
+        "noise",
+        "warped noise",
+        "go with the flow",
+        "latent",
+        "ノイズ",
+        "噪声",
+        "노이즈",
+    ),
     "PhysAnimator_OpticalFlow": (
         "motion vectors",
         "flow",

@@ -58,7 +58,7 @@ MAY_IMPORT = {
     ),
     "rendering/sketch": "physics physics/mesh physics/motion rendering/composite rendering/pictures",
     "rendering/control": (
-        "physics physics/motion rendering/composite rendering/overlays rendering/pictures rendering/sketch"
+        "physics physics/mesh physics/motion rendering/composite rendering/overlays rendering/pictures rendering/sketch"
     ),
     "rendering/figures": (
         "physics physics/forces physics/material physics/mesh physics/motion physics/rig physics/scene "

@@ -6,6 +6,7 @@ from .clip_rules import AREAS, TIMINGS, Timing, suitable_length, suitable_size, 
 from .control_video import first_and_last, line_frames, warped_frames
 from .crude_animation import LATENT_CELL, LatentStep, time_to_move
 from .model_format import FRAME_STEP, SIZE_STEP, ModelFormat
+from .moving_noise import experimental_moving_noise
 
 __all__ = [
     "AREAS",
@@ -16,6 +17,7 @@ __all__ = [
     "LatentStep",
     "ModelFormat",
     "Timing",
+    "experimental_moving_noise",
     "first_and_last",
     "line_frames",
     "suitable_length",
