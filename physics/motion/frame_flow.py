@@ -81,7 +81,8 @@ class FrameFlow:
         inside = ids >= 0
         corners = self._triangles[ids[inside]]
         rows, columns = np.nonzero(inside)
-        weights = np.clip(barycentric(np.stack([columns, rows], axis=1) + 0.5, now[corners]), 0, 1)
+        centres = np.stack([columns, rows], axis=1).astype(np.float64) + 0.5
+        weights = np.clip(barycentric(centres, now[corners]), 0, 1)
         forward, backward = (
             _spread(moved[corners], weights, inside) for moved in (self._after(t) - now, self._before(t) - now)
         )

@@ -76,7 +76,7 @@ def _cells(motion: Motion, form: ModelFormat, rows: int, columns: int) -> Iterat
     for t in range(0, len(motion), FRAME_STEP):
         ids = without_covered(triangle_ids(motion.positions[t], triangles, whole), motion.bodies)
         seen = np.where(ids >= 0, owner[ids], -1)
-        moved = place + flows.flow(t).displacement
+        moved = place + flows.flow(t).displacement.astype(np.float64)
         column, row = np.floor(moved).astype(int).transpose(2, 0, 1)
         inside = flows.inside & (row >= 0) & (row < motion.height) & (column >= 0) & (column < motion.width)
         inside &= seen[row.clip(0, motion.height - 1), column.clip(0, motion.width - 1)] == flows.body

@@ -37,7 +37,7 @@ VECTOR_CHANNELS: tuple[VectorChannels, ...] = get_args(VectorChannels)
 
 _NAME = "vectors_{:04d}.exr"
 _PATTERN = re.compile(r"vectors_[0-9]{4,}\.exr", re.IGNORECASE)
-_UP = np.float32((1, -1))
+_UP = np.array([1, -1], dtype=np.float32)
 
 
 def exr_channels(vectors: MotionVectors, channels: VectorChannels) -> dict[str, NDArray[np.float32]]:
