@@ -126,8 +126,9 @@ MAY_IMPORT = {
     "nodes": (
         "nodes/host nodes/models nodes/preview physics physics/document physics/forces physics/material "
         "physics/mesh physics/motion physics/rig physics/scene physics/simulation rendering rendering/artwork "
-        "rendering/composite rendering/control rendering/inbetweens rendering/matting rendering/metrics "
-        "rendering/metrics/learned rendering/overlays rendering/pictures rendering/segmentation rendering/sketch"
+        "rendering/composite rendering/control rendering/export rendering/inbetweens rendering/matting "
+        "rendering/metrics rendering/metrics/learned rendering/overlays rendering/pictures rendering/segmentation "
+        "rendering/sketch"
     ),
     # the entry points
     "__init__": "nodes",
