@@ -10,12 +10,13 @@ from .body_nodes import Body, Material
 from .contact_nodes import Contact
 from .editable_nodes import SaveSpineOrGltf
 from .example_nodes import ExampleIllustration
-from .flow_nodes import OpticalFlow, PreviewFlow
+from .flow_nodes import OpticalFlow, PreviewFlow, SaveMotionVectors
 from .host import checked, watch_prompts
 from .layer_nodes import LayersFromImageBatch, LoadLayers, SaveLayers, SeeThroughLayers
 from .mask_nodes import MaskToMesh, SegmentByPoints
 from .metric_nodes import Metrics
 from .motion_nodes import PreviewMotion, Simulate
+from .noise_nodes import MovingNoise
 from .paint_nodes import PaintMaterial
 from .preview import register_routes
 from .render_nodes import Interpolate, Render
@@ -26,6 +27,7 @@ from .scene_nodes import AutomaticScene, Scene, SceneFromJSON
 from .search_words import findable
 from .sketch_nodes import ExtractSketch, WarpSketch
 from .stroke_nodes import EnergyStroke
+from .time_to_move_nodes import TimeToMove
 from .track_nodes import Tracks
 from .uncovered_nodes import UncoveredArea
 from .video_model_nodes import FirstAndLastFrame, LineControlVideo, WarpedVideo
@@ -53,6 +55,7 @@ NODES: list[type[io.ComfyNode]] = [
     PreviewMotion,
     OpticalFlow,
     PreviewFlow,
+    SaveMotionVectors,
     Tracks,
     ExtractSketch,
     WarpSketch,
@@ -65,6 +68,8 @@ NODES: list[type[io.ComfyNode]] = [
     LineControlVideo,
     FirstAndLastFrame,
     UncoveredArea,
+    TimeToMove,
+    MovingNoise,
     LoadLayers,
     LayersFromImageBatch,
     SeeThroughLayers,

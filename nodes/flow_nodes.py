@@ -1,4 +1,4 @@
-"""Optical flow of a motion, and a look at it."""
+"""Optical flow of a motion, a look at it, and motion vectors for compositing."""
 
 from __future__ import annotations
 
@@ -7,14 +7,24 @@ from typing import TYPE_CHECKING
 import numpy as np
 from comfy_api.latest import io
 
-from .host import announce_batch, host_progress, picture_batch, shown_with
+from ..rendering.export import VECTOR_CHANNELS, VectorChannels
+from .host import (
+    EXR,
+    announce_batch,
+    check_prefix,
+    free_place,
+    host_progress,
+    picture_batch,
+    refusal,
+    shown_with,
+)
 from .host.previews import animated
 from .host.wires import FlowOfMotion, FlowWire, MaskedMotion, MotionWire
 
 if TYPE_CHECKING:
     from ..physics.motion import FlowSequence
 
-__all__ = ["OpticalFlow", "PreviewFlow"]
+__all__ = ["OpticalFlow", "PreviewFlow", "SaveMotionVectors"]
 
 
 class OpticalFlow(io.ComfyNode):
@@ -72,6 +82,49 @@ class PreviewFlow(io.ComfyNode):
             batch.put(flow_to_color(field.displacement, field.inside, max_px=scale))
             report(number, len(shown))
         return io.NodeOutput(batch.tensor, ui=shown_with(animated(batch.tensor, flow.motion.frame_rate / every), told))
+
+
+class SaveMotionVectors(io.ComfyNode):
+    @classmethod
+    def define_schema(cls) -> io.Schema:
+        return io.Schema(
+            node_id="PhysAnimator_SaveMotionVectors",
+            display_name="Save Motion Vectors (EXR)",
+            category="PhysAnimator/motion",
+            description="Saves how each pixel goes on to the next frame and came from the one before, exactly: for"
+            " motion blur, retiming and tracking in compositing programs. Needs the package OpenEXR.",
+            is_output_node=True,
+            inputs=[
+                MotionWire.Input("motion", tooltip="From Simulate."),
+                io.String.Input(
+                    "filename_prefix",
+                    default="vectors/PhysAnimator",
+                    tooltip="Name of the folder in the output folder, with folders if you like; a number is added,"
+                    " nothing is overwritten.",
+                ),
+                io.Combo.Input(
+                    "channels",
+                    options=list(VECTOR_CHANNELS),
+                    default=VECTOR_CHANNELS[0],
+                    tooltip="nuke: forward.u, forward.v, backward.u, backward.v. blender: the pass Vector as Cycles"
+                    " writes it. Both in pixels a frame, x right and y up, 32 bits.",
+                ),
+            ],
+            outputs=[io.String.Output(display_name="path", tooltip="The folder of files, one for each frame.")],
+        )
+
+    @classmethod
+    def validate_inputs(cls, filename_prefix: str | None = None) -> bool | str:
+        return refusal(*([] if filename_prefix is None else [lambda: check_prefix(filename_prefix)]))
+
+    @classmethod
+    def execute(cls, motion: MaskedMotion, filename_prefix: str, channels: VectorChannels) -> io.NodeOutput:
+        from ..rendering.export import save_motion_vectors
+
+        moved = motion.motion
+        place = free_place(filename_prefix, EXR, moved.width, moved.height)
+        save_motion_vectors(moved, place.path, channels=channels, progress=host_progress())
+        return io.NodeOutput(place.path, ui={"text": [f"{place.name}: {len(moved)} files"]})
 
 
 def _largest(flow: FlowSequence, shown: range) -> float:

@@ -28,6 +28,7 @@ from .stages import StageProgress, stage_of
 if TYPE_CHECKING:
     from .artwork import Artwork
     from .composite import LayeredRenderer, PixelArtRenderer
+    from .export import VectorChannels
 
 __all__ = ["Animation", "timed"]
 
@@ -302,6 +303,23 @@ class Animation:
 
         check_text_output(path, ".json")
         write_text(path, dumps(self.scene, meshes=False))
+
+    def save_vectors(
+        self, folder: StrPath, *, channels: VectorChannels = "nuke", progress: StageProgress | None = None
+    ) -> None:
+        """Write motion vectors as EXR files, one a frame; see :func:`~.export.save_motion_vectors`.
+
+        Args:
+            folder: where to; it is made where it is missing.
+            channels: whose names and signs.
+            progress: called after each frame with the stage "vectors".
+
+        Raises:
+            InvalidInputError: nothing can be written there, or the package OpenEXR is missing.
+        """
+        from .export import save_motion_vectors
+
+        save_motion_vectors(self.shown_motion, folder, channels=channels, progress=stage_of("vectors", progress))
 
     def save_spine(
         self, folder: StrPath, *, tolerance: float = DEFAULT_TOLERANCE, progress: StageProgress | None = None

@@ -18,7 +18,7 @@ SHOWN = {
     "physics.rig": "RigPoint displacement vertices_of leaders_of",
     "physics.scene": "Body Scene automatic_scene advice Contact Collider Paint",
     "physics.document": "scene_to_dict scene_from_dict loads scene_over parse_points parse_polyline scene_schema",
-    "physics.motion": "Motion FlowSequence layer_order tracks motion_to_json stillness",
+    "physics.motion": "Motion FlowSequence FrameFlow layer_order tracks motion_to_json stillness",
     "physics.assembly": "plan",
     "physics.simulation": "simulate",
     "rendering.pictures": (
@@ -29,7 +29,7 @@ SHOWN = {
     "rendering.composite": "LayeredRenderer PixelArtRenderer background_of",
     "rendering.overlays": "draw_wireframe draw_strokes draw_tracks flow_to_color preview",
     "rendering.sketch": "extract_sketch warp_sketch warped_sketches LayeredSketch",
-    "rendering.control": "ModelFormat first_and_last",
+    "rendering.control": "ModelFormat first_and_last suitable_size time_to_move",
     "rendering.inbetweens": "interpolate keyframe_indices",
     "rendering.metrics": "measure_clip chamfer_distance",
     "rendering.segmentation": "segment segment_parts",

@@ -52,13 +52,13 @@ MAY_IMPORT = {
     "rendering/composite": (
         "physics physics/mesh physics/motion rendering/artwork rendering/matting rendering/pictures rendering/plate"
     ),
-    "rendering/export": "physics physics/mesh rendering/artwork rendering/files rendering/pictures",
+    "rendering/export": "physics physics/mesh physics/motion rendering/artwork rendering/files rendering/pictures",
     "rendering/overlays": (
         "physics physics/forces physics/mesh physics/motion physics/rig physics/scene rendering/pictures"
     ),
     "rendering/sketch": "physics physics/mesh physics/motion rendering/composite rendering/pictures",
     "rendering/control": (
-        "physics physics/motion rendering/composite rendering/overlays rendering/pictures rendering/sketch"
+        "physics physics/mesh physics/motion rendering/composite rendering/overlays rendering/pictures rendering/sketch"
     ),
     "rendering/figures": (
         "physics physics/forces physics/material physics/mesh physics/motion physics/rig physics/scene "
@@ -126,8 +126,8 @@ MAY_IMPORT = {
     "nodes": (
         "nodes/host nodes/models nodes/preview physics physics/document physics/forces physics/material "
         "physics/mesh physics/motion physics/rig physics/scene physics/simulation rendering rendering/artwork "
-        "rendering/composite rendering/control rendering/inbetweens rendering/matting rendering/metrics "
-        "rendering/metrics/learned rendering/neural rendering/overlays rendering/pictures "
+        "rendering/composite rendering/control rendering/export rendering/inbetweens rendering/matting "
+        "rendering/metrics rendering/metrics/learned rendering/neural rendering/overlays rendering/pictures "
         "rendering/segmentation rendering/sketch"
     ),
     # the entry points

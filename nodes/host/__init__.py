@@ -12,7 +12,7 @@ from .literals import PATH_FORMS, boxes_of, chosen, keys_of, numbers_of, refusal
 from .messages import all_told, hint_of_pixel_art, send_to_page, shown_with, tell_user
 from .progress import host_check, host_progress, watched_sampling
 from .running import is_wanted, not_made, sent_inputs, server, watch_prompts
-from .saving import FILE_TYPES, FRAMES, SPINE, Place, check_prefix, free_place
+from .saving import EXR, FILE_TYPES, FRAMES, SPINE, Place, check_prefix, free_place
 from .tensors import (
     FrameBatch,
     batch_of_masks,
@@ -28,6 +28,7 @@ from .tensors import (
 from .wording import parts_named, with_known_places
 
 __all__ = [
+    "EXR",
     "FILE_TYPES",
     "FRAMES",
     "PATH_FORMS",

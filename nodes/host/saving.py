@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ...physics.errors import InvalidInputError
 from ...rendering.pictures import FORMATS
 
-__all__ = ["FILE_TYPES", "FRAMES", "SPINE", "Place", "check_prefix", "free_place"]
+__all__ = ["EXR", "FILE_TYPES", "FRAMES", "SPINE", "Place", "check_prefix", "free_place"]
 
 FRAMES = "png frames"
 FILE_TYPES = (*(suffix.removeprefix(".") for suffix in FORMATS), FRAMES)
@@ -17,6 +17,8 @@ FILE_TYPES = (*(suffix.removeprefix(".") for suffix in FORMATS), FRAMES)
 
 SPINE = "spine"
 """The file type of skeletons, each in a folder of its own."""
+EXR = "exr frames"
+"""The file type of motion vectors, numbered files in a folder of their own."""
 
 
 _LONGEST_NAME = 200  # bytes; file systems take 255, a number and an ending among them
@@ -62,7 +64,7 @@ def free_place(filename_prefix: str, file_type: str, width: int, height: int) ->
 
     Args:
         filename_prefix: as the host's save nodes take it, with folders.
-        file_type: one of ``FILE_TYPES``, an ending without its dot, or ``SPINE``.
+        file_type: one of ``FILE_TYPES``, an ending without its dot, ``SPINE`` or ``EXR``.
         width: of the frames [px].
         height: of the frames [px].
 
@@ -80,7 +82,7 @@ def free_place(filename_prefix: str, file_type: str, width: int, height: int) ->
         raise InvalidInputError(
             f"filename_prefix must name a folder that can be made. Got: {filename_prefix[:60]!r}: {error.strerror}"
         ) from error
-    ending = "" if file_type in (FRAMES, SPINE) else f".{file_type}"
+    ending = "" if file_type in (EXR, FRAMES, SPINE) else f".{file_type}"
     while os.path.lexists(os.path.join(folder, f"{name}_{number:05}_{ending}")):
         number += 1
     file = f"{name}_{number:05}_{ending}"

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from .export import motion_to_json, motion_to_svg
-from .flow import FlowField, FlowSequence, layer_order, without_covered
+from .flow import FlowField, FlowSequence, all_triangles, layer_order, without_covered
+from .frame_flow import FrameFlow, MotionVectors
 from .motion import LoopReport, Motion
 from .resampling import frame_at, sample_times
 from .still_motion import stillness
@@ -14,9 +15,12 @@ __all__ = [
     "Fit",
     "FlowField",
     "FlowSequence",
+    "FrameFlow",
     "LoopReport",
     "Motion",
+    "MotionVectors",
     "Tracks",
+    "all_triangles",
     "check_track_options",
     "frame_at",
     "layer_order",

@@ -20,7 +20,7 @@ from ..mesh import PixelBox, barycentric, triangle_ids
 from ..scene import Body
 from .motion import Motion
 
-__all__ = ["FlowField", "FlowSequence", "layer_order", "without_covered"]
+__all__ = ["FlowField", "FlowSequence", "all_triangles", "layer_order", "without_covered"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +52,12 @@ def layer_order(bodies: Sequence[Body]) -> list[int]:
         [1, 0]
     """
     return sorted(range(len(bodies)), key=lambda number: bodies[number].layer)
+
+
+def all_triangles(bodies: Sequence[Body]) -> NDArray[np.int64]:
+    """Triangles of all bodies from back to front, indexing the vertices of their motion, shape [t, 3]."""
+    starts = np.cumsum([0] + [len(body.mesh.vertices) for body in bodies])
+    return np.concatenate([bodies[k].mesh.triangles + starts[k] for k in layer_order(bodies)])
 
 
 def without_covered(ids: NDArray[np.int32], bodies: Sequence[Body]) -> NDArray[np.int32]:
@@ -142,11 +148,8 @@ class FlowSequence:
 
     @cached_property
     def _triangles(self) -> NDArray[np.int64]:
-        """Triangles of all bodies from back to front, indexing the vertices of the motion, shape [t, 3]."""
-        starts = np.cumsum([0] + [len(body.mesh.vertices) for body in self.motion.bodies])
-        return np.concatenate(
-            [self.motion.bodies[k].mesh.triangles + starts[k] for k in layer_order(self.motion.bodies)]
-        )
+        """See :func:`all_triangles`."""
+        return all_triangles(self.motion.bodies)
 
     @cached_property
     def _ids(self) -> NDArray[np.int32]:

@@ -52,6 +52,7 @@ CLIPS = ("output", "save_sketch", "save_flow", "preview")
 OUTPUTS = (
     *CLIPS,
     "save_spine",
+    "save_vectors",
     "save_tracks",
     "save_motion",
     "save_svg",
@@ -91,7 +92,8 @@ def writing_order(options: argparse.Namespace) -> list[str]:
 def coming_folders(options: argparse.Namespace) -> frozenset[Path]:
     """The folders that a command fills: other results may be written into them, even where they are new."""
     clips = [path for _, path in named(options, CLIPS) if path and is_folder_name(path)]
-    return frozenset(map(place_of, clips + [path for _, path in named(options, (_SPINE,)) if path]))
+    others = [path for _, path in named(options, (_SPINE, "save_vectors")) if path]
+    return frozenset(map(place_of, clips + others))
 
 
 def check_apart(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) -> None:

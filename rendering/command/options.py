@@ -332,6 +332,18 @@ def _add_data(parser: argparse.ArgumentParser) -> None:
         help="write the picture without its moving parts, to paint it over where --save-uncovered is white and give it"
         " back to --plate",
     )
+    data.add_argument(
+        "--save-vectors",
+        metavar="OUT_FOLDER",
+        help="write motion vectors as EXR files, one a frame: how far each pixel goes to the next frame and came from"
+        " the one before, x right and y up; needs the package OpenEXR",
+    )
+    data.add_argument(
+        "--vector-channels",
+        choices=("nuke", "blender"),
+        help="of --save-vectors. nuke: forward.u, forward.v, backward.u, backward.v (default). blender: the pass Vector"
+        " as Cycles writes it",
+    )
     data.add_argument("--save-svg", metavar="OUT.svg", help="write the moving meshes as an SVG that plays in a browser")
 
 

@@ -89,6 +89,7 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     _check_texts(options)
     _check_pictures(options)
     _check_editable(options)
+    _check_vectors(options)
     if options.width is not None and not 16 <= options.width <= LARGEST_WIDTH:
         raise InvalidInputError(f"--width must be 16 to {LARGEST_WIDTH} px. Got: {options.width}")
     tracked = (options.track_points, options.track_static, options.track_frames)
@@ -212,6 +213,18 @@ def _check_editable(options: argparse.Namespace) -> None:
             check_spine_output(path, coming=coming_folders(options))
 
 
+def _check_vectors(options: argparse.Namespace) -> None:
+    """Refuse a place where motion vectors cannot be written, or a machine without what writes them."""
+    from ...physics.errors import require
+    from ..export import check_vectors_folder
+
+    needless = options.vector_channels is not None and not options.save_vectors
+    require("--vector-channels", options.vector_channels, not needless, "left out without --save-vectors")
+    for option, path in named(options, ("save_vectors",)):
+        with named_as(option, "output", "folder"):
+            check_vectors_folder(path, coming=coming_folders(options))
+
+
 def saving_of(options: argparse.Namespace, image: NDArray[Any]) -> Saving | None:
     """How the animation is written while it is simulated; None where it is written after that, by ``write_outputs``.
 
@@ -260,6 +273,8 @@ def write_outputs(
         else:
             animation.write(drawn[name](progress=progress), path, width=options.width)
     _save_data(options, animation, progress)
+    if options.save_vectors:
+        animation.save_vectors(options.save_vectors, channels=options.vector_channels or "nuke", progress=progress)
     if options.save_gltf:
         told = animation.save_gltf(options.save_gltf, **_tolerance(options), progress=progress)
         _tell(options, options.save_gltf, told)

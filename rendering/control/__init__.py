@@ -1,15 +1,29 @@
-"""Inputs for video models that follow a motion: warped frames with holes, moving lines, sizes and lengths."""
+"""Inputs for video models that follow a motion: warped frames with holes, moving lines, crude animations."""
 
 from __future__ import annotations
 
+from .clip_rules import AREAS, TIMINGS, Timing, suitable_length, suitable_size, timed, told_rules
 from .control_video import first_and_last, line_frames, warped_frames
+from .crude_animation import LATENT_CELL, LatentStep, time_to_move
 from .model_format import FRAME_STEP, SIZE_STEP, ModelFormat
+from .moving_noise import experimental_moving_noise
 
 __all__ = [
+    "AREAS",
     "FRAME_STEP",
+    "LATENT_CELL",
     "SIZE_STEP",
+    "TIMINGS",
+    "LatentStep",
     "ModelFormat",
+    "Timing",
+    "experimental_moving_noise",
     "first_and_last",
     "line_frames",
+    "suitable_length",
+    "suitable_size",
+    "time_to_move",
+    "timed",
+    "told_rules",
     "warped_frames",
 ]

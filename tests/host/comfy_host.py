@@ -23,8 +23,8 @@ __all__ = ["PACK", "ROOT", "Host"]
 
 ROOT = Path(__file__).resolve().parents[2]
 PACK = "PhysAnimator"
-STAND_IN = Path(__file__).with_name("see_through_stand_in")
-"""A pack with the nodes of ComfyUI-See-through, without its models."""
+STAND_INS = [Path(__file__).with_name(f"{name}_stand_in") for name in ("see_through", "wan_wrapper")]
+"""Packs with the nodes of ComfyUI-See-through and ComfyUI-WanVideoWrapper, without their models."""
 BROKEN_PACKS = {
     "fails_to_load": {"__init__.py": "raise RuntimeError('this pack cannot be loaded')\n"},
     "fails_when_asked": {
@@ -62,7 +62,8 @@ class Host:
         self.url = f"http://127.0.0.1:{self.port}"
         (folder / "custom_nodes").mkdir()
         (folder / "custom_nodes" / PACK).symlink_to(ROOT, target_is_directory=True)
-        (folder / "custom_nodes" / STAND_IN.name).symlink_to(STAND_IN, target_is_directory=True)
+        for stand_in in STAND_INS:
+            (folder / "custom_nodes" / stand_in.name).symlink_to(stand_in, target_is_directory=True)
         for pack, files in BROKEN_PACKS.items():
             for name, text in files.items():
                 (folder / "custom_nodes" / pack / name).parent.mkdir(parents=True, exist_ok=True)

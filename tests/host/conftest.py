@@ -42,6 +42,7 @@ _sibling("paper_graphs")
 _sibling("showcase_graphs")
 _sibling("small_graphs")
 _sibling("layered_files")
+_sibling("time_to_move_graphs")
 _sibling("video_model_graphs")
 
 

@@ -27,7 +27,7 @@ from physanimator.physics.motion import tracks  # noqa: E402
 from physanimator.physics.scene import Contact  # noqa: E402
 from physanimator.rendering.animation import Animation  # noqa: E402
 from physanimator.rendering.artwork import Artwork, load_artwork  # noqa: E402
-from physanimator.rendering.control import ModelFormat, line_frames, warped_frames  # noqa: E402
+from physanimator.rendering.control import ModelFormat, line_frames, time_to_move, warped_frames  # noqa: E402
 from physanimator.rendering.neural.uncovered_area import uncovered_area  # noqa: E402
 from physanimator.rendering.options import AutomaticWind, Timing, Touching  # noqa: E402
 from physanimator.rendering.overlays import draw_tracks, preview  # noqa: E402
@@ -241,6 +241,15 @@ def _loop() -> Clip:
     return shown
 
 
+def _repainted() -> Clip:
+    """The crude animation with its mask in colour, and what comes of it."""
+    example, form = _example(), ModelFormat(frames=4 * COUNT + 1, width=640, height=352)
+    steps = time_to_move(example.image, [_mask(part) for part in PARTS], example.motion, form)
+    tint = np.float32((1.0, 0.25, 0.2))
+    tinted = [step.frames[-1] + 0.5 * step.mask[..., None] * (tint - step.frames[-1]) for step in steps]
+    return _beside([_sized(picture) for picture in tinted[:COUNT]], _frames(), same=True)
+
+
 def _ends() -> Clip:
     """First frame, what is between, last frame."""
     first, last = [_frames()[0]] * COUNT, [_frames()[COUNT // 2]] * COUNT
@@ -359,6 +368,8 @@ THUMBNAILS: dict[str, Callable[[], Clip]] = {
     "wan_tracks": _tracks,
     "differential_diffusion": lambda: _cut(_beside(_holes()[0], _holes()[1]), 0.25, 0.0, 0.7),
     "wan_lines": _lines,
+    "wan_time_to_move": _repainted,
+    "wan_time_to_move_core": _repainted,
     "wan_first_last_frame": _ends,
     "physanimator_paper": lambda: _beside(_sketches(), _frames()),
     "paper_strict": lambda: _beside(_over(wireframe=True), _every(_example().flows()), _sketches(), same=True),

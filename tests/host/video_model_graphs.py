@@ -6,6 +6,7 @@ import copy
 from typing import Any
 
 from graphs import BLUE, GREEN, ORANGE, PURPLE, TEAL, Column, Group, Node, core, ours
+from time_to_move_graphs import time_to_move, time_to_move_core
 
 __all__ = ["VIDEO_MODEL_WORKFLOWS", "led_by", "without_video_model"]
 
@@ -122,7 +123,15 @@ Without the file, disconnect *clean_plate* of *Render*: it paints without a mode
 _PROMPT = "anime illustration, a girl whose long hair moves in the wind, clean lines, flat colours, still camera"
 _AVOID = "blurry, photographic, deformed, flicker, camera movement, text"
 _FORM = {"width": 832, "height": 480}
-_SHOWN = {"WarpedVideo": 0, "LineControlVideo": 0, "FirstAndLastFrame": 1, "Tracks": 2, "UncoveredArea": 0}
+_SHOWN = {
+    "WarpedVideo": 0,
+    "LineControlVideo": 0,
+    "FirstAndLastFrame": 1,
+    "Tracks": 2,
+    "UncoveredArea": 0,
+    "TimeToMove": 0,
+}
+_LOADERS = ("UNETLoader", "CheckpointLoaderSimple", "WanVideoModelLoader")
 
 
 def wan_vace() -> tuple[Group, ...]:
@@ -249,6 +258,16 @@ def inpaint_plate() -> tuple[Group, ...]:
     )
 
 
+def wan_time_to_move() -> tuple[Group, ...]:
+    """A crude animation that Wan repaints, with the nodes of ComfyUI-WanVideoWrapper."""
+    return time_to_move(_moved, _PROMPT, _AVOID)
+
+
+def wan_time_to_move_core() -> tuple[Group, ...]:
+    """The same with the host's own samplers."""
+    return time_to_move_core(_moved, _models, _PROMPT, _AVOID)
+
+
 def _moved(note: str) -> tuple[Group, ...]:
     """The example's hair in the automatic wind: five seconds."""
     body = {"preset": "hair", "attach": "left"}
@@ -348,7 +367,7 @@ def _painted(
 
 def led_by(api: dict[str, Any]) -> str | None:
     """Key of the node of this pack that leads a video model of the host, None where there is none."""
-    if not any(node["class_type"] in ("UNETLoader", "CheckpointLoaderSimple") for node in api.values()):
+    if not any(node["class_type"] in _LOADERS for node in api.values()):
         return None
     (found,) = [key for key, node in api.items() if node["class_type"].removeprefix("PhysAnimator_") in _SHOWN]
     return found
@@ -375,5 +394,7 @@ VIDEO_MODEL_WORKFLOWS = {
     "wan_lines": wan_lines,
     "wan_first_last_frame": wan_first_last_frame,
     "wan_tracks": wan_tracks,
+    "wan_time_to_move": wan_time_to_move,
+    "wan_time_to_move_core": wan_time_to_move_core,
     "differential_diffusion": differential_diffusion,
 }

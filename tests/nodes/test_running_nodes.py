@@ -14,7 +14,8 @@ from PIL import Image
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
 API = (Path(__file__).resolve().parents[2] / "workflows" / "api").glob("*.json")
 IN_WORKFLOWS = {node["class_type"] for path in API for node in json.loads(path.read_text(encoding="utf-8")).values()}
-RUN_HERE = {"FrameAsLayers", "LayersFromImageBatch", "SaveAnimation", "SaveLayers", "SaveSpineOrGltf"}
+RUN_HERE = {"FrameAsLayers", "LayersFromImageBatch", "SaveAnimation", "SaveLayers", "SaveSpineOrGltf",
+            "SaveMotionVectors", "MovingNoise"}  # fmt: skip
 """Nodes that stand in no published workflow, all of which are run in test_running_workflows.py."""
 FILE_TYPES = SCHEMAS["PhysAnimator_SaveAnimation"]["input"]["required"]["file_type"][1]["options"]
 
@@ -102,6 +103,35 @@ def test_a_motion_is_saved_for_spine_and_gltf(standin: Any) -> None:
         wrong = moving_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type="glb", **(given | {name: value}))}
         errors, _ = standin.post(wrong)
         assert f"{name} must be" in errors["saved"][0]["details"]
+
+
+def test_moving_noise_is_a_latent_of_a_video(standin: Any) -> None:
+    form = {"frames": 9, "width": 160, "height": 96, "fit": "crop"}
+    prompt = moving_bar(3)
+    prompt |= {
+        "noise": ours("MovingNoise", motion=["motion", 0], channels=4, seed=3, **form),
+        "shown": core("PreviewAny", source=["noise", 0]),
+    }
+    _, run = standin.post(prompt)
+    assert [(done, total) for node, done, total in standin.progress if node == "noise"][-1] == (3, 3)
+    latent = run.make("noise")[1].outputs[0][0]["samples"]
+    assert latent.shape == (1, 4, 3, 12, 20)
+    assert abs(float(latent.var()) - 1) < 0.2
+
+
+def test_motion_vectors_are_saved_in_a_folder_of_their_own(standin: Any) -> None:
+    pytest.importorskip("OpenEXR")
+    prompt = moving_bar(3) | {"saved": ours("SaveMotionVectors", motion=["motion", 0], channels="blender")}
+    for number in (1, 2):
+        prompt["saved"]["inputs"]["filename_prefix"] = "film/bar"
+        (told,) = standin.run(prompt)["saved"]["text"]
+        assert told == f"bar_{number:05}_: 3 files"
+        folder = standin.folder / "output" / "film" / f"bar_{number:05}_"
+        assert len(list(folder.glob("vectors_*.exr"))) == 3
+        prompt["scene"]["inputs"]["wind_strength"] = 1.5
+    prompt["saved"]["inputs"]["filename_prefix"] = "../out"
+    with pytest.raises(Exception, match="filename_prefix must be a name in the output folder"):
+        standin.run(prompt)
 
 
 @pytest.mark.parametrize(("node", "file_type"), [("SaveAnimation", "mov"), ("SaveSpineOrGltf", "spine")])

@@ -24,6 +24,8 @@ LENGTHS = {
     "inpaint_plate": 1,
     "wan_first_last_frame": 1,
     "wan_lines": 13,
+    "wan_time_to_move": 13,
+    "wan_time_to_move_core": 13,
     "wan_tracks": 7,
     "wan_vace": 13,
 }
@@ -31,6 +33,8 @@ SIZES = {
     "differential_diffusion": (352, 640),
     "wan_first_last_frame": (480, 832),
     "wan_lines": (480, 832),
+    "wan_time_to_move": (464, 832),
+    "wan_time_to_move_core": (464, 832),
     "wan_tracks": (370, 640),
     "wan_vace": (480, 832),
 }

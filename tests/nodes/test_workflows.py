@@ -214,6 +214,37 @@ def test_the_workflow_for_see_through_lacks_nothing_but_that_pack() -> None:
         assert told in note
 
 
+@pytest.mark.parametrize("name", ["wan_time_to_move", "wan_time_to_move_core"])
+def test_time_to_move_has_the_published_steps_and_tells_what_it_needs(name: str) -> None:
+    api = api_of(name)
+    kinds = {key: node["class_type"] for key, node in api.items()}
+    (given,) = [key for key, kind in kinds.items() if kind == "PhysAnimator_TimeToMove"]
+    outputs = SCHEMAS["PhysAnimator_TimeToMove"]["output_name"]
+    if name.endswith("core"):
+        samplers = [node["inputs"] for node in api.values() if node["class_type"] == "KSamplerAdvanced"]
+        assert [(each["start_at_step"], each["end_at_step"]) for each in samplers] == [(3, 7), (7, 18), (18, 10_000)]
+        assert [each["add_noise"] for each in samplers] == ["enable", "disable", "disable"]
+        assert {each["steps"] for each in samplers} == {50}
+        assert {each["sampler_name"] for each in samplers} == {"euler"}
+        held = api[samplers[0]["latent_image"][0]]["inputs"]
+        assert held["mask"] == [given, outputs.index("free_latents")]
+        assert kinds[api[samplers[1]["latent_image"][0]]["inputs"]["mask"][0]] == "SolidMask"
+        needed = ("wan2.2_i2v_high_noise_14B_fp8_scaled", "No node pack")
+    else:
+        (led,) = [node["inputs"] for node in api.values() if node["class_type"] == "WanVideoAddTTMLatents"]
+        assert (led["start_step"], led["end_step"]) == (3, 7)
+        assert led["mask"] == [given, outputs.index("mask")]
+        assert api[led["reference_latents"][0]]["inputs"]["image"] == [given, outputs.index("crude_animation")]
+        start = api[led["embeds"][0]]["inputs"]
+        assert start["start_image"] == [given, outputs.index("first_frame")]
+        sizes = [start[side] for side in ("width", "height", "num_frames")]
+        assert sizes == [[given, outputs.index(side)] for side in ("width", "height", "length")]
+        needed = ("Wan2_2-I2V-A14B-HIGH_fp8", "ComfyUI-WanVideoWrapper")
+    (note,) = [node["widgets_values"][0] for node in ui_of(name)["nodes"] if node["type"] == "MarkdownNote"]
+    for told in (*needed, "Apache-2.0", "all countries", "14 GB", "not measured by us", "**3** to **7**", "2 and 5"):
+        assert told in note
+
+
 def test_the_workflow_for_layers_runs_at_once() -> None:
     api = api_of("layers")
     (load,) = [node for node in api.values() if node["class_type"] == "PhysAnimator_LoadLayers"]

@@ -30,6 +30,7 @@ def _sibling(name: str) -> ModuleType:
 
 
 graphs = _sibling("graphs")
+_sibling("time_to_move_graphs")
 video_model_graphs = _sibling("video_model_graphs")
 DESCRIBED: dict[str, Any] = {
     **graphs.WORKFLOWS,
