@@ -37,18 +37,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _status(arguments: Sequence[str] | None) -> int:
     """Run a command, and say what went wrong."""
-    from .commands import command_parser
-    from .failures import failure_of
+    from ..files import hear_signals
     from .messages import warn
-    from .names import named_by_options
 
-    options = command_parser().parse_args(arguments)
     try:
+        from .commands import command_parser
+        from .names import named_by_options
+
+        options = command_parser().parse_args(arguments)
         with named_by_options(options):
             options.run(options)
     except BrokenPipeError:
         return NOBODY_READS
     except Exception as error:
+        hear_signals()  # Ctrl+C while an extension module is loading arrives as that module's ImportError
+        from .failures import failure_of
+
         failure = failure_of(error)
         if failure is None:
             raise
