@@ -37,14 +37,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _status(arguments: Sequence[str] | None) -> int:
     """Run a command, and say what went wrong."""
-    from ...physics.threads import chosen_threads, keep_to_threads
-    from .commands import command_parser
-    from .failures import failure_of
+    from ..files import hear_signals
     from .messages import warn
-    from .names import named_by_options
 
-    options = command_parser().parse_args(arguments)
     try:
+        from ...physics.threads import chosen_threads, keep_to_threads
+        from .commands import command_parser
+        from .names import named_by_options
+
+        options = command_parser().parse_args(arguments)
         with named_by_options(options):
             if threads := chosen_threads():
                 keep_to_threads(threads)
@@ -52,6 +53,9 @@ def _status(arguments: Sequence[str] | None) -> int:
     except BrokenPipeError:
         return NOBODY_READS
     except Exception as error:
+        hear_signals()  # Ctrl+C while an extension module is loading arrives as that module's ImportError
+        from .failures import failure_of
+
         failure = failure_of(error)
         if failure is None:
             raise

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..pictures import nearest_pixels
 from .mask_edges import CROSS, FAINT, grown
 
-__all__ = ["NOISE", "MaskEdge", "edge_of", "from_edge", "in_blocks", "is_noisy", "up_to_white"]
+__all__ = ["NOISE", "MaskEdge", "edge_of", "from_edge", "in_blocks", "is_noisy", "step_of", "up_to_white"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -26,6 +26,11 @@ _WHITE = 1 - 0.5 / 255
 _NOISY = 0.1
 # Share of soft pixels in uniform blocks from which on a mask has been enlarged without smoothing.
 _BLOCKS = 0.25
+# An edge in steps has this many corners for each of its pixels, and hardly any nearer to each other than a step.
+_LEAST_CORNERS = 12
+_STEPS = 0.01
+_CROWDED = 0.1
+_HIGHEST = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +87,26 @@ def in_blocks(mask: FloatImage) -> bool:
     alike = soft.all(axis=0) & (np.ptp(corners, axis=0) < 1e-3)
     count = int(soft[0].sum())
     return count > 0 and 4 * int(alike.sum()) > _BLOCKS * count
+
+
+def step_of(mask: FloatImage) -> int:
+    """The height of the steps that the edge goes in, as enlarging without smoothing leaves them [px].
+
+    A drawn edge that is neither upright nor level has steps of one pixel somewhere, whose corners are neighbours.
+
+    Returns:
+        1 for such an edge, and for one that hardly has corners.
+    """
+    inside = (mask > _HALF).astype(np.uint8)
+    corners = (inside[:-1, :-1] + inside[1:, :-1] + inside[:-1, 1:] + inside[1:, 1:]) & 1
+    count, line = int(corners.sum()), int(cv2.morphologyEx(inside, cv2.MORPH_GRADIENT, CROSS).sum())
+    if count < max(_LEAST_CORNERS, _STEPS * line):
+        return 1
+    for step in range(1, _HIGHEST + 1):
+        near = cv2.boxFilter(corners, cv2.CV_32F, (2 * step + 1,) * 2, normalize=False)
+        if int(((corners > 0) & (near > 1)).sum()) > _CROWDED * count:
+            return step
+    return 1
 
 
 def from_edge(shape: Mask) -> FloatImage:

@@ -60,7 +60,9 @@ _MARGIN = 40
 _SPECK = 20
 
 
-def searched(image: FloatImage, mask: FloatImage, edge: MaskEdge, *, reach: float) -> tuple[Mask, Mask]:
+def searched(
+    image: FloatImage, mask: FloatImage, edge: MaskEdge, *, reach: float, exact: bool = True
+) -> tuple[Mask, Mask]:
     """The shape with its edge moved where the picture has a stronger one, and where that is.
 
     Args:
@@ -68,6 +70,7 @@ def searched(image: FloatImage, mask: FloatImage, edge: MaskEdge, *, reach: floa
         mask: soft mask in 0 to 1, shape [h, w].
         edge: the mask's.
         reach: how far the edge may lie from the mask's, where that is hard [px].
+        exact: the mask's edge may be right to the pixel; otherwise any edge of the picture is better.
     """
     limit = np.asarray(reach + _HALF * np.minimum(edge.width, WIDEST), dtype=np.float32)
     shape, likely = found_shape(image, mask, limit)
@@ -75,7 +78,7 @@ def searched(image: FloatImage, mask: FloatImage, edge: MaskEdge, *, reach: floa
     agreed = mean_near(np.where(shape, likely, 1 - likely), changed, sigma=3.0)[0]
     strength = edge_strength(image, shape)
     given = edge_strength(image, edge.inside)
-    better = strength > np.maximum(_STRONGER * given, LEAST_STEP)
+    better = strength > (np.maximum(_STRONGER * given, LEAST_STEP) if exact else LEAST_STEP)
     better |= _closed(shape & ~edge.inside, shape, given)
     moved = changed & better & (agreed > _HALF)
     # Changes as thin as one pixel are left to the matting.

@@ -15,7 +15,7 @@ from ...physics.interruption import checkpoint
 from ..pictures import nearest_pixels, window_around
 from .kept_masks import KeptMasks
 from .mask_edges import CROSS, FAINT, SQUARE, edge_strength, grown
-from .mask_forms import NOISE, MaskEdge, edge_of, from_edge, in_blocks, is_noisy, up_to_white
+from .mask_forms import NOISE, MaskEdge, edge_of, from_edge, in_blocks, is_noisy, step_of, up_to_white
 from .moved_edges import (
     LEAST_STEP,
     NEARER,
@@ -42,6 +42,8 @@ _BLURRED = 3.0
 _SIGMA = 0.3
 # Where less of an edge would move, the mask has been made with care and is taken at its word.
 _MOVED = 0.3
+# Steps from this height on miss the part's edge by more than the matting mends [px].
+_COARSE = 3
 _MARGIN = 40
 # A soft piece this many times as long as it is wide is no accident.
 _LONG = 3
@@ -147,8 +149,9 @@ def _long(wanted: Mask, shape: Mask, edge: MaskEdge) -> Mask:
 
 def _shape(image: FloatImage, mask: FloatImage, edge: MaskEdge, blurred: Mask) -> tuple[Mask, bool]:
     """Where the part is, and whether its hard edges as well are elsewhere than those of the mask."""
-    shape, moved = searched(image, mask, edge, reach=REACH)
-    displaced = share_moved(moved, edge.line & ~blurred) > _MOVED
+    coarse = step_of(mask) >= _COARSE
+    shape, moved = searched(image, mask, edge, reach=REACH, exact=not coarse)
+    displaced = coarse or share_moved(moved, edge.line & ~blurred) > _MOVED
     if not displaced:
         shape = np.where(moved & blurred, shape, edge.inside)
     # A mask that has only been blurred is right in the mean.

@@ -14,6 +14,7 @@ from ...physics.errors import InvalidInputError
 from .mask_colours import Colour, colours_of, flat_levels, named, share_of_colour
 from .picture_modes import GREY_MODES, grey_numbers, has_transparency, in_srgb, with_opacity
 from .pixels import as_float
+from .posterised import is_posterised
 
 __all__ = ["EMPTY", "MaskFile", "judged"]
 
@@ -115,7 +116,7 @@ def _by_opacity(rgb: NDArray[np.uint8], opacity: NDArray[np.uint8], called: str)
 
 
 def _by_grey(plane: FloatPlane, called: str) -> MaskFile:
-    """White, or the only grey that there is; several flat greys are labels."""
+    """White, or the only grey that there is; several flat greys are labels, unless they are steps of a soft mask."""
     highest = float(plane.max())
     if highest <= 0:
         raise InvalidInputError(f"{called} must be {EMPTY}: it is black all over")
@@ -125,6 +126,8 @@ def _by_grey(plane: FloatPlane, called: str) -> MaskFile:
     greys = [level for level, _ in levels if level > (_DARK if highest >= 0.5 else _DARK / 3)]
     if len([level for level in greys if level >= _BRIGHT]) > 1:  # JPEG's noise in white
         greys = [level for level in greys if level < _BRIGHT] + [1.0]
+    if len(greys) > 1 and is_posterised(plane / np.float32(unit)):
+        greys = [highest / unit]
     white = highest >= _BRIGHT and _has_white(plane, levels)
     if white and len([level for level in greys if level < _BRIGHT]) == 1:
         return _with_one_grey(plane, next((level, share) for level, share in levels if level == greys[0]), called)
@@ -181,7 +184,7 @@ def _by_colour(rgb: NDArray[np.uint8], called: str) -> MaskFile:
     part, rest = pair
     plane = share_of_colour(rgb, part, rest)
     between = [level for level, _ in flat_levels(plane) if _DARK < level < _BRIGHT]
-    if between:
+    if between and not is_posterised(plane):
         raise InvalidInputError(
             f"{called} must show one part; of labels, save one as a mask of its own. Got: {len(between) + 1} shades of"
             f" {part.name}"

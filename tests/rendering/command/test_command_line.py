@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import errno
 import json
+import os
+import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -279,6 +282,22 @@ def test_bad_output_is_found_before_any_work(folder: Path, capsys: Output, monke
     assert status("animate", "girl.png", "--mask", "hair.png", "--output", "o.avi") == 2
     assert status("demo", "--output", "o.avi") == 2
     assert status("animate", "girl.png", "--mask", "hair.png", "--scene", "broken.json", "--output", "o.mp4") == 2
+
+
+@pytest.mark.skipif(os.name == "nt", reason="os.kill ends the process on Windows")
+def test_ctrl_c_that_a_library_turns_into_an_error_is_status_130(
+    monkeypatch: pytest.MonkeyPatch, capsys: Output
+) -> None:
+    def loading(*_: object, **__: object) -> None:
+        try:
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(5)
+        except KeyboardInterrupt as interrupt:
+            raise ImportError("initialization failed") from interrupt
+
+    monkeypatch.setattr("physanimator.rendering.command.commands.command_parser", loading)
+    assert status() == 130
+    assert capsys.readouterr().err.splitlines() == ["physanimator: interrupted"]
 
 
 @pytest.mark.parametrize("stage", ["simulate", "render"])

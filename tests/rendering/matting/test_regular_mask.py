@@ -12,6 +12,7 @@ from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
 from physanimator.rendering.composite import LayeredRenderer
 from physanimator.rendering.matting import fitting_plate, mixed_rim, regular_mask, soft_alpha, with_outline
+from physanimator.rendering.matting.mask_forms import step_of
 from physanimator.rendering.plate import fill_hole
 
 WIDTH, HEIGHT, FINE = 220, 180, 4
@@ -230,6 +231,35 @@ def test_a_hole_made_wider_than_it_is_closes() -> None:
     around = (np.hypot(X - 104, Y - 92) < 8) & (np.hypot(X - 104, Y - 92) > 3)
     assert mask[around].min() == 0
     assert regular_mask(as_floats(picture), mask)[around].min() == 1
+
+
+@pytest.mark.parametrize("slant", [20, 40, 60, 90])
+def test_no_outline_stays_outside_of_the_steps_of_an_enlarged_mask(slant: int) -> None:
+    corners = FINE * np.array([[90, 20], [150, 20], [150, 150], [90 - slant, 150]])
+    large = cv2.fillPoly(np.zeros((HEIGHT * FINE, WIDTH * FINE), np.float32), [corners], 1)
+    whole, inner = (
+        cv2.resize(each, (WIDTH, HEIGHT), interpolation=cv2.INTER_AREA)[..., None]
+        for each in (large, cv2.erode(large, np.ones((9, 9))))
+    )
+    # The dress differs more from the sky than its outline does.
+    sky = np.float32([0.45, 0.52, 0.65]) + np.random.default_rng(0).normal(0, 0.02, (HEIGHT, WIDTH, 3))
+    picture = (1 - whole) * sky + (whole - inner) * np.float32([0.4, 0.15, 0.3]) + inner * np.float32([0.74, 0.95, 0.6])
+    alpha = np.ascontiguousarray(whole[..., 0])
+    mask = hard(scaled(alpha, 5, cv2.INTER_AREA, cv2.INTER_NEAREST))
+    far = np.abs(mask - alpha) > 0.5
+    assert (far & (np.abs(regular_mask(picture.astype(np.float32), mask) - alpha) > 0.9)).sum() < 0.25 * far.sum()
+
+
+@pytest.mark.parametrize("angle", [0, 10, 45])
+def test_only_an_enlarged_mask_goes_in_steps(angle: int) -> None:
+    alpha = shape()
+    turned = cv2.warpAffine(alpha, cv2.getRotationMatrix2D((WIDTH / 2, HEIGHT / 2), angle, 1), alpha.shape[::-1])
+    assert step_of(turned) == 1
+    for step in (2, 3, 5):
+        assert step_of(scaled(turned, step, cv2.INTER_NEAREST, cv2.INTER_NEAREST)) == step
+    square = np.zeros((90, 90), np.float32)
+    square[20:60, 20:50] = 1
+    assert step_of(square) == 1
 
 
 def test_pure_black_is_not_left_behind_by_the_last_digit_of_a_mask() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 from physanimator.physics.errors import InvalidInputError
@@ -144,6 +145,25 @@ def test_several_parts_are_refused_with_what_was_seen(
     with pytest.raises(InvalidInputError, match=message) as caught:
         load_mask(path, width=WIDTH, height=HEIGHT)
     assert str(path) in str(caught.value)
+
+
+@pytest.mark.parametrize("greys", [4, 6, 8, 16, 32])
+@pytest.mark.parametrize("colour", ["white", "red"])
+@pytest.mark.parametrize("highest", [1, 0.6])
+def test_a_soft_mask_of_few_greys_is_one_part(tmp_path: Path, greys: int, colour: str, highest: float) -> None:
+    soft = cv2.GaussianBlur(disc().astype(np.float32), (0, 0), 6)
+    soft = highest * np.rint(soft * (greys - 1)) / (greys - 1)
+    picture = np.rint(soft[..., None] * np.array(COLOURS[colour])).astype(np.uint8)
+    found = read(tmp_path / "a.png", picture)
+    assert np.abs(found / found.max() - soft / highest).max() < 0.04
+
+
+def test_steps_that_lie_in_each_other_by_chance_are_labels(tmp_path: Path) -> None:
+    picture = np.zeros((HEIGHT, WIDTH), np.uint8)
+    for side, grey in ((0.9, 85), (0.5, 170), (0.2, 255)):
+        picture[10 : int(HEIGHT * side), 10 : int(WIDTH * side)] = grey
+    with pytest.raises(InvalidInputError, match=r"[23] grey levels"):
+        read(tmp_path / "a.png", picture)
 
 
 def test_a_photograph_is_no_mask(tmp_path: Path) -> None:
