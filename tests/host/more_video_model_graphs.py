@@ -77,8 +77,8 @@ middle and last frames, at multiples of 8, in 8 steps without guidance.
 
 **Length and size:** 4 k + 1 frames at 16 a second, sides multiples of 16.
 
-**Licence:** Apache-2.0, no territory excluded. **Memory:** two models of about 14 GB in fp8, one at a time in use; the host \
-keeps in main memory what a GPU cannot hold.
+**Licence:** Apache-2.0, no territory excluded. **Memory:** two models of about 14 GB in fp8, one at a time in \
+use; the host keeps in main memory what a GPU cannot hold.
 
 {_UNTRIED} {_SEE.format("control_video")}
 """
@@ -99,8 +99,8 @@ of the loop.
 https://huggingface.co/Comfy-Org/Wan_2.2_ComfyUI_Repackaged/tree/main/split_files
 {COMMON_FILES}
 
-**Licence:** Apache-2.0, no territory excluded. **Memory:** two models of about 14 GB in fp8, one at a time in use; the host \
-keeps in main memory what a GPU cannot hold.
+**Licence:** Apache-2.0, no territory excluded. **Memory:** two models of about 14 GB in fp8, one at a time in \
+use; the host keeps in main memory what a GPU cannot hold.
 
 {_UNTRIED} {_SEE.format("end_image")}
 """
