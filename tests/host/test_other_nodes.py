@@ -32,7 +32,7 @@ def ours(kind: str, /, **inputs: Any) -> dict[str, Any]:
     return node(f"PhysAnimator_{kind}", **inputs)
 
 
-def moved(frames: int = 5) -> dict[str, Any]:
+def moved(frames: int) -> dict[str, Any]:
     """The example's ribbon in the automatic wind."""
     wind = {"wind_strength": 2.0, "wind_angle": 0.0, "sway_by_size": True, "frame_rate": 12.0}
     return {
@@ -67,7 +67,7 @@ def called(host: Any) -> dict[str, Any]:
 @pytest.mark.parametrize("kind", LINES)
 def test_lines_of_a_detector_are_bent_as_ours_are(host: Any, kind: str) -> None:
     require_node(host, kind)
-    prompt = moved() | {
+    prompt = moved(25) | {
         "lines": node(kind, image=["example", 0], **LINES[kind]),
         "flow": ours("OpticalFlow", motion=["simulate", 0]),
         "bent": ours("WarpSketch", sketch=["lines", 0], flow=["flow", 0], mode="layered", blur_sigma=0.8),
@@ -83,12 +83,12 @@ def test_lines_of_a_detector_are_bent_as_ours_are(host: Any, kind: str) -> None:
     lines, bent, led, turned = (pictures(host, outputs, f"see_{name}") for name in ("lines", "bent", "led", "turned"))
     assert np.median(lines) < 0.25, "a detector draws light on dark"
     assert np.median(turned) < 0.25, "and so does our sketch once it is inverted"
-    assert bent.shape == (5, 720, 1280)
+    assert bent.shape == (25, 720, 1280)
     assert np.median(bent) > 0.75
     assert bent.min() < 0.5
     assert led.shape == (5, 480, 832)
     assert np.median(led) < 0.25
-    assert np.abs(bent[4] - bent[0]).max() > 0.3, "lines move"
+    assert np.abs(bent[-1] - bent[0]).max() > 0.3, "lines move"
     said = outputs["bent"].get("advice", [])
     assert any("light lines on dark" in sentence for sentence in said), outputs["bent"]
 
@@ -110,7 +110,8 @@ def test_ltx_draws_our_tracks_as_they_are(host: Any) -> None:
         for track in tracks:
             x, y = round(track[time]["x"]), round(track[time]["y"])
             if 3 < x < 444 and 3 < y < 252:
-                assert frames[time, y - 2 : y + 3, x - 2 : x + 3].max() > 0.2, (time, x, y)
+                # Where a point is now, the dot is of pure blue.
+                assert frames[time, y - 2 : y + 3, x - 2 : x + 3].max() > 0.09, (time, x, y)
 
 
 def test_first_and_last_keyframe_are_shown_to_wan_as_the_host_shows_them(called: dict[str, Any]) -> None:

@@ -71,7 +71,7 @@ def test_a_video_model_s_workflow_lacks_nothing_but_its_files(host: Any, path: P
         prompt[key]["class_type"] for key in refused
     }, refused
     for found in refused.values():
-        assert [error["type"] for error in found["errors"]] == ["value_not_in_list"], found
+        assert {error["type"] for error in found["errors"]} == {"value_not_in_list"}, found
 
 
 @pytest.mark.parametrize("path", FOR_VIDEO_MODELS, ids=lambda path: path.stem)
@@ -90,8 +90,8 @@ def test_what_a_video_model_is_given_has_its_length_and_size(host: Any, path: Pa
     else:
         assert frames.shape == (told["frames"], *size)
     if given["class_type"] == "PhysAnimator_Keyframes":
-        grey = np.abs(frames.astype(np.int16) - 128).max(axis=(1, 2, 3)) < 4
-        assert np.flatnonzero(~grey).tolist() == [0, 40, 80]
+        drawn = frames.std(axis=(1, 2, 3)) > 20  # a codec leaves traces of a keyframe in the grey after it
+        assert np.flatnonzero(drawn).tolist() == [0, 40, 80]
     elif given["class_type"] in ("PhysAnimator_WarpedVideo", "PhysAnimator_LineControlVideo"):
         assert (np.abs(np.diff(frames.astype(np.int16), axis=0)) > 24).any(axis=(1, 2, 3)).mean() > 0.9
 
