@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from comfy_api.latest import io
-
 from .messages import tell_user
 from .tensors import picture_of, pictures_of
 
@@ -22,6 +20,8 @@ _TURNED = "{name}: light lines on dark were taken as dark lines on light."
 
 def sketch_lines_input() -> Any:
     """The optional input sketch_lines."""
+    from comfy_api.latest import io
+
     from ...rendering.sketch import LINE_TONES
 
     return io.Combo.Input(
