@@ -200,7 +200,7 @@ def chosen_parts(node: Any, picture: NDArray[Any], points: str, masks: torch.Ten
 
 
 def _masks_of(masks: torch.Tensor) -> list[NDArray[np.float32]]:
-    count = 1 if masks.ndim == 2 else len(masks)
+    count = 1 if masks.ndim == 2 else max(1, len(masks))
     found = [mask_of(masks, index=number, name="masks") for number in range(count)]
     for number, mask in enumerate(found):
         if not (mask > 0.5).any():

@@ -12,6 +12,7 @@ from .editable_nodes import SaveSpineOrGltf
 from .example_nodes import ExampleIllustration
 from .flow_nodes import OpticalFlow, PreviewFlow, SaveMotionVectors
 from .host import checked, watch_prompts
+from .keyframe_nodes import Keyframes, WanKeyframes
 from .layer_nodes import LayersFromImageBatch, LoadLayers, SaveLayers, SeeThroughLayers
 from .mask_nodes import MaskToMesh, SegmentByPoints
 from .metric_nodes import Metrics
@@ -70,6 +71,8 @@ NODES: list[type[io.ComfyNode]] = [
     UncoveredArea,
     TimeToMove,
     MovingNoise,
+    Keyframes,
+    WanKeyframes,
     LoadLayers,
     LayersFromImageBatch,
     SeeThroughLayers,

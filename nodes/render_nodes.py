@@ -18,6 +18,7 @@ from .host import (
     hint_of_pixel_art,
     host_progress,
     is_wanted,
+    lines_of_frames,
     mask_batch,
     not_made,
     picture_batch,
@@ -25,6 +26,7 @@ from .host import (
     pictures_of,
     refusal,
     sent_inputs,
+    told_of_light_lines,
     whole_numbers_of,
 )
 from .host.running import is_linked
@@ -162,6 +164,7 @@ class Render(io.ComfyNode):
         if not (by_model or pixel_art or motion.layers):
             told = all_told(told, hint_of_pixel_art(cls, picture))
         told = all_told(told, told_of_another_picture(cls, motion, picture))
+        told = all_told(told, told_of_light_lines(cls, choice.get("sketches"), name="sketches"))
         layers = drawing(motion.motion)
         if by_model and frames is not None:
             for frame in _drawn_by_model(name, picture, layers, behind, choice):
@@ -207,7 +210,7 @@ def _drawn_by_model(
 
 def _sketches_of(choice: dict[str, Any]) -> list[NDArray[Any]]:
     given = choice.get("sketches")
-    return [] if given is None else list(pictures_of(given, name="sketches"))
+    return [] if given is None else lines_of_frames(given)
 
 
 def _from_sketches(
@@ -218,6 +221,7 @@ def _from_sketches(
     told: dict[str, list[str]] = {}
     if is_wanted(_FRAMES):
         told = announce_batch(node, len(sketches), picture.shape[1], picture.shape[0])
+        told = all_told(told, told_of_light_lines(node, choice["sketches"], name="sketches"))
         made = batch_of_pictures(svd_frames(picture, sketches, None, choice), len(sketches))
     behind = not_made("clean_plate") if plate is None else batch_of_pictures([plate], 1)
     return io.NodeOutput(made, not_made("alpha"), behind, ui=told or None)
@@ -345,6 +349,7 @@ class Interpolate(io.ComfyNode):
         count = cycle if loops else count
         told = announce_batch(cls, count, pictures.shape[2], pictures.shape[1], channels=pictures.shape[3])
         sketches = choice.get("sketches")
+        told = all_told(told, told_of_light_lines(cls, sketches, name="sketches"))
         before, after = ([], []) if loops else _kept(pictures, images_are, indices)
         frames = interpolate(
             list(keyframes),
@@ -352,7 +357,7 @@ class Interpolate(io.ComfyNode):
             backend=tooncrafter_backend(choice) if drawn_by_model else name,
             motion=known,
             masks=_shown_masks(motion, image, image_alpha),
-            sketches=() if sketches is None else list(pictures_of(sketches, name="sketches")),
+            sketches=() if sketches is None else lines_of_frames(sketches),
             find_file=find_model_file,
             progress=None if drawn_by_model else host_progress(),
             before=before,

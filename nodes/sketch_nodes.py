@@ -7,15 +7,19 @@ from typing import TYPE_CHECKING, Any
 from comfy_api.latest import io
 
 from .host import (
+    all_told,
     announce_batch,
     batch_of_pictures,
     default_of,
+    drawn_lines,
     host_progress,
     is_wanted,
     mask_batch,
     not_made,
     picture_batch,
     picture_of,
+    sketch_lines_input,
+    told_of_light_lines,
 )
 from .host.wires import FlowOfMotion, FlowWire
 from .models.drawing_network import drawing_network_inputs, missing_drawing_file, network_sketch
@@ -23,7 +27,7 @@ from .models.drawing_network import drawing_network_inputs, missing_drawing_file
 if TYPE_CHECKING:
     import torch
 
-    from ..rendering.sketch import WarpMode
+    from ..rendering.sketch import LineTones, WarpMode
 
 __all__ = ["ExtractSketch", "WarpSketch"]
 
@@ -125,7 +129,7 @@ class WarpSketch(io.ComfyNode):
             category="PhysAnimator/sketch",
             description="Bends a sketch of the illustration along with the motion: one sketch for each frame.",
             inputs=[
-                io.Image.Input("sketch", tooltip="Dark lines on white, one picture of the illustration's size."),
+                io.Image.Input("sketch", tooltip="A line drawing of the illustration, one picture: see sketch_lines."),
                 FlowWire.Input("flow", tooltip="How far each pixel has moved, from Optical Flow."),
                 io.Combo.Input(
                     "mode",
@@ -149,6 +153,7 @@ class WarpSketch(io.ComfyNode):
                     tooltip="Sketch of the clean plate: lines that show where a body leaves. Only layered takes it;"
                     " without it paper is there, and of layers what is drawn there.",
                 ),
+                sketch_lines_input(),
             ],
             outputs=[
                 io.Image.Output(display_name="sketches", tooltip="One sketch a frame."),
@@ -172,14 +177,18 @@ class WarpSketch(io.ComfyNode):
         mode: WarpMode,
         blur_sigma: float,
         lines_behind: torch.Tensor | None = None,
+        sketch_lines: LineTones = "automatic",
     ) -> io.NodeOutput:
         from ..rendering.sketch import warped_sketches
 
-        drawing, report = picture_of(sketch, name="sketch").mean(axis=2), host_progress()
-        behind = None if lines_behind is None else picture_of(lines_behind, name="lines_behind").mean(axis=2)
-        count, (height, width) = len(flow), drawing.shape
+        count, width, height, report = len(flow), flow.motion.width, flow.motion.height, host_progress()
+        drawing, behind = (
+            None if each is None else drawn_lines(each, width, height, sketch_lines, name=name)
+            for name, each in (("sketch", sketch), ("lines_behind", lines_behind))
+        )
         sketches, holes = picture_batch(count), mask_batch(count) if is_wanted(_HOLES) else None
         told = announce_batch(cls, count, width, height, channels=3 + (holes is not None))
+        told = all_told(told, told_of_light_lines(cls, sketch, sketch_lines))
         own = None
         if flow.layers is not None and mode == "layered":
             own = flow.layers.own_sketches()

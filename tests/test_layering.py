@@ -111,7 +111,7 @@ MAY_IMPORT = {
     # nodes: the host
     "nodes/host": (
         "physics physics/document physics/mesh physics/motion physics/scene rendering rendering/composite "
-        "rendering/pictures"
+        "rendering/pictures rendering/sketch"
     ),
     "nodes/preview": (
         "nodes/host physics physics/assembly physics/document physics/forces physics/mesh physics/motion physics/rig "

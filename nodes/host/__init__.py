@@ -13,6 +13,7 @@ from .messages import all_told, hint_of_pixel_art, send_to_page, shown_with, tel
 from .progress import host_check, host_progress, watched_sampling
 from .running import is_wanted, not_made, sent_inputs, server, watch_prompts
 from .saving import EXR, FILE_TYPES, FRAMES, SPINE, Place, check_prefix, free_place
+from .sketches import drawn_lines, lines_of_frames, sketch_lines_input, told_of_light_lines
 from .tensors import (
     FrameBatch,
     batch_of_masks,
@@ -47,6 +48,7 @@ __all__ = [
     "chosen",
     "contents_of",
     "default_of",
+    "drawn_lines",
     "dtype_of",
     "free_place",
     "hint_of_pixel_art",
@@ -55,6 +57,7 @@ __all__ = [
     "is_wanted",
     "keys_of",
     "layered_files",
+    "lines_of_frames",
     "mask_batch",
     "mask_of",
     "not_made",
@@ -71,8 +74,10 @@ __all__ = [
     "sent_inputs",
     "server",
     "shown_with",
+    "sketch_lines_input",
     "tell_user",
     "times_of",
+    "told_of_light_lines",
     "watch_prompts",
     "watched_sampling",
     "whole_numbers_of",

@@ -140,6 +140,9 @@ def mask_of(masks: torch.Tensor, *, index: int = 0, name: str = "mask") -> Float
         InvalidInputError: there is no such mask in the batch, or the shape is another.
     """
     batch = masks[None] if masks.ndim == 2 else masks
+    if batch.ndim == 3 and len(batch) == 0:
+        why = "the node that made it, such as SAM3 Detect, has found nothing"
+        raise InvalidInputError(f"{name} must hold at least one mask: {why}. Got: an empty batch")
     if batch.ndim != 3 or 0 in batch.shape:
         raise InvalidInputError(f"{name} must be a mask of shape [f, h, w]. Got: {tuple(masks.shape)}")
     if not 0 <= index < len(batch):

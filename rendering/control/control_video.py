@@ -83,6 +83,7 @@ def line_frames(
     bright_lines: bool = True,
     behind: NDArray[Any] | None = None,
     own: Sequence[NDArray[Any]] | None = None,
+    at: Sequence[int] | None = None,
 ) -> Iterator[FloatImage]:
     """A line drawing that moves along with the bodies.
 
@@ -94,6 +95,7 @@ def line_frames(
         behind: sketch of what is behind the bodies; only beside ``own``.
         own: sketch of each body's own layer, whose lines then move layer by layer: see
             :func:`~physanimator.rendering.sketch.warped_sketches`.
+        at: numbers of the clip's frames, from 0; all when None.
 
     Yields:
         For each frame a picture in 0 to 1, shape [height, width].
@@ -102,7 +104,8 @@ def line_frames(
         InvalidInputError: the sketch has another size than the motion's illustration.
     """
     mode: WarpMode = "paper" if own is None else "layered"
-    for warped in warped_sketches(sketch, FlowSequence(form.sampled(motion)), mode=mode, behind=behind, own=own):
+    flow = FlowSequence(form.sampled(motion))
+    for warped in warped_sketches(sketch, flow, at, mode=mode, behind=behind, own=own):
         drawn = form.resized(warped.sketch)
         yield np.asarray(1 - drawn if bright_lines else drawn, dtype=np.float32)
 

@@ -64,6 +64,8 @@ class Host:
         (folder / "custom_nodes" / PACK).symlink_to(ROOT, target_is_directory=True)
         for stand_in in STAND_INS:
             (folder / "custom_nodes" / stand_in.name).symlink_to(stand_in, target_is_directory=True)
+        for pack in filter(None, os.environ.get("COMFYUI_PACKS", "").split(os.pathsep)):
+            (folder / "custom_nodes" / Path(pack).name).symlink_to(Path(pack).resolve(), target_is_directory=True)
         for pack, files in BROKEN_PACKS.items():
             for name, text in files.items():
                 (folder / "custom_nodes" / pack / name).parent.mkdir(parents=True, exist_ok=True)

@@ -2,6 +2,7 @@
 
 Set ``COMFYUI_PATH`` to a ComfyUI checkout and run pytest with the Python of its environment, or name that Python in
 ``COMFYUI_PYTHON``. ``COMFYUI_ARGUMENTS`` adds arguments, such as ``--front-end-root FOLDER`` for another frontend;
+``COMFYUI_PACKS`` names folders of other packs that shall stand beside ours, such as ComfyUI-LTXVideo;
 ``CHROMIUM`` names the browser when it is not /usr/bin/chromium.
 """
 
@@ -44,6 +45,7 @@ _sibling("small_graphs")
 _sibling("layered_files")
 _sibling("time_to_move_graphs")
 _sibling("video_model_graphs")
+_sibling("more_video_model_graphs")
 
 
 @pytest.fixture(scope="session")

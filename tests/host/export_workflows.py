@@ -2,8 +2,9 @@
 
     COMFYUI_PATH=/path/to/ComfyUI /path/to/its/python tests/host/export_workflows.py [workflow ...]
 
-Without names, all of them. The graphs are described in graphs.py and the files beside it that end like it. The
-frontend itself builds and serialises them: the files are what it would save; the API files are what it would post.
+Without names, all of them; those with nodes that the host lacks stay as they are. The graphs are described in graphs.py
+and the files beside it that end like it. The frontend itself builds and serialises them: the files are what it would
+save; the API files are what it would post.
 """
 
 from __future__ import annotations
@@ -23,13 +24,17 @@ from comfy_host import ROOT, Host
 from frame_interpolation_graph import NAME, with_frame_interpolation
 from graphs import WORKFLOWS, Group
 from layer_graphs import LAYER_WORKFLOWS
+from more_video_model_graphs import MORE_VIDEO_MODEL_WORKFLOWS
 from paper_graphs import PAPER_WORKFLOWS
 from showcase_graphs import SHOWCASE_WORKFLOWS
 from stamps import stamped
 from video_model_graphs import VIDEO_MODEL_WORKFLOWS
 
 SCHEMAS = ROOT / "tests" / "nodes" / "node_schemas.json"
-_WORKFLOWS = WORKFLOWS | PAPER_WORKFLOWS | SHOWCASE_WORKFLOWS | LAYER_WORKFLOWS | VIDEO_MODEL_WORKFLOWS
+_VIDEO = VIDEO_MODEL_WORKFLOWS | MORE_VIDEO_MODEL_WORKFLOWS
+_WORKFLOWS = WORKFLOWS | PAPER_WORKFLOWS | SHOWCASE_WORKFLOWS | LAYER_WORKFLOWS | _VIDEO
+_NOTES = {"MarkdownNote", "Note"}
+"""Nodes of the page alone."""
 _GAP = 40
 # The Vue canvas of newer frontends draws nodes taller than this one.
 _ROW_GAP = 75
@@ -125,6 +130,10 @@ def schemas(host: Host) -> dict[str, Any]:
     return {name: info[name] for name in sorted(info) if name.startswith("PhysAnimator_")}
 
 
+def _types(groups: tuple[Group, ...]) -> set[str]:
+    return {node.type for group in groups for column in group.columns for node in column.nodes}
+
+
 def _write(path: Path, data: Any) -> None:
     path.parent.mkdir(exist_ok=True)
     path.write_text(json.dumps(data, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
@@ -150,7 +159,11 @@ def main() -> None:
             host.wait_until_ready()
             _write(SCHEMAS, schemas(host))
             with opened(host.url) as page:
+                known = set(host.get("/object_info")) | _NOTES
                 for name in sys.argv[1:] or _WORKFLOWS:
+                    if missing := _types(_WORKFLOWS[name]()) - known:
+                        print(f"{name} stays as it is: this host has no {', '.join(sorted(missing))}")
+                        continue
                     ui, api = export(page, name, _WORKFLOWS[name]())
                     _write(ROOT / "workflows" / f"{name}.json", ui)
                     _write(ROOT / "workflows" / "api" / f"{name}.json", api)

@@ -257,6 +257,21 @@ def _ends() -> Clip:
     return _beside(_cut(first, 0.15, 0, 0.8), between, last)
 
 
+def _timeline() -> Clip:
+    """The motion over a timeline with three keyframes, along which a mark goes."""
+    shown = _cut(_frames(), 0.2, 0.0, 0.72)
+    left, right, y = 60, SIZE[0] - 60, SIZE[1] - 40
+    for number, picture in enumerate(shown):
+        cv2.rectangle(picture, (0, y - 34), (SIZE[0], SIZE[1]), _INK, -1)
+        cv2.line(picture, (left, y), (right, y), _LIGHT, 4, cv2.LINE_AA)
+        x = left + round((right - left) * number / max(1, COUNT - 1))
+        cv2.circle(picture, (x, y), 9, (235, 64, 52), -1, cv2.LINE_AA)
+        for key in (left, (left + right) // 2, right):
+            corners = np.array([(key, y - 17), (key + 17, y), (key, y + 17), (key - 17, y)], dtype=np.int32)
+            cv2.fillPoly(picture, [corners], (255, 176, 32), cv2.LINE_AA)
+    return shown
+
+
 def _film() -> Clip:
     """Three frames on end, of which the middle one is new."""
     clip, shown = _cut(_frames(), 0.25, 0.0, 0.62), []
@@ -371,6 +386,10 @@ THUMBNAILS: dict[str, Callable[[], Clip]] = {
     "wan_time_to_move": _repainted,
     "wan_time_to_move_core": _repainted,
     "wan_first_last_frame": _ends,
+    "wan_loop": lambda: _cut(_loop(), 0.3, 0.3, 0.7),
+    "ltx_lines": lambda: _beside(_lines(), _frames()),
+    "ltx_tracks": lambda: _cut(_tracks(), 0.3, 0.0, 0.65),
+    "anisora_inbetweens": _timeline,
     "physanimator_paper": lambda: _beside(_sketches(), _frames()),
     "paper_strict": lambda: _beside(_over(wireframe=True), _every(_example().flows()), _sketches(), same=True),
 }

@@ -8,7 +8,19 @@ from typing import Any
 from graphs import BLUE, GREEN, ORANGE, PURPLE, TEAL, Column, Group, Node, core, ours
 from time_to_move_graphs import time_to_move, time_to_move_core
 
-__all__ = ["VIDEO_MODEL_WORKFLOWS", "led_by", "without_video_model"]
+__all__ = [
+    "AVOIDED",
+    "COMMON_FILES",
+    "PROMPT",
+    "VIDEO_MODEL_WORKFLOWS",
+    "conditions",
+    "led_by",
+    "models",
+    "painted",
+    "sampled_in_two",
+    "two_unets",
+    "without_video_model",
+]
 
 _REPACKAGED = "https://huggingface.co/Comfy-Org/Wan_{}_ComfyUI_{}/tree/main/split_files"
 _WAN_21, _WAN_22 = _REPACKAGED.format("2.1", "repackaged"), _REPACKAGED.format("2.2", "Repackaged")
@@ -18,7 +30,7 @@ _ENCODER, _VAE, _VISION = (
     "clip_vision_h.safetensors",
 )
 _CHECKPOINT = "512-inpainting-ema.safetensors"
-_COMMON = f"""\
+COMMON_FILES = f"""\
 - `models/text_encoders/{_ENCODER}` and `models/vae/{_VAE}` from {_WAN_21}"""
 _LENGTH = """\
 **Length and size:** 81 frames of 832 x 480 here. The numbers of our node go on to the model's by themselves: frames \
@@ -33,7 +45,7 @@ _VACE_NOTE = f"""\
 
 - `models/diffusion_models/wan2.1_vace_14B_fp16.safetensors` (or the smaller `wan2.1_vace_1.3B_fp16.safetensors`) from \
 {_WAN_21}
-{_COMMON}
+{COMMON_FILES}
 
 {_LENGTH}
 
@@ -49,7 +61,7 @@ frame; every other one is the model's own painting. *WanVaceToVideo* takes the s
 
 - `models/diffusion_models/wan2.2_fun_control_high_noise_14B_fp8_scaled.safetensors` and \
 `wan2.2_fun_control_low_noise_14B_fp8_scaled.safetensors` from {_WAN_22}
-{_COMMON}
+{COMMON_FILES}
 
 {_LENGTH}
 
@@ -64,7 +76,7 @@ _FRAMES_NOTE = f"""\
 
 - `models/diffusion_models/wan2.2_i2v_high_noise_14B_fp8_scaled.safetensors` and \
 `wan2.2_i2v_low_noise_14B_fp8_scaled.safetensors` from {_WAN_22}
-{_COMMON}
+{COMMON_FILES}
 
 Choose frames between which the motion is easy to guess: half a swing, not five.
 """
@@ -78,7 +90,7 @@ _TRACKS_NOTE = f"""\
 - `models/diffusion_models/Wan21-WanMove_fp8_scaled_e4m3fn_KJ.safetensors` from \
 https://huggingface.co/Kijai/WanVideo_comfy_fp8_scaled/tree/main/WanMove
 - `models/clip_vision/{_VISION}` from {_WAN_21}
-{_COMMON}
+{COMMON_FILES}
 
 **For ATI**, use *WanTrackToVideo*: connect *coordinates*, set *frames* to 121, and take \
 `Wan2_1-I2V-ATI-14B_fp8_e4m3fn.safetensors` from https://huggingface.co/Kijai/WanVideo_comfy
@@ -120,14 +132,15 @@ with a node pack that crops and stitches.
 Without the file, disconnect *clean_plate* of *Render*: it paints without a model.
 """
 
-_PROMPT = "anime illustration, a girl whose long hair moves in the wind, clean lines, flat colours, still camera"
-_AVOID = "blurry, photographic, deformed, flicker, camera movement, text"
+PROMPT = "anime illustration, a girl whose long hair moves in the wind, clean lines, flat colours, still camera"
+AVOIDED = "blurry, photographic, deformed, flicker, camera movement, text"
 _FORM = {"width": 832, "height": 480}
 _SHOWN = {
     "WarpedVideo": 0,
     "LineControlVideo": 0,
     "FirstAndLastFrame": 1,
     "Tracks": 2,
+    "Keyframes": 2,
     "UncoveredArea": 0,
     "TimeToMove": 0,
 }
@@ -142,12 +155,12 @@ def wan_vace() -> tuple[Group, ...]:
         "control_masks": "given.control_masks",
         "reference_image": "example.image",
     }
-    led = core("led", "WanVaceToVideo", **_conditions(), **inputs)
+    led = core("led", "WanVaceToVideo", **conditions(), **inputs)
     return (
         *_moved(_VACE_NOTE),
         _given("Warped video and holes", given),
-        _models(*_unet("model", "wan2.1_vace_14B_fp16.safetensors", 5.0)),
-        _painted("wan_vace", "given.frame_rate", led, _sampled(20, 6.0, "uni_pc"), trimmed=True),
+        models(*_unet("model", "wan2.1_vace_14B_fp16.safetensors", 5.0)),
+        painted("wan_vace", "given.frame_rate", led, _sampled(20, 6.0, "uni_pc"), trimmed=True),
     )
 
 
@@ -156,12 +169,12 @@ def wan_lines() -> tuple[Group, ...]:
     sketch = ours("sketch", "ExtractSketch", image="example.image")
     given = ours("given", "LineControlVideo", sketch="sketch.sketch", motion="simulate.motion")
     inputs = _form("length") | {"control_video": "given.control_video", "ref_image": "example.image"}
-    led = core("led", "Wan22FunControlToVideo", **_conditions(), **inputs)
+    led = core("led", "Wan22FunControlToVideo", **conditions(), **inputs)
     return (
         *_moved(_LINES_NOTE),
         _given("Moving lines", sketch, given),
-        _models(*_two_unets("wan2.2_fun_control_{}_noise_14B_fp8_scaled.safetensors")),
-        _painted("wan_lines", "given.frame_rate", led, *_sampled_in_two(3.5)),
+        models(*two_unets("wan2.2_fun_control_{}_noise_14B_fp8_scaled.safetensors")),
+        painted("wan_lines", "given.frame_rate", led, *sampled_in_two(3.5)),
     )
 
 
@@ -170,12 +183,12 @@ def wan_first_last_frame() -> tuple[Group, ...]:
     chosen = {"first_frame": 0, "last_frame": 24}
     given = ours("given", "FirstAndLastFrame", 0, "", chosen, image="example.image", motion="simulate.motion")
     inputs = _form() | {"start_image": "given.start_image", "end_image": "given.end_image"}
-    led = core("led", "WanFirstLastFrameToVideo", 0, "", {"length": 33}, **_conditions(), **inputs)
+    led = core("led", "WanFirstLastFrameToVideo", 0, "", {"length": 33}, **conditions(), **inputs)
     return (
         *_moved(_FRAMES_NOTE),
         _given("First and last frame", given),
-        _models(*_two_unets("wan2.2_i2v_{}_noise_14B_fp8_scaled.safetensors")),
-        _painted("wan_first_last_frame", 16.0, led, *_sampled_in_two(4.0)),
+        models(*two_unets("wan2.2_i2v_{}_noise_14B_fp8_scaled.safetensors")),
+        painted("wan_first_last_frame", 16.0, led, *sampled_in_two(4.0)),
     )
 
 
@@ -184,7 +197,7 @@ def wan_tracks() -> tuple[Group, ...]:
     values = {"frames": 81, **_FORM}
     given = ours("given", "Tracks", 430, "", values, motion="simulate.motion", image="example.image")
     inputs = {"tracks": "given.tracks", "start_image": "example.image", "clip_vision_output": "seen.CLIP_VISION_OUTPUT"}
-    led = core("led", "WanMoveTrackToVideo", 0, "", {"length": 81, **_FORM}, **_conditions(), **inputs)
+    led = core("led", "WanMoveTrackToVideo", 0, "", {"length": 81, **_FORM}, **conditions(), **inputs)
     vision = (
         core("vision", "CLIPVisionLoader", 0, "", {"clip_name": _VISION}),
         core("seen", "CLIPVisionEncode", 0, "", {}, clip_vision="vision.CLIP_VISION", image="example.image"),
@@ -192,8 +205,8 @@ def wan_tracks() -> tuple[Group, ...]:
     return (
         *_moved(_TRACKS_NOTE),
         _given("Tracks", given),
-        _models(*_unet("model", "Wan21-WanMove_fp8_scaled_e4m3fn_KJ.safetensors", 5.0), *vision),
-        _painted("wan_tracks", 16.0, led, _sampled(20, 5.0, "uni_pc")),
+        models(*_unet("model", "Wan21-WanMove_fp8_scaled_e4m3fn_KJ.safetensors", 5.0), *vision),
+        painted("wan_tracks", 16.0, led, _sampled(20, 5.0, "uni_pc")),
     )
 
 
@@ -214,9 +227,7 @@ def differential_diffusion() -> tuple[Group, ...]:
         *_moved(_DIFFERENTIAL_NOTE),
         _given("Warped video and soft holes", given, *soft),
         Group("4 · Model file", ORANGE, (Column(380, (file, model)),)),
-        _painted(
-            "differential_diffusion", "given.frame_rate", led, _sampled(25, 7.5, "dpmpp_2m"), models=("file", "file")
-        ),
+        painted("differential_diffusion", "given.frame_rate", led, _sampled(25, 7.5, "dpmpp_2m"), of=("file", "file")),
     )
 
 
@@ -260,12 +271,12 @@ def inpaint_plate() -> tuple[Group, ...]:
 
 def wan_time_to_move() -> tuple[Group, ...]:
     """A crude animation that Wan repaints, with the nodes of ComfyUI-WanVideoWrapper."""
-    return time_to_move(_moved, _PROMPT, _AVOID)
+    return time_to_move(_moved, PROMPT, AVOIDED)
 
 
 def wan_time_to_move_core() -> tuple[Group, ...]:
     """The same with the host's own samplers."""
-    return time_to_move_core(_moved, _models, _PROMPT, _AVOID)
+    return time_to_move_core(_moved, models, PROMPT, AVOIDED)
 
 
 def _moved(note: str) -> tuple[Group, ...]:
@@ -289,7 +300,7 @@ def _given(title: str, *nodes: Node) -> Group:
     return Group(f"3 · {title}", TEAL, (Column(340, nodes),))
 
 
-def _models(*nodes: Node) -> Group:
+def models(*nodes: Node) -> Group:
     loaders = (
         *nodes,
         core("encoder", "CLIPLoader", 0, "", {"clip_name": _ENCODER, "type": "wan"}),
@@ -303,15 +314,16 @@ def _unet(key: str, name: str, shift: float) -> tuple[Node, ...]:
     return loader, core(key, "ModelSamplingSD3", 0, "", {"shift": shift}, model=f"{key}_file.MODEL")
 
 
-def _two_unets(name: str) -> tuple[Node, ...]:
-    return (*_unet("model", name.format("high"), 8.0), *_unet("model_low", name.format("low"), 8.0))
+def two_unets(name: str, *, names: tuple[str, str] = ("high", "low"), shift: float = 8.0) -> tuple[Node, ...]:
+    high, low = (name.format(each) for each in names)
+    return (*_unet("model", high, shift), *_unet("model_low", low, shift))
 
 
 def _form(*more: str) -> dict[str, str]:
     return {name: f"given.{name}" for name in ("width", "height", *more)}
 
 
-def _conditions() -> dict[str, str]:
+def conditions() -> dict[str, str]:
     return {"positive": "prompt.CONDITIONING", "negative": "avoid.CONDITIONING", "vae": "vae.VAE"}
 
 
@@ -324,11 +336,11 @@ def _sampled(steps: int, cfg: float, sampler: str) -> Node:
     return core("sampled", "KSampler", 0, "", values, model="model.MODEL", latent_image="led.latent", **_led())
 
 
-def _sampled_in_two(cfg: float) -> tuple[Node, Node]:
-    """The first half of the steps by the model for strong noise, the second by the one for weak noise."""
-    usual = {"steps": 20, "cfg": cfg, "sampler_name": "euler", "scheduler": "simple"}
-    strong = usual | {"end_at_step": 10, "return_with_leftover_noise": "enable"}
-    weak = usual | {"add_noise": "disable", "start_at_step": 10}
+def sampled_in_two(cfg: float, *, steps: int = 20, end: int = 10, sampler: str = "euler") -> tuple[Node, Node]:
+    """The first steps by the model for strong noise, the others by the one for weak noise."""
+    usual = {"steps": steps, "cfg": cfg, "sampler_name": sampler, "scheduler": "simple"}
+    strong = usual | {"end_at_step": end, "return_with_leftover_noise": "enable"}
+    weak = usual | {"add_noise": "disable", "start_at_step": end}
     return (
         core("strong", "KSamplerAdvanced", 0, "", strong, model="model.MODEL", latent_image="led.latent", **_led()),
         core(
@@ -337,18 +349,20 @@ def _sampled_in_two(cfg: float) -> tuple[Node, Node]:
     )
 
 
-def _painted(
+def painted(
     name: str,
     rate: str | float,
     led: Node,
     *samplers: Node,
     trimmed: bool = False,
-    models: tuple[str, str] = ("encoder", "vae"),
+    of: tuple[str, str] = ("encoder", "vae"),
+    kept: int = 0,
 ) -> Group:
-    encoder, vae = models
+    """Prompts, conditioning, sampling and the video; ``kept`` frames of it where that is not 0."""
+    encoder, vae = of
     prompts = (
-        core("prompt", "CLIPTextEncode", 140, "What is to be seen", {"text": _PROMPT}, clip=f"{encoder}.CLIP"),
-        core("avoid", "CLIPTextEncode", 120, "What is not", {"text": _AVOID}, clip=f"{encoder}.CLIP"),
+        core("prompt", "CLIPTextEncode", 140, "What is to be seen", {"text": PROMPT}, clip=f"{encoder}.CLIP"),
+        core("avoid", "CLIPTextEncode", 120, "What is not", {"text": AVOIDED}, clip=f"{encoder}.CLIP"),
         led,
     )
     trim = (
@@ -356,10 +370,13 @@ def _painted(
     )
     fixed, linked = ({"fps": rate}, {}) if isinstance(rate, float) else ({}, {"fps": rate})
     latent = "trim.LATENT" if trimmed else "sampled.LATENT"
+    values = {"batch_index": 0, "length": kept}
+    without_last = (core("frames", "ImageFromBatch", 0, "", values, image="decoded.IMAGE"),) if kept else ()
     result = (
         *trim,
         core("decoded", "VAEDecode", samples=latent, vae=f"{vae}.VAE"),
-        core("video", "CreateVideo", 0, "", fixed, images="decoded.IMAGE", **linked),
+        *without_last,
+        core("video", "CreateVideo", 0, "", fixed, images="frames.IMAGE" if kept else "decoded.IMAGE", **linked),
         core("save", "SaveVideo", 420, "", {"filename_prefix": f"PhysAnimator/{name}"}, video="video.VIDEO"),
     )
     return Group("5 · The model paints", PURPLE, (Column(380, (*prompts, *samplers)), Column(420, result)))

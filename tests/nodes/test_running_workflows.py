@@ -20,6 +20,10 @@ GUESSED = ("quickstart",)
 """Where what is behind the moving parts is painted; elsewhere the example's own plate saves time."""
 LENGTHS = {
     "seamless_loop": 36,
+    "anisora_inbetweens": 13,
+    "ltx_lines": 13,
+    "ltx_tracks": 7,
+    "wan_loop": 1,
     "differential_diffusion": 13,
     "inpaint_plate": 1,
     "wan_first_last_frame": 1,
@@ -30,6 +34,10 @@ LENGTHS = {
     "wan_vace": 13,
 }
 SIZES = {
+    "anisora_inbetweens": (480, 832),
+    "ltx_lines": (512, 960),
+    "ltx_tracks": (342, 640),
+    "wan_loop": (480, 832),
     "differential_diffusion": (352, 640),
     "wan_first_last_frame": (480, 832),
     "wan_lines": (480, 832),
@@ -38,6 +46,11 @@ SIZES = {
     "wan_tracks": (370, 640),
     "wan_vace": (480, 832),
 }
+
+
+PATHS = ("ltx_tracks", "wan_tracks")
+WITH_GREY = ("anisora_inbetweens",)
+"""Where a model is given a clip that is grey between its keyframes."""
 
 
 def frames_of(path: Path) -> np.ndarray:
@@ -49,16 +62,17 @@ def frames_of(path: Path) -> np.ndarray:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_workflow_runs_whole_and_writes_its_video(standin: Any, name: str) -> None:
-    frames = 13 if name.startswith("wan") or name == "differential_diffusion" else FRAMES
+    frames = 13 if name in SIZES else FRAMES
     prompt = published.shortened(API[name], frames, plate=name not in GUESSED)
     outputs = standin.run(prompt)
     (save,) = [key for key, node in prompt.items() if node["class_type"] == "SaveVideo"]
     (saved,) = outputs[save]["images"]
     video = frames_of(standin.file(saved))
     assert video.shape == (LENGTHS.get(name, FRAMES), *SIZES.get(name, (720, 1280)), 3)
-    if len(video) > 1 and name != "wan_tracks":  # which shows paths, that reach far only in a long clip
+    if len(video) > 1 and name not in PATHS:  # which shows paths, that reach far only in a long clip
         changed = (np.abs(video[len(video) // 2 :] - video[0]) > 8).any(axis=-1).mean(axis=(1, 2)).max()
-        assert 2e-5 < changed < 0.25, "something moves, and the picture as a whole stays"
+        most = 1.0 if name in WITH_GREY else 0.25
+        assert 2e-5 < changed <= most, "something moves, and the picture as a whole stays"
     shown = [each for told in outputs.values() for each in told.get("images", [])]
     assert all(standin.file(each).stat().st_size > 0 for each in shown)
 

@@ -106,6 +106,8 @@ def shortened(api: dict[str, Any], frames: int, *, plate: bool = False) -> dict[
         for name, most in limits.items():
             if isinstance(inputs.get(name), (int, float)) and inputs[name] > most:
                 inputs[name] = most
+        if isinstance(inputs.get("keyframes"), str):
+            inputs["keyframes"] = f"0, {frames // 2}, -1"
     if plate and "PhysAnimator_ArtworkToBodies" not in {node["class_type"] for node in short.values()}:
         short["plate"] = {"class_type": "LoadImage", "inputs": {"image": "clean_plate.png"}}
         for node in short.values():

@@ -13,6 +13,7 @@ __all__ = [
     "ClipVision",
     "Combo",
     "ComfyNode",
+    "Conditioning",
     "Custom",
     "DynamicCombo",
     "Float",
@@ -27,6 +28,7 @@ __all__ = [
     "Schema",
     "String",
     "Tracks",
+    "Vae",
     "Video",
 ]
 
@@ -129,6 +131,7 @@ String, Combo = _wire("STRING", _String), _wire("COMBO", _Combo)
 Combo.Output = _ComboOutput
 Image, Mask, Video, Latent = (_wire(name) for name in ("IMAGE", "MASK", "VIDEO", "LATENT"))
 Clip, ClipVision, Tracks = _wire("CLIP"), _wire("CLIP_VISION"), _wire("TRACKS")
+Conditioning, Vae = _wire("CONDITIONING"), _wire("VAE")
 DynamicCombo = _wire("COMFY_DYNAMICCOMBO_V3", _DynamicCombo)
 DynamicCombo.Option = _Option
 del DynamicCombo.Output  # nothing gives one
