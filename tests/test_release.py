@@ -180,7 +180,7 @@ def test_the_archive_holds_what_runs_and_nothing_else(archive: set[str]) -> None
 
 def test_the_archive_is_small(archive: set[str]) -> None:
     size = sum((ROOT / name).stat().st_size for name in archive)
-    assert size < 15_000_000, f"{size:,} bytes: does .comfyignore name what is not needed?"
+    assert size < 16_000_000, f"{size:,} bytes: does .comfyignore name what is not needed?"
 
 
 def test_the_archive_loads_and_finds_its_files(archive: set[str], tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 
 from comfy_api.latest import io
 
-__all__ = ["AS_THE_MOTION", "colour_match_input", "is_loop", "loop_input"]
+__all__ = ["AS_THE_MOTION", "colour_match_input", "colour_match_of", "is_loop", "loop_input"]
 
 AS_THE_MOTION, _YES, _NO = "as the motion", "yes", "no"
 
@@ -55,3 +55,9 @@ def is_loop(chosen: str | None, motion: Any, count: int) -> bool:
         report = None if motion is None else motion.loop
         return report is not None and count > 1 and count % report.frames == 0
     return chosen == _YES and count > 1
+
+
+def colour_match_of(choice: dict[str, Any]) -> float:
+    """What a choice says of it; a graph that was saved before the input was there says nothing."""
+    said = choice.get("colour_match")
+    return 1.0 if said is None else float(said)

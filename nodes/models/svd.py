@@ -16,7 +16,7 @@ from ...physics.errors import InvalidInputError, require
 from ...rendering.neural.drawing import sketch_guided_frames
 from ...rendering.svd import CLIP_FRAMES, CrudeAnimation, SVDOptions
 from ..host import dtype_of, watched_sampling
-from .clip_inputs import is_loop
+from .clip_inputs import colour_match_of, is_loop
 from .model_files import SVD_FILES, lvcd_file, svd_file
 from .networks import Networks, kept_networks
 from .svd_inputs import AREAS, NO_LVCD
@@ -80,7 +80,7 @@ def svd_frames(
         alphas=map(layers.alpha, range(len(layers))) if kept else None,
         soft_edge=choice["soft_edge"],
         loops=loops,
-        colour_match=choice.get("colour_match", 1.0),
+        colour_match=colour_match_of(choice),
         references=None if layers is None else _colours(image, layers, before),
         **watched_sampling(device, lambda clean: clean[len(clean) - CLIP_FRAMES // 2 :][:1]),
     )

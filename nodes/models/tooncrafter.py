@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ...physics.errors import InvalidInputError, require
 from ...rendering.tooncrafter import ToonCrafterOptions
 from ..host import dtype_of, watched_sampling
+from .clip_inputs import colour_match_of
 from .networks import Networks, kept_networks
 from .tooncrafter_files import TOONCRAFTER_FILES, model_file, sketch_model_file
 from .tooncrafter_inputs import AREAS
@@ -45,7 +46,7 @@ def tooncrafter_backend(choice: dict[str, Any]) -> ToonCrafterInterpolator:
         placement=networks.placement(device),
         look=_look(choice.get("clip_vision")),
         prompts=_prompts(choice, models),
-        colour_match=choice.get("colour_match", 1.0),
+        colour_match=colour_match_of(choice),
         **watched_sampling(device, lambda clean: clean[:1, :, clean.shape[2] // 2]),
     )
 

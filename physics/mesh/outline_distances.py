@@ -84,7 +84,8 @@ def _crossed(points: FloatArray, starts: FloatArray, ends: FloatArray) -> IndexA
     edge_x, edge_y = (ends - starts).T
     x, y = points[:, :1] - starts[:, 0], points[:, 1:] - starts[:, 1]  # from the edges' starts, shape [n, e]
     spans = (y < 0) != (points[:, 1:] < ends[:, 1])
-    return (spans & (x < edge_x * (y / np.where(edge_y == 0.0, 1.0, edge_y)))).sum(axis=1)
+    along = np.divide(y, np.broadcast_to(edge_y, y.shape), out=np.zeros_like(y), where=spans)  # 0..1
+    return (spans & (x < edge_x * along)).sum(axis=1)
 
 
 def _segment_distances(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:

@@ -25,7 +25,6 @@ def checked_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
     Raises:
         InvalidInputError: see above.
     """
-    from .early_imports import begin_imports
     from .inputs import check_inputs, check_taken, read_inputs
     from .networks import check_networks_used
     from .outputs import check_layers, check_outputs, check_sizes
@@ -33,7 +32,6 @@ def checked_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
     check_inputs(options)
     check_outputs(options)
     check_networks_used(options)
-    begin_imports()
     image, inputs = read_inputs(options)
     check_taken(options, image)
     check_layers(options, image)

@@ -57,7 +57,6 @@ def _schema(options: argparse.Namespace) -> None:
 def _demo(options: argparse.Namespace) -> None:
     from ...physics.simulation import begin_aside
     from .animating import animate_and_write
-    from .early_imports import begin_imports
     from .example import bundled_files, read_example
     from .networks import check_networks_used
     from .outputs import check_layers, check_outputs, check_sizes
@@ -66,7 +65,6 @@ def _demo(options: argparse.Namespace) -> None:
     check_networks_used(options)
     if not options.pixel_art:
         begin_aside()
-    begin_imports()
     image, masks, scene = read_example()
     check_layers(options, image)
     check_sizes(options, image)

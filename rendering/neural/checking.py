@@ -34,7 +34,8 @@ def check_networks(options: NetworkOptions) -> None:
             load_inpainting(options, as_saved=True)
         if options.interpolate_with == "tooncrafter":
             load_tooncrafter(options, as_saved=True)
-        line_extractor(options)
+        if options.lines is not None:
+            line_extractor(options)
 
 
 @contextmanager

@@ -148,6 +148,6 @@ def test_a_node_takes_what_its_input_offers(standin: Any, node: str, name: str, 
 @pytest.mark.parametrize("node", sorted({node for node, *_ in CASES}))
 def test_it_runs_with_what_a_new_node_has(standin: Any, node: str) -> None:
     """Else nothing would be found out above."""
-    if node == "ArtworkToBodies":
-        pytest.skip("needs layers")
+    if node in ("ArtworkToBodies", "WanKeyframes"):
+        pytest.skip("needs layers, or a video model")
     standin.run(graph() | {"tried": ours(node, **needed(node)), "end": core("PreviewAny", source=["tried", 0])})

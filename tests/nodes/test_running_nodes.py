@@ -123,10 +123,10 @@ def test_motion_vectors_are_saved_in_a_folder_of_their_own(standin: Any) -> None
     pytest.importorskip("OpenEXR")
     prompt = moving_bar(3) | {"saved": ours("SaveMotionVectors", motion=["motion", 0], channels="blender")}
     for number in (1, 2):
-        prompt["saved"]["inputs"]["filename_prefix"] = "film/bar"
+        prompt["saved"]["inputs"]["filename_prefix"] = "vectors/bar"
         (told,) = standin.run(prompt)["saved"]["text"]
         assert told == f"bar_{number:05}_: 3 files"
-        folder = standin.folder / "output" / "film" / f"bar_{number:05}_"
+        folder = standin.folder / "output" / "vectors" / f"bar_{number:05}_"
         assert len(list(folder.glob("vectors_*.exr"))) == 3
         prompt["scene"]["inputs"]["wind_strength"] = 1.5
     prompt["saved"]["inputs"]["filename_prefix"] = "../out"

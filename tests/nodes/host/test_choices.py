@@ -95,7 +95,7 @@ def test_a_choice_that_the_host_has_dropped_is_found_in_the_prompt(sent: dict[st
     values = {"image": object(), "motion": object()}
     check_choices(described, values, None)
     check_choices(described, values, {"image": ["1", 0], "motion": ["2", 0]})
-    offered = "composite, sketch-guided SVD, soft inpainting"
+    offered = "composite, sketch-guided SVD, soft inpainting, animation-guided SVD"
     with pytest.raises(InvalidInputError, match=rf"^renderer must be one of {offered}\. Got: "):
         check_choices(described, values, sent)
 

@@ -135,3 +135,10 @@ def test_an_ordinary_outline_is_not_crowded() -> None:
     scene = falling(GROUND)
     points, crossings, crowding = count_outlines(scene, spacing_of(scene.bodies))
     assert (crossings, crowding < 6 * points) == (0, True)
+
+
+def test_an_outline_of_no_size_contains_nothing() -> None:
+    """Even one whose height is the smallest number that there is."""
+    starts = np.array([[0.0, 0.0], [0.0, 0.0], [0.0, 2e-311]])
+    points = np.random.default_rng(0).uniform(-8, 8, (200, 2))
+    assert (signed_distances(points, starts, np.roll(starts, -1, axis=0)) > 0).all()

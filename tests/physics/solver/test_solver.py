@@ -197,7 +197,7 @@ def test_beside_other_work_two_processors_are_left_to_it(monkeypatch: pytest.Mon
     monkeypatch.setattr(solver, "_advance_shared", lambda *given: launched.append(given[2]))
     monkeypatch.setattr(pace.Pace, "share", lambda _: True)
     for processors in (2, 4):
-        monkeypatch.setattr(pace, "_processors", lambda processors=processors: processors)
+        monkeypatch.setattr(pace, "allowed_threads", lambda processors=processors: processors)
         for beside in (False, True):
             with taichi_runtime.aside(False, beside=beside):
                 advance(solid, State.at_rest(solid), still(1))
