@@ -44,7 +44,9 @@ CACHE_LINE = 32
 """Numbers that processors take from each other together, in two lines of 64 bytes side by side."""
 
 _TRY_AGAIN = 16  # launches after which the slower way is tried once more
-_LATEST = 0.5  # weight of the latest launch
+_AT_FIRST = 3  # measurements of each way before one is chosen, of which the best counts
+_LATEST = 0.5  # weight of the latest measurement
+_MEASURED = 0.01  # time of launches together that tells a speed [s]: in a short one threads have to wake up
 
 
 class Pace:
@@ -54,10 +56,15 @@ class Pace:
         self._speeds = {True: math.inf, False: math.inf}  # what is untried may be the fastest
         self._launches = 0
         self._compiled = {True: False, False: False}
+        self._measured = {True: 0, False: 0}
+        self._work, self._seconds = {True: 0.0, False: 0.0}, {True: 0.0, False: 0.0}  # since the last measurement
 
     def share(self) -> bool:
         """Whether to share the work in the next launch."""
         self._launches += 1
+        for shared in (True, False):
+            if self._measured[shared] < _AT_FIRST:
+                return shared
         faster = self._speeds[True] >= self._speeds[False]
         return faster != (self._launches % _TRY_AGAIN == 0)
 
@@ -66,8 +73,19 @@ class Pace:
         if not self._compiled[shared]:  # that took its time, too
             self._compiled[shared] = True
             return
-        before, now = self._speeds[shared], work / max(seconds, 1e-9)
-        self._speeds[shared] = now if before == math.inf else before + _LATEST * (now - before)
+        self._work[shared] += work
+        self._seconds[shared] += seconds
+        if self._seconds[shared] < _MEASURED:
+            return
+        before, now = self._speeds[shared], self._work[shared] / self._seconds[shared]
+        self._work[shared] = self._seconds[shared] = 0.0
+        self._measured[shared] += 1
+        if self._measured[shared] == 1:
+            self._speeds[shared] = now
+        elif self._measured[shared] <= _AT_FIRST:  # others disturb now and then, and only ever for the worse
+            self._speeds[shared] = max(before, now)
+        else:
+            self._speeds[shared] = before + _LATEST * (now - before)
 
 
 _paces: dict[tuple[str, int], Pace] = {}  # by kernel and size of the work; used on the Taichi thread only
