@@ -95,7 +95,7 @@ def _alike_everywhere() -> dict[str, str]:
 
     What it writes depends on its number of threads, which is the machine's unless it is given. With AVX-512 and
     macroblock trees, one clip of a thousand came out differently by chance where a row had 4 or 20 macroblocks; with
-    AVX2, which every processor with AVX-512 has, none of 80,000.
+    AVX2, which every processor with AVX-512 has, none of 40,000.
     """
     options = {"threads": "1"}
     if cv2.checkHardwareSupport(_AVX512):
