@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from comfy_api.latest import io
 
-from ..physics.motion import FITS, Fit
-from ..rendering.control import FRAME_STEP, SIZE_STEP, ModelFormat
+from ..physics.motion import Fit
+from ..rendering.control import ModelFormat
 from .host import announce_batch, host_progress
 from .host.wires import MaskedMotion, MotionWire
+from .video_format_inputs import length_input, size_inputs
 
 __all__ = ["MovingNoise"]
-
-_USUAL = ModelFormat()
 
 
 class MovingNoise(io.ComfyNode):
@@ -25,33 +24,8 @@ class MovingNoise(io.ComfyNode):
             " for models that were tuned for such noise, as Go-with-the-Flow's are. Others take it as any noise.",
             inputs=[
                 MotionWire.Input("motion", tooltip="From Simulate."),
-                io.Int.Input(
-                    "frames",
-                    default=_USUAL.frames,
-                    min=1,
-                    max=10_001,
-                    step=FRAME_STEP,
-                    tooltip="Over the whole motion, from its first frame to its last; 4 k + 1 [frames], as in the"
-                    " model's node.",
-                ),
-                *(
-                    io.Int.Input(
-                        side,
-                        default=getattr(_USUAL, side),
-                        min=SIZE_STEP,
-                        max=8192,
-                        step=SIZE_STEP,
-                        tooltip=f"{side.capitalize()} of the video, as in the model's node; a multiple of 16 [px].",
-                    )
-                    for side in ("width", "height")
-                ),
-                io.Combo.Input(
-                    "fit",
-                    options=list(FITS),
-                    default=_USUAL.fit,
-                    tooltip="How the illustration comes to that size: cut to its middle, as the model's node does with"
-                    " pictures, or stretched.",
-                ),
+                length_input(),
+                *size_inputs(),
                 io.Int.Input("channels", default=16, min=1, max=128, tooltip="Of the model's latents; 16 for Wan."),
                 io.Int.Input(
                     "seed",

@@ -20,6 +20,7 @@ from .host import (
     tell_user,
 )
 from .host.wires import MaskedMotion, MotionWire
+from .video_format_inputs import form_outputs, given_plate
 
 if TYPE_CHECKING:
     import torch
@@ -107,10 +108,7 @@ class TimeToMove(io.ComfyNode):
                     display_name="mask", tooltip="White where moving parts are: for WanVideoAddTTMLatents' mask."
                 ),
                 io.Image.Output(display_name="first_frame", tooltip="For the model's start_image."),
-                io.Int.Output("out_width", display_name="width", tooltip="For the model's node [px]."),
-                io.Int.Output("out_height", display_name="height", tooltip="For the model's node [px]."),
-                io.Int.Output("out_length", display_name="length", tooltip="For the model's node [frames]."),
-                io.Float.Output("frame_rate", display_name="frame_rate", tooltip="For Create Video [frames/s]."),
+                *form_outputs(),
                 io.Mask.Output(
                     display_name="free_latents",
                     tooltip="White where the model is free, one pixel for each latent of Wan's: for Set Latent Noise"
@@ -139,8 +137,7 @@ class TimeToMove(io.ComfyNode):
 
         moved, picture, report = motion.motion, picture_of(image), host_progress()
         form = _form(moved, frames, timing, size, (width, height), fit)
-        plate = None if clean_plate is None else picture_of(clean_plate, name="clean_plate")
-        drawing = drawing_of(motion, picture, plate=plate, in_front=in_front)
+        drawing = drawing_of(motion, picture, plate=given_plate(clean_plate), in_front=in_front)
         rules = told_rules(moved, form, timing)
         left_out = rules[:1] if timing == "frame by frame" and len(moved) > form.frames else []
         told = announce_batch(cls, form.frames, form.width, form.height, channels=4)
