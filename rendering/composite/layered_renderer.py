@@ -6,9 +6,8 @@ from collections.abc import Iterator, Sequence
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
-import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -16,31 +15,22 @@ from ...physics.errors import InvalidInputError, require
 from ...physics.mesh import PixelBox, coverage_of, fitted
 from ...physics.motion import Motion, layer_order
 from ...physics.progress import Progress
-from ..pictures import as_dtype, as_float, as_picture, is_transparent, straight
+from ..pictures import as_float, as_picture, is_transparent
 from .cutting import take_apart
+from .drawn_layers import Drawn, covered, cut_out, interleaved, laid, over_plate, part_of, placed
 from .hidden_areas import HiddenArea, hidden_areas
 from .kept_layers import apart
 from .layer import Layer
 from .laying import lay_over
-from .pixel_boxes import around, shared, within
 from .sprite_layers import take_sprite_apart
 from .still_layers import StillLayer
 
 if TYPE_CHECKING:
-    from ..artwork import Artwork, Blend
+    from ..artwork import Artwork
 
 __all__ = ["LayeredRenderer", "render_frames"]
 
 FloatImage = NDArray[np.float32]
-
-
-class _Drawn(NamedTuple):
-    """One layer in one frame: its box in the picture, its channels there, its blend mode, and whether it moves."""
-
-    box: PixelBox
-    texture: FloatImage
-    blend: Blend
-    moving: bool
 
 
 class LayeredRenderer:
@@ -212,7 +202,7 @@ class LayeredRenderer:
         pieces: dict[int, list[tuple[PixelBox, FloatImage]]] = {}
         for piece, body, source in zip(self._layers, self._bodies, self._sources, strict=True):
             if source is not None and only in (None, source):
-                pieces.setdefault(source, []).append(_placed(piece, body, self.motion, t))
+                pieces.setdefault(source, []).append(placed(piece, body, self.motion, t))
         for index, drawn_pieces in pieces.items():
             layers[index] = bent(layers[index], drawn_pieces)
         return replace(self._artwork, layers=tuple(layers))
@@ -233,8 +223,8 @@ class LayeredRenderer:
         self._region = PixelBox(0, 0, background.shape[1], background.shape[0])
         shown = self._planes.copy() if still else self._planes
         for layer in still:
-            lay_over(_part(shown, layer.box), layer.texture, layer.blend)
-        self.plate = _interleaved(shown, dtype)
+            lay_over(part_of(shown, layer.box), layer.texture, layer.blend)
+        self.plate = interleaved(shown, dtype)
         if not (still or is_transparent(background)):
             self._planes = np.ascontiguousarray(np.moveaxis(as_float(self.plate), 2, 0))
 
@@ -248,7 +238,7 @@ class LayeredRenderer:
         Raises:
             InvalidInputError: there is no such frame.
         """
-        return self._over_plate(self._drawn(t))
+        return over_plate(self._drawn(t), self.plate, self._planes, self._region)
 
     def alpha(self, t: int) -> FloatImage:
         """How much of each pixel moving bodies cover in frame ``t``, 0 to 1, shape [h, w].
@@ -256,7 +246,7 @@ class LayeredRenderer:
         Raises:
             InvalidInputError: there is no such frame.
         """
-        return self._covered(self._drawn(t))
+        return covered(self._drawn(t), self.plate.shape[:2])
 
     def frame_and_alpha(self, t: int) -> tuple[NDArray[Any], FloatImage]:
         """``frame`` and ``alpha`` of one frame in little more than the time of one of them.
@@ -265,7 +255,7 @@ class LayeredRenderer:
             InvalidInputError: there is no such frame.
         """
         drawn = self._drawn(t)
-        return self._over_plate(drawn), self._covered(drawn)
+        return over_plate(drawn, self.plate, self._planes, self._region), covered(drawn, self.plate.shape[:2])
 
     def uncovered(self, t: int) -> FloatImage:
         """How much of each pixel bodies cover in the drawing and have left in frame ``t``, 0 to 1, shape [h, w].
@@ -295,7 +285,8 @@ class LayeredRenderer:
     def alpha_at_rest(self) -> FloatImage:
         """How much of each pixel the bodies cover as drawn, 0 to 1, shape [h, w]."""
         rest = np.concatenate([body.mesh.vertices for body in self.motion.bodies]).astype(np.float32)
-        return self._covered(self._laid(Motion(self.motion.bodies, rest[None], self.motion.frame_rate), 0))
+        still = Motion(self.motion.bodies, rest[None], self.motion.frame_rate)
+        return covered(self._laid(still, 0), self.plate.shape[:2])
 
     def cutout(self, t: int) -> NDArray[Any]:
         """The moving bodies of frame ``t`` alone: straight RGB and alpha, dtype of the image, shape [h, w, 4].
@@ -303,40 +294,7 @@ class LayeredRenderer:
         Raises:
             InvalidInputError: there is no such frame.
         """
-        drawn = self._drawn(t)
-        alone = np.zeros((*self.plate.shape[:2], 4), dtype=self.plate.dtype)
-        box = around([each.box for each in drawn if each.moving])
-        planes = np.zeros((4, box.height, box.width), dtype=np.float32)
-        for each, texture, part in _within_box(drawn, box, planes):
-            if each.moving:
-                lay_over(part, texture, "normal")
-            elif each.blend == "normal":
-                part *= 1 - np.clip(texture[..., -1], 0, 1)
-        if planes.size:
-            alone[box.slices] = _interleaved(planes, alone.dtype)
-        return alone
-
-    def _over_plate(self, drawn: list[_Drawn]) -> NDArray[Any]:
-        """Drawn layers over the plate."""
-        # Elsewhere the plate shows what stands still as it is.
-        frame, box = self.plate.copy(), around([each.box for each in drawn if each.moving])
-        if box.width and box.height:
-            planes = _part(self._planes, within(box, self._region)).copy()
-            for each, texture, part in _within_box(drawn, box, planes):
-                lay_over(part, texture, each.blend)
-            frame[box.slices] = _interleaved(planes, frame.dtype)
-        return frame
-
-    def _covered(self, drawn: list[_Drawn]) -> FloatImage:
-        """How much of each pixel shows drawn layers that move, shape [h, w]."""
-        covered = np.zeros(self.plate.shape[:2], dtype=np.float32)
-        for each in drawn:
-            part, alpha = covered[each.box.slices], np.clip(each.texture[..., -1], 0, 1)
-            if each.moving:
-                part += alpha * (1 - part)
-            elif each.blend == "normal":
-                part *= 1 - alpha
-        return covered
+        return cut_out(self._drawn(t), self.plate.shape[:2], self.plate.dtype)
 
     @cached_property
     def _hidden(self) -> list[HiddenArea | None]:
@@ -344,28 +302,14 @@ class LayeredRenderer:
         still = [layer if isinstance(layer, StillLayer) else None for layer in self._layers]
         return hidden_areas(still, self.motion.width, self.motion.height)
 
-    def _drawn(self, t: int) -> list[_Drawn]:
+    def _drawn(self, t: int) -> list[Drawn]:
         """The layers that show in a frame, from back to front."""
         require("frame", t, 0 <= t < len(self), f"0 to {len(self) - 1}")
         return self._laid(self.motion, t)
 
-    def _laid(self, motion: Motion, t: int) -> list[_Drawn]:
+    def _laid(self, motion: Motion, t: int) -> list[Drawn]:
         """The layers in a frame of any motion of the bodies."""
-        drawn = []
-        for layer, body, hidden in zip(self._layers, self._bodies, self._hidden, strict=True):
-            box, texture = _placed(layer, body, motion, t, hidden)
-            if box.width and box.height:
-                drawn.append(_Drawn(box, texture, layer.blend, isinstance(layer, Layer)))
-        return drawn
-
-
-def _placed(
-    layer: Layer | StillLayer, body: int | None, motion: Motion, t: int, hidden: HiddenArea | None = None
-) -> tuple[PixelBox, FloatImage]:
-    """Where a layer is in a frame, and its channels there, which may be any where it is hidden."""
-    if isinstance(layer, StillLayer) or body is None:
-        return layer.box, layer.texture  # type: ignore[union-attr]
-    return layer.drawn(motion.of_body(body)[t], motion.width, motion.height, hidden=hidden)
+        return laid(zip(self._layers, self._bodies, self._hidden, strict=True), motion, t)
 
 
 def render_frames(renderer: LayeredRenderer, *, progress: Progress | None = None) -> Iterator[NDArray[Any]]:
@@ -379,29 +323,3 @@ def render_frames(renderer: LayeredRenderer, *, progress: Progress | None = None
         yield renderer.frame(t)
         if progress is not None:
             progress(t + 1, len(renderer))
-
-
-def _part(planes: FloatImage, box: PixelBox) -> FloatImage:
-    """The view of planes, shape [c, h, w], within a box."""
-    rows, columns = box.slices
-    return planes[:, rows, columns]
-
-
-def _interleaved(planes: FloatImage, dtype: np.dtype[Any]) -> NDArray[Any]:
-    """Planes in 0 to 1, four of them premultiplied, shape [c, h, w], as a straight picture, shape [h, w, c]."""
-    picture = np.asarray(cv2.merge(list(planes)))
-    if is_transparent(picture):
-        picture = straight(picture)
-    if dtype != np.uint8:
-        return as_dtype(picture, dtype)
-    return np.asarray(cv2.convertScaleAbs(np.clip(picture, 0, 1, out=picture), alpha=255))
-
-
-def _within_box(
-    drawn: Sequence[_Drawn], box: PixelBox, planes: FloatImage
-) -> Iterator[tuple[_Drawn, FloatImage, FloatImage]]:
-    """Each layer that shows in a box, its texture there, and the part of the box's planes where it is."""
-    for each in drawn:
-        there = shared(each.box, box)
-        if there.width and there.height:
-            yield each, each.texture[within(there, each.box).slices], _part(planes, within(there, box))
