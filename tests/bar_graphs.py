@@ -1,10 +1,10 @@
-"""A small graph in which a bar moves, in the host's API format."""
+"""Small graphs in which a bar moves, in the form that the host's API takes."""
 
 from __future__ import annotations
 
 from typing import Any
 
-__all__ = ["core", "moving_bar", "ours"]
+__all__ = ["core", "drawn_bar", "moving_bar", "ours"]
 
 
 def core(node_type: str, /, **inputs: Any) -> dict[str, Any]:
@@ -27,6 +27,12 @@ def moving_bar(frames: int = 4) -> dict[str, Any]:
         "scene": ours("AutomaticScene", bodies=["body", 0], wind_strength=3.0, wind_angle=0.0, sway_by_size=True,
                       frame_rate=12.0),
         "motion": ours("Simulate", scene=["scene", 0], frames=frames),
+    }  # fmt: skip
+
+
+def drawn_bar(frames: int = 4) -> dict[str, Any]:
+    """The same, drawn and shown."""
+    return moving_bar(frames) | {
         "render": ours("Render", image=["picture", 0], motion=["motion", 0]),
         "seen": core("PreviewImage", images=["render", 0]),
-    }  # fmt: skip
+    }

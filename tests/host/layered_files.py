@@ -10,8 +10,8 @@ from typing import Any
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
+from bar_graphs import core, ours
 from PIL import Image
-from small_graphs import core, ours
 
 __all__ = ["HEIGHT", "WIDTH", "bust", "filled", "moved_layers", "upload", "write_ora"]
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bar_graphs import core, moving_bar, ours
 from PIL import Image
-from small_graphs import core, moving_bar, ours
 
 
 def seen_picture(source: str, slot: int) -> dict[str, Any]:

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bar_graphs import core, moving_bar
 from frame_interpolation_graph import for_newer_hosts
-from small_graphs import core, moving_bar
 
 ROOT = Path(__file__).resolve().parents[2]
 # Without those that need nodes which the oldest supported host lacks.

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bar_graphs import core, ours
 from layered_files import HEIGHT, WIDTH, bust, filled, moved_layers, write_ora
 from PIL import Image
-from small_graphs import core, ours
 
 
 def pictures(host: Any, outputs: dict[str, Any], key: str) -> np.ndarray:

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bar_graphs import core, ours
 from layered_files import HEIGHT, WIDTH, bust, filled, moved_layers, upload, write_ora
 from PIL import Image
-from small_graphs import core, ours
 
 
 @pytest.fixture(scope="module")
@@ -253,7 +253,7 @@ def test_another_picture_is_told(host: Any, file: str) -> None:
 
 
 def test_a_still_part_in_front_of_a_flat_picture_s_hair(host: Any) -> None:
-    from small_graphs import moving_bar
+    from bar_graphs import moving_bar
 
     prompt = moving_bar(6)
     arm = {

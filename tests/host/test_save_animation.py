@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bar_graphs import core, moving_bar, ours
 from PIL import Image
-from small_graphs import core, moving_bar, ours
 
 TYPES = ["mp4", "webm", "gif", "webp", "apng", "mov", "png frames"]
 

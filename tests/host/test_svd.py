@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bar_graphs import core
 from numpy.typing import NDArray
 from PIL import Image
-from small_graphs import core
 
 ROOT = Path(__file__).resolve().parents[2]
 FRAMES = 9

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bar_graphs import core, ours
 from layered_files import bust, write_ora
 from PIL import Image
-from small_graphs import core, ours
 
 _ADD = """() => {
   app.graph.clear();

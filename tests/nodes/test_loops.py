@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bar_graphs import moving_bar, ours
+from bar_graphs import drawn_bar, ours
 from PIL import Image
 
 FRAMES = 6
@@ -14,7 +14,7 @@ FRAMES = 6
 
 def shown(standin: Any, **interpolating: Any) -> tuple[np.ndarray, np.ndarray]:
     """What Render gives, and what Interpolate makes of it."""
-    prompt = moving_bar(FRAMES)
+    prompt = drawn_bar(FRAMES)
     loop = interpolating.pop("simulated", None)
     if loop is not None:
         prompt["motion"]["inputs"]["loop"] = loop
@@ -56,7 +56,7 @@ def test_a_simulated_loop_closes_by_itself(standin: Any, chosen: dict[str, str],
 
 
 def test_keyframes_alone_make_a_loop_of_as_many_gaps(standin: Any) -> None:
-    prompt = moving_bar(3)
+    prompt = drawn_bar(3)
     prompt["between"] = ours(
         "Interpolate", images=["render", 0], images_are="keyframes", every=4, backend="blend", loop="yes"
     )

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bar_graphs import core, moving_bar, ours
+from bar_graphs import core, drawn_bar, ours
 
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
 LONG = {
@@ -123,7 +123,7 @@ CASES = [
 
 
 def graph() -> Given:
-    made = moving_bar()
+    made = drawn_bar()
     made["wind"] = ours("EnergyStroke", **needed("EnergyStroke"))
     made["flow"] = ours("OpticalFlow", motion=["motion", 0])
     return made

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bar_graphs import core, moving_bar, ours
+from bar_graphs import core, drawn_bar, ours
 from PIL import Image
 
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
@@ -29,7 +29,7 @@ def test_every_node_is_run_here_or_in_a_workflow() -> None:
 
 
 def test_a_bar_moves_and_what_was_not_changed_is_not_computed_again(standin: Any) -> None:
-    prompt = moving_bar()
+    prompt = drawn_bar()
     frames = pictures(standin, standin.run(prompt), "seen")
     assert frames.shape == (4, 96, 160, 3)
     assert np.abs(frames[3] - frames[0]).max() > 60
@@ -46,7 +46,7 @@ def test_a_bar_moves_and_what_was_not_changed_is_not_computed_again(standin: Any
 def test_the_same_scene_in_another_spelling_is_not_simulated_again(standin: Any) -> None:
     document = {"version": 2, "width": 160, "height": 96, "frame_rate": 12,
                 "strokes": [{"kind": "wind", "path": [[10, 40], [150, 40]], "radius": 80, "speed": 300}]}  # fmt: skip
-    prompt = moving_bar(3)
+    prompt = drawn_bar(3)
     prompt["scene"] = ours("SceneEditor", scene=json.dumps(document), bodies=["body", 0])
     standin.run(prompt)
     assert "motion" in standin.executed
@@ -61,7 +61,7 @@ def test_the_same_scene_in_another_spelling_is_not_simulated_again(standin: Any)
 
 
 def test_an_output_is_made_once_somebody_takes_it(standin: Any) -> None:
-    prompt = moving_bar(3)
+    prompt = drawn_bar(3)
     standin.run(prompt)
     prompt |= {"alpha": core("MaskToImage", mask=["render", 1]), "shown": core("PreviewImage", images=["alpha", 0])}
     alpha = pictures(standin, standin.run(prompt), "shown")
@@ -74,7 +74,7 @@ def test_an_output_is_made_once_somebody_takes_it(standin: Any) -> None:
 @pytest.mark.parametrize("file_type", FILE_TYPES)
 def test_an_animation_is_saved_in_every_file_type(standin: Any, file_type: str) -> None:
     given = {"image": ["picture", 0], "motion": ["motion", 0], "filename_prefix": "film/bar", "width": 0}
-    prompt = moving_bar(3) | {"saved": ours("SaveAnimation", file_type=file_type, **given)}
+    prompt = drawn_bar(3) | {"saved": ours("SaveAnimation", file_type=file_type, **given)}
     first, second = (standin.run(prompt | {"again": core("PreviewAny", source=["saved", 0])}) for _ in range(2))
     files = [standin.file(each) for each in first["saved"]["images"]]
     assert len(files) == (3 if file_type == "png frames" else 1)
@@ -86,7 +86,7 @@ def test_a_motion_is_saved_for_spine_and_gltf(standin: Any) -> None:
     given = {"image": ["picture", 0], "motion": ["motion", 0], "filename_prefix": "game/bar", "tolerance": 0.25}
     paths = []
     for file_type in ("spine", "glb", "spine"):
-        prompt = moving_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type=file_type, **given)}
+        prompt = drawn_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type=file_type, **given)}
         prompt |= {"path": core("PreviewAny", source=["saved", 0])}
         if len(paths) == 2:
             prompt["saved"]["inputs"]["tolerance"] = 0.5
@@ -100,14 +100,14 @@ def test_a_motion_is_saved_for_spine_and_gltf(standin: Any) -> None:
     assert scene.read_bytes()[:4] == b"glTF"
     assert second != first
     for name, value in (("tolerance", 0.001), ("filename_prefix", "../up")):
-        wrong = moving_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type="glb", **(given | {name: value}))}
+        wrong = drawn_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type="glb", **(given | {name: value}))}
         errors, _ = standin.post(wrong)
         assert f"{name} must be" in errors["saved"][0]["details"]
 
 
 def test_moving_noise_is_a_latent_of_a_video(standin: Any) -> None:
     form = {"frames": 9, "width": 160, "height": 96, "fit": "crop"}
-    prompt = moving_bar(3)
+    prompt = drawn_bar(3)
     prompt |= {
         "noise": ours("MovingNoise", motion=["motion", 0], channels=4, seed=3, **form),
         "shown": core("PreviewAny", source=["noise", 0]),
@@ -121,7 +121,7 @@ def test_moving_noise_is_a_latent_of_a_video(standin: Any) -> None:
 
 def test_motion_vectors_are_saved_in_a_folder_of_their_own(standin: Any) -> None:
     pytest.importorskip("OpenEXR")
-    prompt = moving_bar(3) | {"saved": ours("SaveMotionVectors", motion=["motion", 0], channels="blender")}
+    prompt = drawn_bar(3) | {"saved": ours("SaveMotionVectors", motion=["motion", 0], channels="blender")}
     for number in (1, 2):
         prompt["saved"]["inputs"]["filename_prefix"] = "vectors/bar"
         (told,) = standin.run(prompt)["saved"]["text"]
@@ -140,7 +140,7 @@ def test_saving_tells_how_far_it_is_and_leaves_nothing_when_stopped(standin: Any
 
     own = {"width": 0} if node == "SaveAnimation" else {"tolerance": 0.3}
     given = {"image": ["picture", 0], "motion": ["motion", 0], "filename_prefix": f"stopped/{file_type}"}
-    prompt = moving_bar(6) | {"saved": ours(node, file_type=file_type, **given, **own)}
+    prompt = drawn_bar(6) | {"saved": ours(node, file_type=file_type, **given, **own)}
     told, stopped = [], standin.progressed
 
     def stop(done: float, total: float, preview: Any, node_id: str | None = None) -> None:
@@ -160,7 +160,7 @@ def test_saving_tells_how_far_it_is_and_leaves_nothing_when_stopped(standin: Any
 def test_layers_from_pictures_move_and_are_saved_frame_by_frame(standin: Any) -> None:
     paper = core("EmptyImage", width=160, height=96, batch_size=1, color=0x4080C0)
     batch = core("ImageBatch", image1=["paper", 0], image2=["picture", 0])
-    prompt = {name: node for name, node in moving_bar().items() if name in ("black", "white", "mask", "picture")}
+    prompt = {name: node for name, node in drawn_bar().items() if name in ("black", "white", "mask", "picture")}
     prompt |= {
         "paper": paper,
         "everywhere": core("MaskToImage", mask=["all", 0]),
@@ -204,7 +204,7 @@ def test_lists_are_gone_through_one_by_one(standin: Any) -> None:
             return io.NodeOutput([0.5, 3.0])
 
     standin.known["Strengths"] = Strengths
-    prompt = moving_bar(3) | {"strengths": core("Strengths")}
+    prompt = drawn_bar(3) | {"strengths": core("Strengths")}
     prompt["scene"]["inputs"]["wind_strength"] = ["strengths", 0]
     weak, strong = pictures(standin, standin.run(prompt), "seen").reshape(2, 3, 96, 160, 3)
     assert np.abs(weak[0] - strong[0]).max() == 0
@@ -227,7 +227,7 @@ def test_lists_are_gone_through_one_by_one(standin: Any) -> None:
 def test_what_a_node_does_not_take_is_refused_before_it_runs(
     standin: Any, key: str, inputs: dict[str, Any], told: str
 ) -> None:
-    prompt = moving_bar(3)
+    prompt = drawn_bar(3)
     prompt[key]["inputs"] |= inputs
     assert told in standin.error_of(prompt)
 
@@ -235,7 +235,7 @@ def test_what_a_node_does_not_take_is_refused_before_it_runs(
 def test_an_interruption_ends_the_node_that_runs(standin: Any) -> None:
     import comfy.model_management
 
-    prompt = moving_bar(200)
+    prompt = drawn_bar(200)
     prompt["scene"]["inputs"]["wind_angle"] = 15.0
     stopped = standin.progressed
 
@@ -252,7 +252,7 @@ def test_an_interruption_ends_the_node_that_runs(standin: Any) -> None:
 
 
 def test_what_a_node_tells_reaches_the_page_and_the_history(standin: Any) -> None:
-    prompt = moving_bar(3)
+    prompt = drawn_bar(3)
     prompt["body"]["inputs"]["preset"] = "jelly"
     (sentence,) = standin.run(prompt)["render"]["advice"]
     assert "looks like pixel art" in sentence

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bar_graphs import core, moving_bar, ours
+from bar_graphs import core, drawn_bar, ours
 from PIL import Image
 
 
@@ -22,7 +22,7 @@ def lines_of(standin: Any, sketch: Image.Image, **options: Any) -> tuple[np.ndar
     """The bar's sketch, bent along, of a drawing in a file."""
     name = f"lines_{hashlib.sha256(sketch.tobytes()).hexdigest()}.png"  # what has a name of its own is not cached
     sketch.save(standin.folder / "input" / name)
-    prompt = moving_bar() | {
+    prompt = drawn_bar() | {
         "drawing": core("LoadImage", image=name),
         "flow": ours("OpticalFlow", motion=["motion", 0]),
         "bent": ours("WarpSketch", sketch=["drawing", 0], flow=["flow", 0], mode="layered", blur_sigma=0.0, **options),
@@ -63,7 +63,7 @@ def test_a_drawing_of_another_size_is_brought_to_the_illustration_s(standin: Any
 
 
 def test_keyframes_stand_in_their_places(standin: Any) -> None:
-    prompt = moving_bar(9)
+    prompt = drawn_bar(9)
     given = {name: prompt["render"]["inputs"][name] for name in ("image", "motion")}
     form = {"frames": 17, "width": 160, "height": 96, "fit": "crop"}
     prompt |= {
@@ -85,7 +85,7 @@ def test_keyframes_stand_in_their_places(standin: Any) -> None:
 
 def test_tracks_are_lists_of_points_of_one_length(standin: Any) -> None:
     """The form of LTXVDrawTracks, which makes as many frames as the longest list has points, and hides shorter ones."""
-    prompt = moving_bar(9)
+    prompt = drawn_bar(9)
     values = {
         "points": 5,
         "static_points": 0,
