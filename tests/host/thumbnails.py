@@ -376,6 +376,7 @@ THUMBNAILS: dict[str, Callable[[], Clip]] = {
     "every_step": lambda: _beside(_over(wireframe=True), _sketches(), _every(_example().flows()), _frames(), same=True),
     "soft_inpaint": lambda: _cut(_beside(_frames(), _holes()[1]), 0.25, 0.0, 0.7),
     "inpaint_plate": lambda: _cut(_beside(_uncovered(), _frames()), 0.25, 0.0, 0.7),
+    "render_from_animation": lambda: _beside(_over(wireframe=True), _frames()),
     "layers": _stack,
     "see_through": _tiles,
     "frame_interpolation": _film,
