@@ -401,7 +401,7 @@ def write(name: str) -> None:
     clip = [Image.fromarray(picture) for picture in THUMBNAILS.get(name, _frames)()]
     place = ROOT / "workflows" / name
     still = max(clip, key=lambda one: np.abs(np.asarray(one, dtype=np.int16) - np.asarray(clip[0])).mean())
-    still.save(place.with_suffix(".jpg"), quality=85)
+    still.save(place.with_suffix(".jpg"), quality=85, optimize=True, progressive=True)
     first, *rest = [one.resize(SMALL, Image.Resampling.LANCZOS) for one in clip]
     first.save(
         place.with_suffix(".webp"),
