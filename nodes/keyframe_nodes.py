@@ -10,6 +10,7 @@ from ..rendering.control import ModelFormat, check_length
 from .drawing import drawing_inputs, drawing_of, in_front_input, told_of_another_picture
 from .host import (
     all_told,
+    announce_batch,
     batch_of_masks,
     batch_of_pictures,
     drawn_lines,
@@ -119,7 +120,9 @@ class Keyframes(io.ComfyNode):
         form, picture = ModelFormat(frames, width, height, fit), picture_of(image)
         at = _numbers(keyframes, frames)
         drawing = drawing_of(motion, picture, plate=given_plate(clean_plate), in_front=in_front)
-        told = all_told(told_of_another_picture(cls, motion, picture), told_of_light_lines(cls, sketch, sketch_lines))
+        told = announce_batch(cls, frames, width, height, channels=4)
+        told = all_told(told, told_of_another_picture(cls, motion, picture))
+        told = all_told(told, told_of_light_lines(cls, sketch, sketch_lines))
         drawn = motion_keyframes(picture, motion.masks, motion.motion, form, at=at, renderer=drawing)
         host_check()
         clip, missing = placed_keyframes(drawn, at, frames)
@@ -220,6 +223,7 @@ class WanKeyframes(io.ComfyNode):
 
         check_length(length, name="length")
         form, at = ModelFormat(length, width, height), _places(indices, length)
+        told_size = announce_batch(cls, length, width, height, channels=4)
         pictures = [form.resized(each) for each in pictures_of(keyframes, name="keyframes")]
         clip, _ = placed_keyframes(pictures, at, length)
         scale = vae.spacial_compression_encode()
@@ -231,7 +235,7 @@ class WanKeyframes(io.ComfyNode):
         }
         told = ([[tensor, {**more, **shown}] for tensor, more in each] for each in (positive, negative))
         empty = torch.zeros(batch_size, vae.latent_channels, missing.shape[1], rows, columns)
-        return io.NodeOutput(*told, {"samples": empty})
+        return io.NodeOutput(*told, {"samples": empty}, ui=told_size or None)
 
 
 def _places(text: str, length: int) -> list[int]:
