@@ -104,6 +104,9 @@ def drawing_of(
     moved = motion.motion
     front = in_front_of(in_front, moved.width, moved.height)
     if motion.layers is None:
+        if plate is not None:
+            sizes = [f"{each.shape[1]} x {each.shape[0]} px" for each in (plate, picture)]
+            require("clean_plate", sizes[0], sizes[0] == sizes[1], f"of the image's size, {sizes[1]}")
         front = motion.in_front if front is None else front
         return partial(renderer_of, picture, motion.masks, plate=plate, pixel_art=pixel_art, in_front=front)
     given = {"clean_plate": plate is not None, "in_front": front is not None, "pixel_art": pixel_art}

@@ -67,3 +67,13 @@ def test_motion_vectors_are_refused_first_where_their_package_is_missing(
     errors, _ = standin.post(prompt)
     assert "saved" not in standin.executed
     assert "pip install OpenEXR" in errors["saved"][0]["details"]
+
+
+@pytest.mark.parametrize("node", ["Render", "SaveAnimation", "WarpedVideo", "TimeToMove", "Keyframes"])
+def test_a_clean_plate_of_another_size_is_called_by_its_name(standin: Any, node: str) -> None:
+    prompt = moving_bar(2) | {"small": core("EmptyImage", width=80, height=48, batch_size=1, color=0)}
+    given = NODES.get(node, SHOWN) | {"clean_plate": ["small", 0]}
+    given |= {"filename_prefix": "film", "file_type": "mp4", "width": 0} if node == "SaveAnimation" else {}
+    prompt |= {"tried": ours(node, **given), "end": core("PreviewAny", source=["tried", 0])}
+    said = standin.error_of(prompt)
+    assert "clean_plate must be of the image's size, 160 x 96 px. Got: 80 x 48 px" in said
