@@ -19,6 +19,8 @@ from transformers import CLIPImageProcessor, CLIPVisionModelWithProjection
 
 __all__ = ["draw", "loaded"]
 
+# What the public folder's documents say and those of random_svd do not, as the renderer does not read it.
+_AUTOENCODER = {"down_block_types": ("DownEncoderBlock2D",) * 4, "layers_per_block": 2, "latent_channels": 4}
 _SCHEDULER = {
     "beta_start": 0.00085,
     "beta_end": 0.012,
@@ -45,14 +47,10 @@ def loaded(
         device: where its networks are.
         in_turns: they come there only for their work, as ours do; otherwise all are there all the time, as usual.
     """
-    unet, autoencoder, encoder = (
-        kind.from_pretrained(folder / name, torch_dtype=dtype)
-        for kind, name in (
-            (UNetSpatioTemporalConditionModel, "unet"),
-            (AutoencoderKLTemporalDecoder, "vae"),
-            (CLIPVisionModelWithProjection, "image_encoder"),
-        )
-    )
+    given = {"torch_dtype": dtype}
+    unet = UNetSpatioTemporalConditionModel.from_pretrained(folder / "unet", **given)
+    autoencoder = AutoencoderKLTemporalDecoder.from_pretrained(folder / "vae", **_AUTOENCODER, **given)
+    encoder = CLIPVisionModelWithProjection.from_pretrained(folder / "image_encoder", hidden_act="gelu", **given)
     scheduler = EulerDiscreteScheduler(**_SCHEDULER)
     pipeline = StableVideoDiffusionPipeline(autoencoder, encoder, unet, scheduler, CLIPImageProcessor())
     pipeline.set_progress_bar_config(disable=True)

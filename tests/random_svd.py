@@ -108,14 +108,7 @@ def write_folder(
             "projection_class_embeddings_input_dim": network.adm_in_channels,
             "addition_time_embed_dim": network.ids_embed_dim,
         },
-        "vae": {
-            "block_out_channels": sizes.autoencoder,
-            "down_block_types": ["DownEncoderBlock2D"] * len(sizes.autoencoder),
-            "layers_per_block": 2,
-            "latent_channels": 4,
-            "force_upcast": True,
-            "scaling_factor": 0.18215,
-        },
+        "vae": {"block_out_channels": sizes.autoencoder},
         "image_encoder": {
             "hidden_size": encoder.width,
             "num_hidden_layers": encoder.layers,
@@ -124,7 +117,6 @@ def write_folder(
             "patch_size": encoder.patch,
             "image_size": encoder.picture,
             "projection_dim": encoder.projection,
-            "hidden_act": "gelu",
         },
     }
     places = torch.arange(5)[None]
