@@ -10,6 +10,7 @@ from comfy_api.latest import io
 
 from ..physics.errors import InvalidInputError, require
 from .host import mask_of, tell_user
+from .host.wires import MotionWire
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,10 +21,38 @@ if TYPE_CHECKING:
     from ..physics.motion import Motion
     from .host.wires import MaskedMotion
 
-__all__ = ["drawing_of", "in_front_input", "in_front_of", "told_of_another_picture"]
+__all__ = [
+    "clean_plate_input",
+    "drawing_inputs",
+    "drawing_of",
+    "in_front_input",
+    "in_front_of",
+    "told_of_another_picture",
+]
 
 # Mean difference that no rounding of colours makes, 2 levels of 255.
 _ANOTHER = 2 / 255
+
+
+def drawing_inputs(along: str = "the masks") -> list[Any]:
+    """The inputs image and motion.
+
+    Args:
+        along: what the node takes from the motion besides.
+    """
+    return [
+        io.Image.Input("image", tooltip="The illustration (one picture)."),
+        MotionWire.Input("motion", tooltip=f"From Simulate; it carries {along} along."),
+    ]
+
+
+def clean_plate_input() -> Any:
+    """The optional input clean_plate."""
+    return io.Image.Input(
+        "clean_plate",
+        optional=True,
+        tooltip="The picture without the moving parts. Painted automatically when left out.",
+    )
 
 
 def in_front_input() -> Any:
@@ -75,6 +104,9 @@ def drawing_of(
     moved = motion.motion
     front = in_front_of(in_front, moved.width, moved.height)
     if motion.layers is None:
+        if plate is not None:
+            sizes = [f"{each.shape[1]} x {each.shape[0]} px" for each in (plate, picture)]
+            require("clean_plate", sizes[0], sizes[0] == sizes[1], f"of the image's size, {sizes[1]}")
         front = motion.in_front if front is None else front
         return partial(renderer_of, picture, motion.masks, plate=plate, pixel_art=pixel_art, in_front=front)
     given = {"clean_plate": plate is not None, "in_front": front is not None, "pixel_art": pixel_art}

@@ -9,9 +9,9 @@ from comfy_api.latest import io
 
 from ..rendering.moving_pieces import DEFAULT_TOLERANCE, check_tolerance
 from .background_inputs import image_alpha_input
-from .drawing import drawing_of, in_front_input, told_of_another_picture
+from .drawing import clean_plate_input, drawing_inputs, drawing_of, in_front_input, told_of_another_picture
 from .host import SPINE, all_told, check_prefix, free_place, host_progress, picture_with_alpha, refusal, tell_user
-from .host.wires import MaskedMotion, MotionWire
+from .host.wires import MaskedMotion
 from .saving_inputs import place_inputs
 
 if TYPE_CHECKING:
@@ -33,8 +33,7 @@ class SaveSpineOrGltf(io.ComfyNode):
             " skeleton, or a glTF scene for Blender and 3D engines. Each layer or part is a piece of its own.",
             is_output_node=True,
             inputs=[
-                io.Image.Input("image", tooltip="The illustration (one picture)."),
-                MotionWire.Input("motion", tooltip="From Simulate; it carries the masks and the frame rate along."),
+                *drawing_inputs("the masks and the frame rate"),
                 *place_inputs(
                     "animation/PhysAnimator",
                     (SPINE, _GLTF),
@@ -50,11 +49,7 @@ class SaveSpineOrGltf(io.ComfyNode):
                     tooltip="How far a vertex may be from the motion [px]: with more there are fewer keys and targets,"
                     " and smaller files.",
                 ),
-                io.Image.Input(
-                    "clean_plate",
-                    optional=True,
-                    tooltip="The picture without the moving parts. Painted automatically when left out.",
-                ),
+                clean_plate_input(),
                 image_alpha_input(),
                 in_front_input(),
             ],

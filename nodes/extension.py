@@ -12,6 +12,7 @@ from .editable_nodes import SaveSpineOrGltf
 from .example_nodes import ExampleIllustration
 from .flow_nodes import OpticalFlow, PreviewFlow, SaveMotionVectors
 from .host import checked, watch_prompts
+from .interpolate_nodes import Interpolate
 from .keyframe_nodes import Keyframes, WanKeyframes
 from .layer_nodes import LayersFromImageBatch, LoadLayers, SaveLayers, SeeThroughLayers
 from .mask_nodes import MaskToMesh, SegmentByPoints
@@ -20,7 +21,7 @@ from .motion_nodes import PreviewMotion, Simulate
 from .noise_nodes import MovingNoise
 from .paint_nodes import PaintMaterial
 from .preview import register_routes
-from .render_nodes import Interpolate, Render
+from .render_nodes import Render
 from .rig_nodes import RigPoint
 from .save_nodes import SaveAnimation
 from .scene_editor_nodes import SceneEditor

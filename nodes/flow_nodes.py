@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from comfy_api.latest import io
 
-from ..rendering.export import VECTOR_CHANNELS, VectorChannels
+from ..rendering.export import VECTOR_CHANNELS, VectorChannels, check_openexr
 from .host import (
     EXR,
     announce_batch,
@@ -115,7 +115,8 @@ class SaveMotionVectors(io.ComfyNode):
 
     @classmethod
     def validate_inputs(cls, filename_prefix: str | None = None) -> bool | str:
-        return refusal(*([] if filename_prefix is None else [lambda: check_prefix(filename_prefix)]))
+        # Before the simulation, not after it.
+        return refusal(check_openexr, *([] if filename_prefix is None else [lambda: check_prefix(filename_prefix)]))
 
     @classmethod
     def execute(cls, motion: MaskedMotion, filename_prefix: str, channels: VectorChannels) -> io.NodeOutput:

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 from comfy_api.latest import io
 
-from ..rendering.control import ModelFormat
-from .drawing import drawing_of, in_front_input, told_of_another_picture
+from ..rendering.control import ModelFormat, check_length
+from .drawing import drawing_inputs, drawing_of, in_front_input, told_of_another_picture
 from .host import (
     all_told,
+    announce_batch,
     batch_of_masks,
     batch_of_pictures,
     drawn_lines,
@@ -17,13 +18,20 @@ from .host import (
     not_made,
     picture_of,
     pictures_of,
-    refusal,
     sketch_lines_input,
     told_of_light_lines,
     whole_numbers_of,
 )
-from .host.wires import MaskedMotion, MotionWire
-from .video_format_inputs import form_outputs, form_values, given_plate, length_input, plate_input, size_inputs
+from .host.wires import MaskedMotion
+from .video_format_inputs import (
+    form_outputs,
+    form_values,
+    given_plate,
+    length_input,
+    plate_input,
+    refused_form,
+    size_inputs,
+)
 
 if TYPE_CHECKING:
     import torch
@@ -47,8 +55,7 @@ class Keyframes(io.ComfyNode):
             description="Frames of the motion at chosen places of a clip, between which a video model draws: for"
             " Keyframes to Wan Video, for WanVaceToVideo, or to be painted over by hand first.",
             inputs=[
-                io.Image.Input("image", tooltip="The illustration (one picture)."),
-                MotionWire.Input("motion", tooltip="From Simulate; it carries the masks along."),
+                *drawing_inputs(),
                 length_input(),
                 *size_inputs(),
                 io.String.Input(
@@ -82,10 +89,16 @@ class Keyframes(io.ComfyNode):
         )
 
     @classmethod
-    def validate_inputs(cls, keyframes: str | None = None, frames: int | None = None) -> bool | str:
-        if keyframes is None or frames is None:
-            return True
-        return refusal(lambda: _numbers(keyframes, frames))
+    def validate_inputs(
+        cls,
+        frames: int | None = None,
+        width: int | None = None,
+        height: int | None = None,
+        keyframes: str | None = None,
+    ) -> bool | str:
+        known = keyframes is not None and frames is not None
+        checks = [lambda: _numbers(keyframes or "", frames or 0)] if known else []
+        return refused_form(*checks, frames=frames, width=width, height=height)
 
     @classmethod
     def execute(
@@ -107,7 +120,9 @@ class Keyframes(io.ComfyNode):
         form, picture = ModelFormat(frames, width, height, fit), picture_of(image)
         at = _numbers(keyframes, frames)
         drawing = drawing_of(motion, picture, plate=given_plate(clean_plate), in_front=in_front)
-        told = all_told(told_of_another_picture(cls, motion, picture), told_of_light_lines(cls, sketch, sketch_lines))
+        told = announce_batch(cls, frames, width, height, channels=4)
+        told = all_told(told, told_of_another_picture(cls, motion, picture))
+        told = all_told(told, told_of_light_lines(cls, sketch, sketch_lines))
         drawn = motion_keyframes(picture, motion.masks, motion.motion, form, at=at, renderer=drawing)
         host_check()
         clip, missing = placed_keyframes(drawn, at, frames)
@@ -177,6 +192,19 @@ class WanKeyframes(io.ComfyNode):
         )
 
     @classmethod
+    def validate_inputs(
+        cls,
+        width: int | None = None,
+        height: int | None = None,
+        length: int | None = None,
+        indices: str | None = None,
+    ) -> bool | str:
+        checks = [] if length is None else [lambda: check_length(length, name="length")]
+        if length is not None and indices is not None:
+            checks.append(lambda: _places(indices, length))
+        return refused_form(*checks, width=width, height=height)
+
+    @classmethod
     def execute(
         cls,
         positive: Any,
@@ -193,10 +221,9 @@ class WanKeyframes(io.ComfyNode):
 
         from ..rendering.control import known_latents, placed_keyframes
 
-        form = ModelFormat(length, width, height)
-        at = [
-            number % length if -length <= number < 0 else number for number in whole_numbers_of(indices, name="indices")
-        ]
+        check_length(length, name="length")
+        form, at = ModelFormat(length, width, height), _places(indices, length)
+        told_size = announce_batch(cls, length, width, height, channels=4)
         pictures = [form.resized(each) for each in pictures_of(keyframes, name="keyframes")]
         clip, _ = placed_keyframes(pictures, at, length)
         scale = vae.spacial_compression_encode()
@@ -208,4 +235,17 @@ class WanKeyframes(io.ComfyNode):
         }
         told = ([[tensor, {**more, **shown}] for tensor, more in each] for each in (positive, negative))
         empty = torch.zeros(batch_size, vae.latent_channels, missing.shape[1], rows, columns)
-        return io.NodeOutput(*told, {"samples": empty})
+        return io.NodeOutput(*told, {"samples": empty}, ui=told_size or None)
+
+
+def _places(text: str, length: int) -> list[int]:
+    """Frame numbers from 0, in the order in which they were typed.
+
+    Raises:
+        InvalidInputError: one is no frame of the clip, or comes twice.
+    """
+    from ..rendering.control import moments
+
+    typed = whole_numbers_of(text, name="indices")
+    moments(typed, length, name="indices")
+    return [number % length for number in typed]

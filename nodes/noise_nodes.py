@@ -8,7 +8,7 @@ from ..physics.motion import Fit
 from ..rendering.control import ModelFormat
 from .host import announce_batch, host_progress
 from .host.wires import MaskedMotion, MotionWire
-from .video_format_inputs import length_input, size_inputs
+from .video_format_inputs import length_input, refused_form, size_inputs
 
 __all__ = ["MovingNoise"]
 
@@ -42,6 +42,12 @@ class MovingNoise(io.ComfyNode):
                 )
             ],
         )
+
+    @classmethod
+    def validate_inputs(
+        cls, frames: int | None = None, width: int | None = None, height: int | None = None
+    ) -> bool | str:
+        return refused_form(frames=frames, width=width, height=height)
 
     @classmethod
     def execute(

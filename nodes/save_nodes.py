@@ -11,7 +11,7 @@ from comfy_api.latest import io, ui
 from ..physics.errors import require
 from ..rendering.pictures import FORMATS, check_output
 from .background_inputs import background_chosen, background_inputs
-from .drawing import drawing_of, in_front_input, told_of_another_picture
+from .drawing import clean_plate_input, drawing_inputs, drawing_of, in_front_input, told_of_another_picture
 from .host import (
     FILE_TYPES,
     FRAMES,
@@ -25,7 +25,7 @@ from .host import (
     refusal,
     shown_with,
 )
-from .host.wires import MaskedMotion, MotionWire
+from .host.wires import MaskedMotion
 from .saving_inputs import place_inputs
 
 if TYPE_CHECKING:
@@ -50,8 +50,7 @@ class SaveAnimation(io.ComfyNode):
             " need no memory for a batch.",
             is_output_node=True,
             inputs=[
-                io.Image.Input("image", tooltip="The illustration (one picture)."),
-                MotionWire.Input("motion", tooltip="From Simulate; it carries the masks and the frame rate along."),
+                *drawing_inputs("the masks and the frame rate"),
                 *place_inputs(
                     "animation/PhysAnimator",
                     FILE_TYPES,
@@ -66,11 +65,7 @@ class SaveAnimation(io.ComfyNode):
                     max=_LONGEST_SIDE,
                     tooltip="Width of the frames [px], the height follows; 0 is the illustration's own size.",
                 ),
-                io.Image.Input(
-                    "clean_plate",
-                    optional=True,
-                    tooltip="The picture without the moving parts. Painted automatically when left out.",
-                ),
+                clean_plate_input(),
                 *background_inputs(),
                 in_front_input(),
             ],

@@ -8,7 +8,7 @@ from comfy_api.latest import io
 
 from ..physics.motion import FITS, Fit
 from ..rendering.control import AREAS, FRAME_STEP, SIZE_STEP, TIMINGS, ModelFormat, Timing
-from .drawing import drawing_of, in_front_input, told_of_another_picture
+from .drawing import clean_plate_input, drawing_inputs, drawing_of, in_front_input, told_of_another_picture
 from .host import (
     all_told,
     announce_batch,
@@ -19,8 +19,8 @@ from .host import (
     picture_of,
     tell_user,
 )
-from .host.wires import MaskedMotion, MotionWire
-from .video_format_inputs import form_outputs, given_plate
+from .host.wires import MaskedMotion
+from .video_format_inputs import form_outputs, given_plate, refused_form
 
 if TYPE_CHECKING:
     import torch
@@ -42,8 +42,7 @@ class TimeToMove(io.ComfyNode):
             " moving parts and its first frame, in one size and length: for WanVideoAddTTMLatents, or the host's own"
             " samplers.",
             inputs=[
-                io.Image.Input("image", tooltip="The illustration (one picture)."),
-                MotionWire.Input("motion", tooltip="From Simulate; it carries the masks along."),
+                *drawing_inputs(),
                 io.Int.Input(
                     "frames",
                     default=_USUAL.frames,
@@ -93,11 +92,7 @@ class TimeToMove(io.ComfyNode):
                     tooltip="How far the mask reaches beyond the moving parts [px of the illustration]. It covers whole"
                     " cells of 8 x 8 px in any case.",
                 ),
-                io.Image.Input(
-                    "clean_plate",
-                    optional=True,
-                    tooltip="The picture without the moving parts. Painted automatically when left out.",
-                ),
+                clean_plate_input(),
                 in_front_input(),
             ],
             outputs=[
@@ -117,6 +112,18 @@ class TimeToMove(io.ComfyNode):
                 io.String.Output(display_name="rules", tooltip="What became of length and size, in words."),
             ],
         )
+
+    @classmethod
+    def validate_inputs(
+        cls,
+        frames: int | None = None,
+        timing: str | None = None,
+        size: str | None = None,
+        width: int | None = None,
+        height: int | None = None,
+    ) -> bool | str:
+        used = {"frames": frames} if timing in TIMINGS[:2] else {}
+        return refused_form(**used | ({"width": width, "height": height} if size == _OWN_SIZE else {}))
 
     @classmethod
     def execute(

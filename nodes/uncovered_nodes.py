@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from comfy_api.latest import io
 
 from .background_inputs import image_alpha_input
-from .drawing import drawing_of, in_front_input, told_of_another_picture
+from .drawing import drawing_inputs, drawing_of, in_front_input, told_of_another_picture
 from .host import all_told, batch_of_masks, batch_of_pictures, host_progress, picture_with_alpha, tell_user
-from .host.wires import MaskedMotion, MotionWire
+from .host.wires import MaskedMotion
 
 if TYPE_CHECKING:
     import torch
@@ -30,8 +30,7 @@ class UncoveredArea(io.ComfyNode):
             description="What the moving parts uncover in the whole clip, as one mask, and the picture without them:"
             " an image model of your own paints it once, and the result goes to Render's clean_plate.",
             inputs=[
-                io.Image.Input("image", tooltip="The illustration (one picture)."),
-                MotionWire.Input("motion", tooltip="From Simulate; it carries the masks along."),
+                *drawing_inputs(),
                 io.Int.Input(
                     "grow",
                     default=8,

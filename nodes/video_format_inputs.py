@@ -8,14 +8,24 @@ from comfy_api.latest import io
 
 from ..physics.motion import FITS
 from ..rendering.control import FRAME_STEP, SIZE_STEP, ModelFormat
-from .host import picture_of
+from .host import picture_of, refusal
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import torch
 
     from .host.wires import MaskedMotion
 
-__all__ = ["form_outputs", "form_values", "given_plate", "length_input", "plate_input", "size_inputs"]
+__all__ = [
+    "form_outputs",
+    "form_values",
+    "given_plate",
+    "length_input",
+    "plate_input",
+    "refused_form",
+    "size_inputs",
+]
 
 _USUAL = ModelFormat()
 
@@ -53,6 +63,17 @@ def size_inputs() -> list[Any]:
         " stretched.",
     )
     return [*sides, fit]
+
+
+def refused_form(*checks: Callable[[], Any], **form: int | None) -> bool | str:
+    """Why typed numbers are refused before the graph runs, or True: what ``validate_inputs`` gives.
+
+    Args:
+        checks: of other inputs; each raises when a value is unusable.
+        form: frames, width and height, as far as they are inputs; None where another node gives the number.
+    """
+    typed = {name: value for name, value in form.items() if value is not None}
+    return refusal(lambda: ModelFormat(**typed), *checks)
 
 
 def plate_input() -> Any:

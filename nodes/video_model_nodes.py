@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from comfy_api.latest import io
 
 from ..rendering.control import ModelFormat
-from .drawing import drawing_of, in_front_input, told_of_another_picture
+from .drawing import drawing_inputs, drawing_of, in_front_input, told_of_another_picture
 from .host import (
     all_told,
     announce_batch,
@@ -21,7 +21,15 @@ from .host import (
     told_of_light_lines,
 )
 from .host.wires import MaskedMotion, MotionWire
-from .video_format_inputs import form_outputs, form_values, given_plate, length_input, plate_input, size_inputs
+from .video_format_inputs import (
+    form_outputs,
+    form_values,
+    given_plate,
+    length_input,
+    plate_input,
+    refused_form,
+    size_inputs,
+)
 
 if TYPE_CHECKING:
     import torch
@@ -44,8 +52,7 @@ class WarpedVideo(io.ComfyNode):
             description="The illustration with its parts moved, grey where they have uncovered something, and masks of"
             " these holes: the control video and control masks of WanVaceToVideo.",
             inputs=[
-                io.Image.Input("image", tooltip="The illustration (one picture)."),
-                MotionWire.Input("motion", tooltip="From Simulate; it carries the masks along."),
+                *drawing_inputs(),
                 length_input(),
                 *size_inputs(),
                 io.Int.Input(
@@ -64,6 +71,12 @@ class WarpedVideo(io.ComfyNode):
                 *form_outputs(),
             ],
         )
+
+    @classmethod
+    def validate_inputs(
+        cls, frames: int | None = None, width: int | None = None, height: int | None = None
+    ) -> bool | str:
+        return refused_form(frames=frames, width=width, height=height)
 
     @classmethod
     def execute(
@@ -122,6 +135,12 @@ class LineControlVideo(io.ComfyNode):
         )
 
     @classmethod
+    def validate_inputs(
+        cls, frames: int | None = None, width: int | None = None, height: int | None = None
+    ) -> bool | str:
+        return refused_form(frames=frames, width=width, height=height)
+
+    @classmethod
     def execute(
         cls,
         sketch: torch.Tensor,
@@ -160,8 +179,7 @@ class FirstAndLastFrame(io.ComfyNode):
             description="Two frames of the motion: start and end image of WanFirstLastFrameToVideo, which draws what is"
             " between.",
             inputs=[
-                io.Image.Input("image", tooltip="The illustration (one picture)."),
-                MotionWire.Input("motion", tooltip="From Simulate; it carries the masks along."),
+                *drawing_inputs(),
                 io.Int.Input(
                     "first_frame",
                     default=0,
@@ -187,6 +205,10 @@ class FirstAndLastFrame(io.ComfyNode):
                 io.Int.Output("out_height", display_name="height", tooltip="For the model's node [px]."),
             ],
         )
+
+    @classmethod
+    def validate_inputs(cls, width: int | None = None, height: int | None = None) -> bool | str:
+        return refused_form(width=width, height=height)
 
     @classmethod
     def execute(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import unicodedata
 from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
@@ -13,6 +14,9 @@ __all__ = ["PATH_FORMS", "boxes_of", "chosen", "keys_of", "numbers_of", "refusal
 
 PATH_FORMS = "as JSON: [[x, y], ...], or objects with x and y, as spline editors write it."
 """How a tooltip says what may be typed for a path."""
+
+# The ideographic comma and the minus sign, which normalisation leaves as they are.
+_MEANT = str.maketrans({"\u3001": ",", "\u2212": "-"})
 
 
 def refusal(*checks: Callable[[], Any]) -> bool | str:
@@ -73,7 +77,7 @@ def numbers_of(text: str, *, name: str, like: str) -> tuple[float, ...]:
     Raises:
         InvalidInputError: the text holds something else.
     """
-    bare = text.strip().removeprefix("[").removesuffix("]").strip()
+    bare = _plain(text).removeprefix("[").removesuffix("]").strip()
     if not bare:
         return ()
     try:
@@ -111,7 +115,7 @@ def boxes_of(text: str, *, name: str) -> tuple[tuple[float, float, float, float]
     if not text.strip():
         return ()
     try:
-        value = json.loads(text)
+        value = json.loads(_plain(text))
         boxes = value if isinstance(value[0], list) else [value]
         x_y = [tuple(float(number) for number in box) for box in boxes]
     except (TypeError, ValueError, KeyError, IndexError, OverflowError, RecursionError):
@@ -134,9 +138,14 @@ def keys_of(text: str, *, name: str) -> tuple[tuple[float, float], ...]:
     if not text.strip():
         return ()
     try:
-        return tuple((float(part), float(factor)) for part, factor in json.loads(text))
+        return tuple((float(part), float(factor)) for part, factor in json.loads(_plain(text)))
     except (TypeError, ValueError, OverflowError, RecursionError):
         raise InvalidInputError(
             f"{name} must be a list of pairs [part of the path from 0 to 1, factor] such as [[0, 1], [1, 0.5]]."
             f" Got: {text[:60]}"
         ) from None
+
+
+def _plain(text: str) -> str:
+    """Digits, commas and brackets of East Asian keyboards as the plain ones that they stand for."""
+    return unicodedata.normalize("NFKC", text).translate(_MEANT).strip()

@@ -6,7 +6,7 @@ from .clip_rules import AREAS, TIMINGS, Timing, suitable_length, suitable_size, 
 from .control_video import first_and_last, line_frames, warped_frames
 from .crude_animation import LATENT_CELL, LatentStep, time_to_move
 from .keyframes import known_latents, moments, motion_keyframes, placed_keyframes
-from .model_format import FRAME_STEP, SIZE_STEP, ModelFormat
+from .model_format import FRAME_STEP, SIZE_STEP, ModelFormat, check_length
 from .moving_noise import experimental_moving_noise
 
 __all__ = [
@@ -18,6 +18,7 @@ __all__ = [
     "LatentStep",
     "ModelFormat",
     "Timing",
+    "check_length",
     "experimental_moving_noise",
     "first_and_last",
     "known_latents",

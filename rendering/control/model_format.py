@@ -13,12 +13,26 @@ from ...physics.errors import require
 from ...physics.motion import FITS, Fit, Motion, frame_at, sample_times
 from ..overlays import reframed
 
-__all__ = ["FRAME_STEP", "SIZE_STEP", "ModelFormat"]
+__all__ = ["FRAME_STEP", "SIZE_STEP", "ModelFormat", "check_length"]
 
 FRAME_STEP = 4
 """Wan makes four frames of each step of its latents, after the first one."""
 SIZE_STEP = 16
 """Wan's latents are 1/8 of the size, and it reads them in squares of two [px]."""
+
+
+def check_length(frames: int, *, name: str = "frames") -> None:
+    """Refuse a length that Wan does not know.
+
+    Args:
+        frames: of the clip.
+        name: what the user calls it.
+
+    Raises:
+        InvalidInputError: it is not 4 k + 1.
+    """
+    check_whole(name, frames, 1, 100_001)
+    require(name, frames, frames % FRAME_STEP == 1, "4 k + 1, such as 49 or 81: Wan knows no other length")
 
 
 @dataclass(frozen=True)
@@ -44,9 +58,7 @@ class ModelFormat:
     fit: Fit = "crop"
 
     def __post_init__(self) -> None:
-        check_whole("frames", self.frames, 1, 100_001)
-        whole = self.frames >= 1 and self.frames % FRAME_STEP == 1
-        require("frames", self.frames, whole, "4 k + 1, such as 49 or 81: Wan knows no other length")
+        check_length(self.frames)
         for name in ("width", "height"):
             side = getattr(self, name)
             check_whole(name, side, SIZE_STEP, 16_384, unit=" px")

@@ -6,6 +6,7 @@ from .gltf import GltfScene, save_gltf
 from .motion_vectors import (
     VECTOR_CHANNELS,
     VectorChannels,
+    check_openexr,
     check_vectors_folder,
     exr_channels,
     save_motion_vectors,
@@ -23,6 +24,7 @@ __all__ = [
     "PuppetPiece",
     "SpineSkeleton",
     "VectorChannels",
+    "check_openexr",
     "check_spine_folder",
     "check_vectors_folder",
     "exr_channels",

@@ -27,6 +27,7 @@ from ..files import RecordedFiles, StrPath, check_recorded_folder, write_recorde
 __all__ = [
     "VECTOR_CHANNELS",
     "VectorChannels",
+    "check_openexr",
     "check_vectors_folder",
     "exr_channels",
     "save_motion_vectors",
@@ -59,6 +60,11 @@ def exr_channels(vectors: MotionVectors, channels: VectorChannels) -> dict[str, 
         both = np.dstack([backward, -forward])
         named = {f"ViewLayer.Vector.{name}": both[..., number] for number, name in enumerate("XYZW")}
     return {name: np.ascontiguousarray(values) + np.float32(0) for name, values in named.items()}  # no -0
+
+
+def check_openexr() -> None:
+    """Refuse to go on without the package that writes the files; raises InvalidInputError."""
+    _openexr()
 
 
 def check_vectors_folder(path: StrPath, *, coming: Collection[Path] = ()) -> Path:

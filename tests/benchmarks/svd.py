@@ -1,10 +1,12 @@
-"""The sketch-guided renderer with random weights of full size: loading in every format, seconds and memory of clips.
+"""The renderer by Stable Video Diffusion, random weights of full size: loading in every format, seconds and memory.
 
     python tests/benchmarks/svd.py --json
+    python tests/benchmarks/svd.py --no-loading --modes animation plain diffusers --frames 14 --json
 
-Files are written to a temporary folder (13 GB) and each format is loaded in a process of its own. Memory that only
-maps a file is not counted: the system can take it back. Clips are drawn on a GPU if there is one; on a CPU, where they
-would take hours, with small networks, and only --size full draws them with the real ones there too.
+Files are written to a temporary folder (13 GB) and each format is loaded in a process of its own, as each mode of
+drawing clips is (see svd_clips.py). Memory that only maps a file is not counted: the system can take it back. Clips are
+drawn on a GPU if there is one; on a CPU, where they would take hours, with small networks, and only --size full draws
+them with the real ones there too.
 """
 
 from __future__ import annotations
@@ -12,32 +14,28 @@ from __future__ import annotations
 import argparse
 import json
 import multiprocessing
+import sys
 import tempfile
-import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import source_tree  # loads this source tree as the package physanimator
 import torch
-from physanimator.rendering.networks.memory import bytes_of, peak_memory
-from physanimator.rendering.networks.placement import Placement
-from physanimator.rendering.svd import FrameLayout, NetworkConfiguration, SVDOptions
+from physanimator.rendering.networks.memory import bytes_of
+from physanimator.rendering.svd import FrameLayout, NetworkConfiguration
 from physanimator.rendering.svd.autoencoder import build_autoencoder
 from physanimator.rendering.svd.controlnet import SketchControlNet
-from physanimator.rendering.svd.models import SVDModels, load_models
-from physanimator.rendering.svd.renderer import SVDRenderer
+from physanimator.rendering.svd.models import load_models
 from physanimator.rendering.svd.svd_weights import ModelSizes
 from physanimator.rendering.svd.unet import SpatioTemporalUNet
+from svd_clips import AREAS, GIB, MODES, SMALL, OwnMemory, clips
 from torch._subclasses.fake_tensor import FakeTensorMode
 
 random_svd = source_tree.helper("random_svd")
 LiveTensors = source_tree.helper("live_tensors").LiveTensors
 
-GIB = 2**30
-AREAS = {"448x256": (448, 256), "576x320": (576, 320), "768x448": (768, 448), "1024x576": (1024, 576)}
 FORMATS = {
     "single file, training checkpoint": ("svd.safetensors", "lvcd.ckpt"),
     "diffusers folder, pruned safetensors": ("svd", "lvcd-fp16.safetensors"),
@@ -53,30 +51,6 @@ def written(folder: Path, sizes: ModelSizes) -> None:
         random_svd.write_lvcd(folder / name, weights, dtype=torch.float16)
 
 
-class OwnMemory:
-    """Most memory of this process beyond mapped files, while active [bytes]; 0 where the system does not tell."""
-
-    def __enter__(self) -> OwnMemory:
-        self.peak, self._start, self._done = 0, _own_bytes(), threading.Event()
-        self._thread = threading.Thread(target=self._watch)
-        self._thread.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._done.set()
-        self._thread.join()
-
-    def _watch(self) -> None:
-        while not self._done.wait(0.005):
-            self.peak = max(self.peak, _own_bytes() - self._start)
-
-
-def _own_bytes() -> int:
-    status = Path("/proc/self/status")
-    lines = status.read_text().splitlines() if status.exists() else []
-    return next((1024 * int(line.split()[1]) for line in lines if line.startswith("RssAnon:")), 0)
-
-
 def loading(folder: Path, files: tuple[str, str], dtype: str, sizes: ModelSizes) -> dict[str, float]:
     """Seconds and memory of loading, and the size of what was loaded."""
     began = time.perf_counter()
@@ -88,28 +62,6 @@ def loading(folder: Path, files: tuple[str, str], dtype: str, sizes: ModelSizes)
         "seconds": seconds,
         "weights_gib": sum(map(bytes_of, networks)) / GIB,
         "most_own_memory_gib": memory.peak / GIB,
-    }
-
-
-def drawing(models: SVDModels, frames: int, size: tuple[int, int], steps: int, device: Any) -> dict[str, float]:
-    """Seconds and peak memory of a clip."""
-    width, height = size
-    options = SVDOptions(steps=steps, area=width * height)
-    renderer = SVDRenderer(models, options=options, placement=Placement(device))
-    random = np.random.default_rng(0)
-    image = random.random((height, width, 3), dtype=np.float32)
-    if device.type == "cuda":
-        torch.cuda.reset_peak_memory_stats(device)
-    marks: list[float] = []
-    began = time.perf_counter()
-    count = len(
-        list(renderer.frames(image, [image[..., 0]] * frames, progress=lambda *_: marks.append(time.perf_counter())))
-    )
-    assert count == frames
-    return {
-        "seconds": time.perf_counter() - began,
-        "seconds_a_step": float(np.median(np.diff(marks[:steps]))),
-        "peak_gib": peak_memory(device) / GIB,
     }
 
 
@@ -150,11 +102,14 @@ def main() -> None:
     """Read the command line, measure, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--size", choices=["auto", "full", "tiny"], default="auto", help="of the networks of clips")
-    parser.add_argument("--frames", type=int, nargs="+", default=[15, 35])
+    parser.add_argument("--modes", choices=MODES, nargs="+", default=list(MODES), help="who draws clips, after what")
+    parser.add_argument("--frames", type=int, nargs="+", default=[14, 35])
     parser.add_argument("--areas", choices=list(AREAS), nargs="+", default=["576x320", "1024x576"])
     parser.add_argument("--steps", type=int, default=25, help="sampling steps of a segment (default 25)")
     parser.add_argument("--dtype", choices=["float16", "bfloat16", "float32"], help="default: float16 on a GPU")
-    parser.add_argument("--no-loading", action="store_true", help="leave out loading the full-size files")
+    parser.add_argument(
+        "--no-loading", action="store_true", help="leave out what needs no clips: loading, counted memory"
+    )
     parser.add_argument("--no-compile", action="store_true", help="leave out compiled networks")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
     options = parser.parse_args()
@@ -180,29 +135,28 @@ def main() -> None:
                 for name, files in FORMATS.items()
                 for kind in ("float16", "float32")
             }
-        result["counted_memory_gib"] = {name: counted_memory(size) for name, size in AREAS.items()}
-        result["clips"] = clips(folder, full, dtype, device, options)
+            result["counted_memory_gib"] = {name: counted_memory(size) for name, size in AREAS.items()}
+        result["clips"] = drawn(folder, full, dtype, device, options)
     print(json.dumps(result, indent=2) if options.json else result)
 
 
-def clips(folder: Path, full: bool, dtype: torch.dtype, device: torch.device, options: Any) -> dict[str, Any]:
-    """Figures of every clip, eager and compiled."""
-    sizes = ModelSizes() if full else random_svd.TINY
+def drawn(
+    folder: Path, full: bool, dtype: torch.dtype, device: torch.device, options: argparse.Namespace
+) -> dict[str, Any]:
+    """Figures of every mode, eager and compiled. One that fails tells why, and the others go on."""
     files = folder if full else folder / "tiny"
     if not full:
         files.mkdir()
-        written(files, sizes)
-    models = load_models(files / "svd.safetensors", files / "lvcd.ckpt", dtype=dtype, sizes=sizes)
-    found = {}
-    for compiled in (False, True)[: 1 if options.no_compile else 2]:
-        if compiled:
-            models.unet.compile()
-            models.control.compile()
-            drawing(models, 35, AREAS[options.areas[0]], 2, device)
-        for area in options.areas:
-            for frames in options.frames:
-                kind = "compiled" if compiled else "eager"
-                found[f"{frames} frames, {area}, {kind}"] = drawing(models, frames, AREAS[area], options.steps, device)
+        written(files, SMALL)
+    found: dict[str, Any] = {}
+    for mode in options.modes:
+        for compiled in (False, True)[: 1 if options.no_compile else 2]:
+            name = f"{mode}, {'compiled' if compiled else 'eager'}"
+            try:
+                found[name] = in_own_process(clips, files, mode, compiled, full, dtype, device, options)
+            except (ImportError, RuntimeError, ValueError) as error:
+                found[name] = {"failed": f"{type(error).__name__}: {error}"[:500]}
+            print(json.dumps({name: found[name]}), file=sys.stderr, flush=True)  # a long run may be cut short
     return found
 
 

@@ -52,6 +52,16 @@ def test_missing_weights_are_named_with_their_source(host: Any) -> None:
         assert part in told
 
 
+def test_the_workflow_that_repaints_lacks_nothing_but_its_file(host: Any) -> None:
+    graph = json.loads((ROOT / "workflows" / "api" / "render_from_animation.json").read_text(encoding="utf-8"))
+    _, answer = host.post("/prompt", {"prompt": graph, "client_id": host.client})
+    (refused,) = answer["node_errors"].values()
+    assert refused["class_type"] == "PhysAnimator_Render"
+    (told,) = refused["errors"]
+    assert "svd.safetensors is missing" in told["details"]
+    assert "lvcd" not in told["details"].lower()
+
+
 @pytest.fixture(scope="module")
 def chosen(host: Any) -> dict[str, str]:
     """Small random weights among the host's models; a diffusers folder tells their sizes."""

@@ -376,6 +376,7 @@ THUMBNAILS: dict[str, Callable[[], Clip]] = {
     "every_step": lambda: _beside(_over(wireframe=True), _sketches(), _every(_example().flows()), _frames(), same=True),
     "soft_inpaint": lambda: _cut(_beside(_frames(), _holes()[1]), 0.25, 0.0, 0.7),
     "inpaint_plate": lambda: _cut(_beside(_uncovered(), _frames()), 0.25, 0.0, 0.7),
+    "render_from_animation": lambda: _beside(_over(wireframe=True), _frames()),
     "layers": _stack,
     "see_through": _tiles,
     "frame_interpolation": _film,
@@ -400,7 +401,7 @@ def write(name: str) -> None:
     clip = [Image.fromarray(picture) for picture in THUMBNAILS.get(name, _frames)()]
     place = ROOT / "workflows" / name
     still = max(clip, key=lambda one: np.abs(np.asarray(one, dtype=np.int16) - np.asarray(clip[0])).mean())
-    still.save(place.with_suffix(".jpg"), quality=85)
+    still.save(place.with_suffix(".jpg"), quality=85, optimize=True, progressive=True)
     first, *rest = [one.resize(SMALL, Image.Resampling.LANCZOS) for one in clip]
     first.save(
         place.with_suffix(".webp"),

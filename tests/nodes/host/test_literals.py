@@ -31,6 +31,21 @@ def test_frame_numbers() -> None:
             whole_numbers_of(text, name="keyframes_at")
 
 
+def wide(text: str) -> str:
+    """As an East Asian keyboard writes it."""
+    return "".join(chr(ord(each) + 0xFEE0) if each != " " else "\u3000" for each in text)
+
+
+@pytest.mark.parametrize("text", [wide("0, 40,-1"), wide("[0,40,-1]"), "0\u300140\u3001-1", "0, 40, \u22121"])
+def test_numbers_as_east_asian_keyboards_write_them(text: str) -> None:
+    assert whole_numbers_of(text, name="keyframes") == (0, 40, -1)
+
+
+def test_boxes_and_keys_as_east_asian_keyboards_write_them() -> None:
+    assert boxes_of(wide("[0,1,2,3]"), name="box") == ((0, 1, 2, 3),)
+    assert keys_of(wide("[[0, 1], [1, 0.5]]"), name="speed_keys") == ((0.0, 1.0), (1.0, 0.5))
+
+
 def test_keys_along_a_path() -> None:
     assert keys_of(" [[0, 1], [0.5, 2.5]] ", name="speed_keys") == ((0.0, 1.0), (0.5, 2.5))
     assert keys_of(" ", name="speed_keys") == keys_of("[]", name="speed_keys") == ()
