@@ -7,11 +7,13 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..physics.beside import made_ahead
 from ..physics.mesh import coverage_of
 from ..physics.motion import FlowSequence, Motion
 from .composite import Background, LayeredRenderer, PixelArtRenderer, shown_frame, shown_frame_and_alpha
@@ -142,7 +144,8 @@ class FrameDrawing:
         if not self.networks.draws_opaque:
             draw = _drawn_by.get()
             elsewhere = None if draw is None else draw(self.renderer, numbers, background)
-            return elsewhere or (shown_frame(self.renderer, t, background) for t in self._known(numbers))
+            here = partial(shown_frame, self.renderer, background=background)
+            return elsewhere or made_ahead(here, self._known(numbers))
         from .neural.soft_inpainting import changes_of_holes, load_inpainting, painted_frames
 
         layers: Any = self.renderer
