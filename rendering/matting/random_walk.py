@@ -45,7 +45,7 @@ def chance_of_core(
     number = np.full(band.shape, -1, dtype=np.int32)
     number[band] = np.arange(count)
     # With a border around, every pixel has all neighbours, and each lies as far from it in memory.
-    number, known_core = np.pad(number, 1, constant_values=-1).ravel(), np.pad(core, 1).ravel()
+    numbers, known_core = np.pad(number, 1, constant_values=-1).ravel(), np.pad(core, 1).ravel()
     width = band.shape[1] + 2
     row, column = np.nonzero(band)
     place = (row + 1) * width + column + 1
@@ -58,7 +58,7 @@ def chance_of_core(
         for way, at in ((step, place), (-step, place - step)):
             conductance, beside = ease.take(at), place + way
             entry = 4 + np.sign(way) * (3 * down + right)
-            others[:, entry], values[:, entry] = number.take(beside), -conductance
+            others[:, entry], values[:, entry] = numbers.take(beside), -conductance
             total += conductance
             target += np.where(known_core.take(beside), conductance, 0)
     others[:, 4], values[:, 4] = np.arange(count), total
