@@ -12,15 +12,15 @@ from physanimator.rendering.plate.patch_synthesis import _voted
 
 
 def level_of(seed: int, height: int = 40, width: int = 34) -> Level:
-    """Blocky noise with a hole that may reach the border."""
+    """A pattern that repeats, with some noise, and a hole that may reach the border."""
     random = np.random.default_rng(seed)
-    picture = np.kron(random.random((height // 4 + 1, width // 4 + 1, 3)), np.ones((4, 4, 1)))[:height, :width]
-    picture = (picture + 0.05 * random.random(picture.shape)).astype(np.float32)
+    pattern = np.kron(random.random((2, 2, 3)), np.ones((4, 4, 1)))
+    picture = np.tile(pattern, (height // 8 + 1, width // 8 + 1, 1))[:height, :width]
+    picture = (picture + 0.03 * random.random(picture.shape)).astype(np.float32)
     hole = np.zeros((height, width), dtype=bool)
     top, left = random.integers(0, 20, 2)
     hole[top : top + 13, left : left + 11] = True
-    guide = np.full_like(picture, picture.mean())
-    return Level(picture, hole, guide, picture)
+    return Level(picture, hole, picture, picture)
 
 
 def plain_cost(search: PatchSearch, source: np.ndarray) -> np.ndarray:
@@ -73,7 +73,7 @@ def test_each_pixel_is_the_weighted_mean_of_what_patches_propose(
     trust = np.where(random.random(hole.shape) < 0.8, random.random(hole.shape), 0).astype(np.float32)
     trust[:RADIUS] = trust[-RADIUS:] = trust[:, :RADIUS] = trust[:, -RADIUS:] = 0
     rows, columns = random.integers(RADIUS, (height - RADIUS, width - RADIUS), (height, width, 2)).transpose(2, 0, 1)
-    voted = _voted(level, level.guide, Finds(rows * width + columns, trust))
+    voted = _voted(level, 1 - level.guide, Finds(rows * width + columns, trust))
     for row, column in np.argwhere(hole)[::37]:
         total, weight = np.zeros(3), 0.0
         for down in range(-RADIUS, RADIUS + 1):
@@ -83,4 +83,4 @@ def test_each_pixel_is_the_weighted_mean_of_what_patches_propose(
                     total += trust[centre] * level.picture[rows[centre] + down, columns[centre] + right]
                     weight += trust[centre]
         np.testing.assert_allclose(voted[row, column], total / weight, atol=1e-5)
-    np.testing.assert_array_equal(voted[~hole], level.guide[~hole])
+    np.testing.assert_array_equal(voted[~hole], 1 - level.guide[~hole])
