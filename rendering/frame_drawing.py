@@ -33,6 +33,9 @@ DrawsFrames = Callable[["LayeredRenderer | PixelArtRenderer", Sequence[int], Bac
 """Called with a renderer, numbers of its motion's frames and a background; gives those frames in turn, or None where it
 would rather not."""
 
+_AT_ONCE = 4  # frames that are drawn at once: the encoders take no more of them
+_PIXELS_AT_ONCE = 40_000_000  # of these frames together: some 80 bytes each
+
 _drawn_by: ContextVar[DrawsFrames | None] = ContextVar("drawn_by", default=None)
 
 
@@ -145,7 +148,8 @@ class FrameDrawing:
             draw = _drawn_by.get()
             elsewhere = None if draw is None else draw(self.renderer, numbers, background)
             here = partial(shown_frame, self.renderer, background=background)
-            return elsewhere or made_ahead(here, self._known(numbers))
+            most = max(1, min(_AT_ONCE, _PIXELS_AT_ONCE // (self.motion.width * self.motion.height)))
+            return elsewhere or made_ahead(here, self._known(numbers), most=most)
         from .neural.soft_inpainting import changes_of_holes, load_inpainting, painted_frames
 
         layers: Any = self.renderer
