@@ -156,7 +156,8 @@ def _by_distance(
         own = np.flatnonzero(groups == k)
         weights[k] = np.maximum(convolved(np.ones(len(own)), own), 1e-13)
         for channel in range(channels):
-            sums[k, channel] = convolved(colours[own, channel], own)
+            values = colours[own, channel]
+            sums[k, channel] = convolved(values, own) if values.any() else 0
     return weights, sums
 
 
