@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import threading
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextvars import copy_context
 from types import TracebackType
 from typing import Any, Generic, TypeVar
@@ -12,8 +13,9 @@ from typing import Any, Generic, TypeVar
 from .interruption import checkpoint, interruptible
 from .threads import allowed_threads
 
-__all__ = ["Beside", "side_by_side"]
+__all__ = ["Beside", "made_ahead", "side_by_side"]
 
+A = TypeVar("A")
 T = TypeVar("T")
 
 _POLL_SECONDS = 0.2  # without a timeout Windows would not deliver Ctrl+C
@@ -124,10 +126,48 @@ def side_by_side(function: Callable[..., T], *arguments: Iterable[Any]) -> Itera
         return
     pool = ThreadPoolExecutor(threads, thread_name_prefix="physanimator-beside")
     try:
-        begun = [pool.submit(copy_context().run, function, *each) for each in calls]
-        for each in begun:
-            while not wait([each], _POLL_SECONDS).done:
-                pass
-            yield each.result()
+        for each in [pool.submit(copy_context().run, function, *each) for each in calls]:
+            yield _awaited(each)
     finally:
         pool.shutdown(cancel_futures=True)
+
+
+def made_ahead(function: Callable[[A], T], arguments: Iterable[A], *, most: int = 4) -> Iterator[T]:
+    """What a function returns for each argument, in turn, while other threads already make the next ones.
+
+    The first is made alone, so that it comes as soon as it can. Where this process may use one thread only, each is
+    made when it is asked for.
+
+    Args:
+        function: is called by several threads at once.
+        arguments: each is asked for when its turn comes to be made.
+        most: how many are made at once, on however many cores; one more may wait.
+
+    Examples:
+        >>> from physanimator.physics.beside import made_ahead
+        >>> list(made_ahead(abs, [-1, -2, -3]))
+        [1, 2, 3]
+    """
+    threads = min(allowed_threads(), most)
+    if threads < 2:
+        yield from map(function, arguments)
+        return
+    pool = ThreadPoolExecutor(threads, thread_name_prefix="physanimator-beside")
+    begun: deque[Future[T]] = deque()
+    most = 0
+    try:
+        for argument in arguments:
+            begun.append(pool.submit(copy_context().run, function, argument))
+            if len(begun) > most:
+                yield _awaited(begun.popleft())
+                most = threads
+        while begun:
+            yield _awaited(begun.popleft())
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _awaited(begun: Future[T]) -> T:
+    while not wait([begun], _POLL_SECONDS).done:
+        pass
+    return begun.result()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -257,12 +257,14 @@ class Animation:
             path: where to.
             width: width of the written frames [px]; that of the illustration when None.
         """
+        written = pictures
         if width is not None:
             height, nearest = self.height_at(width), self.pixel_art
-            pictures = (resized(picture, width, height, nearest=nearest) for picture in pictures)
+            written = (resized(picture, width, height, nearest=nearest) for picture in pictures)
         drawing = sum(self.seconds.values())
         start = time.perf_counter()
-        write_animation(pictures, path, self.motion.frame_rate, exact=self.pixel_art)
+        with _ended(pictures):
+            write_animation(written, path, self.motion.frame_rate, exact=self.pixel_art)
         # Pictures are drawn while they are written; what the drawing took is already counted.
         drawing = sum(self.seconds.values()) - drawing
         self.seconds["write"] = self.seconds.get("write", 0.0) + time.perf_counter() - start - drawing
@@ -445,12 +447,23 @@ class Animation:
 
     def _measured(self, stage: str, pictures: Iterable[T], progress: StageProgress | None) -> Iterator[T]:
         iterator = iter(pictures)
-        for done in range(1, len(self) + 1):
-            with timed(self.seconds, stage):
-                picture = next(iterator)
-            if progress is not None:
-                progress(stage, done, len(self))
-            yield picture
+        with _ended(iterator):
+            for done in range(1, len(self) + 1):
+                with timed(self.seconds, stage):
+                    picture = next(iterator)
+                if progress is not None:
+                    progress(stage, done, len(self))
+                yield picture
+
+
+@contextmanager
+def _ended(pictures: Iterable[Any]) -> Iterator[None]:
+    """End what other threads make of pictures, however a block ends."""
+    try:
+        yield
+    finally:
+        if isinstance(pictures, Generator):
+            pictures.close()
 
 
 @contextmanager

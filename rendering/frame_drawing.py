@@ -7,11 +7,13 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..physics.beside import made_ahead
 from ..physics.mesh import coverage_of
 from ..physics.motion import FlowSequence, Motion
 from .composite import Background, LayeredRenderer, PixelArtRenderer, shown_frame, shown_frame_and_alpha
@@ -30,6 +32,9 @@ Image = NDArray[Any]
 DrawsFrames = Callable[["LayeredRenderer | PixelArtRenderer", Sequence[int], Background], Iterator[Image] | None]
 """Called with a renderer, numbers of its motion's frames and a background; gives those frames in turn, or None where it
 would rather not."""
+
+_AT_ONCE = 4  # frames that are drawn at once: the encoders take no more of them
+_PIXELS_AT_ONCE = 40_000_000  # of these frames together: some 80 bytes each
 
 _drawn_by: ContextVar[DrawsFrames | None] = ContextVar("drawn_by", default=None)
 
@@ -142,7 +147,9 @@ class FrameDrawing:
         if not self.networks.draws_opaque:
             draw = _drawn_by.get()
             elsewhere = None if draw is None else draw(self.renderer, numbers, background)
-            return elsewhere or (shown_frame(self.renderer, t, background) for t in self._known(numbers))
+            here = partial(shown_frame, self.renderer, background=background)
+            most = max(1, min(_AT_ONCE, _PIXELS_AT_ONCE // (self.motion.width * self.motion.height)))
+            return elsewhere or made_ahead(here, self._known(numbers), most=most)
         from .neural.soft_inpainting import changes_of_holes, load_inpainting, painted_frames
 
         layers: Any = self.renderer

@@ -134,6 +134,8 @@ def animate(
     if save is not None:
         check_output(save.path)
     work_of_minutes(max_minutes)
+    if not (pixel_art or isinstance(image, Artwork)):
+        begin_aside()  # it takes as long as to cut the parts out
     if scene is not None and not isinstance(scene, Scene):
         check_document(scene)
     check_drawing(pixel_art=pixel_art, by_model=networks.draws_opaque)
@@ -155,8 +157,6 @@ def animate(
     else:
         flat = FlatPicture.of(image, masks, points, plate, in_front)
         _colliders(touching.colliders, flat.image)
-        if not pixel_art:
-            begin_aside()
         with timed(seconds, "segment"):
             cut = flat.cut(networks, watch)
         with timed(seconds, "mesh"):

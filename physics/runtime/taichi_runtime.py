@@ -105,6 +105,7 @@ class _TaichiThread:
         self._closed = False
         self._worker = TaichiWorker()
         self._worker_fails = False
+        self._begins = False
         self._during_job = ExitStack()
 
     def run(self, call: Callable[[], T]) -> T:
@@ -146,8 +147,12 @@ class _TaichiThread:
 
     def begin_aside(self, function: Callable[..., Any]) -> None:
         def begin() -> None:
-            if self._can_go_aside():
-                self._worker.launch(function, (), None, ())
+            self._begins = True
+            try:
+                if self._can_go_aside():
+                    self._worker.launch(function, (), None, ())
+            finally:
+                self._begins = False
 
         self._start()
         self._jobs.put(_Job(begin))
@@ -186,6 +191,8 @@ class _TaichiThread:
     def _finish(self) -> None:
         """At the end of the process, close our program: only then does Taichi keep the compiled kernels on disk."""
         if self._process == os.getpid():
+            if self._begins:  # for nothing, as bad input has been refused meanwhile
+                self._worker.kill()
             job = _Job(self._close)
             self._jobs.put(job)
             job.done.wait(_LAST_SECONDS)

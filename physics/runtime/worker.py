@@ -127,6 +127,12 @@ class TaichiWorker:
             process.kill()
             process.wait()
 
+    def kill(self) -> None:
+        """End the process, if there is one, whatever it does; the only method for another thread than the one."""
+        process = self._process
+        if process is not None:
+            process.kill()
+
     def start(self) -> None:
         """Start the process unless it runs.
 

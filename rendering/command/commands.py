@@ -56,6 +56,9 @@ def _schema(options: argparse.Namespace) -> None:
 
 def _demo(options: argparse.Namespace) -> None:
     from ...physics.simulation import begin_aside
+
+    if not options.pixel_art:
+        begin_aside()  # it reads its kernels while this process imports what it needs
     from .animating import animate_and_write
     from .example import bundled_files, read_example
     from .networks import check_networks_used
@@ -63,8 +66,6 @@ def _demo(options: argparse.Namespace) -> None:
 
     check_outputs(options, bundled=bundled_files())
     check_networks_used(options)
-    if not options.pixel_art:
-        begin_aside()
     image, masks, scene = read_example()
     check_layers(options, image)
     check_sizes(options, image)

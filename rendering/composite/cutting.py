@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ...physics.errors import InvalidInputError
 from ...physics.mesh import PixelBox, TriangleMesh, triangle_ids
 from ..matting import fitting_plate, in_levels, mixed_rim, regular_mask, soft_alpha, with_outline
+from ..pictures import window_around
 from ..plate import fill_hole, spread_colours
 from .apron import ApronedMesh, canvas_of, usual_reach
 from .beyond_border import on_canvas
@@ -33,6 +34,8 @@ Mask = NDArray[np.bool_]
 
 # Pixels around a body that its faint edge may reach.
 _BESIDE = 2
+# And those that tell how soft that edge is.
+_AROUND = 48
 
 
 def take_apart(
@@ -58,10 +61,18 @@ def take_apart(
     layers: list[Layer | StillLayer] = []
     for number in range(len(masks) - 1, -1, -1):
         beneath = picture_beneath(picture, plate, masks, supports, number)
-        alpha = soft_alpha(picture, beneath, masks[number], supports[number])
+        alpha = _alpha(picture, beneath, masks[number], supports[number])
         layer, picture = _peeled(picture, beneath, alpha, meshes[number], rounded=rounded)
         layers = layers if layer is None else [layer, *layers]
     return picture, layers
+
+
+def _alpha(picture: FloatImage, beneath: FloatImage, mask: FloatImage, support: Mask) -> FloatImage:
+    """The soft alpha of a body, looked for around it only."""
+    window = window_around(support, margin=_AROUND)
+    alpha = np.zeros(mask.shape, dtype=np.float32)
+    alpha[window] = soft_alpha(picture[window], beneath[window], mask[window], support[window])
+    return alpha
 
 
 def _peeled(
@@ -73,9 +84,18 @@ def _peeled(
         return still_layer(np.dstack([picture - (1 - alpha[..., None]) * below, alpha])), below
     wider, canvas, covered = aproned(mesh, alpha)
     alpha = np.where(covered, alpha, np.float32(0))
-    below = fitting_plate(picture, beneath, alpha, rounded=rounded)
-    colour = picture - (1 - alpha[..., None]) * below
-    return Layer(wider, canvas, on_canvas(np.dstack([colour, alpha]), canvas)), below
+    window, below, layer = _seen(canvas, mesh), picture.copy(), np.zeros((*alpha.shape, 4), dtype=np.float32)
+    shown, share = picture[window], alpha[window]
+    below[window] = fitting_plate(shown, beneath[window], share, rounded=rounded)
+    layer[window] = np.dstack([shown - (1 - share[..., None]) * below[window], share])
+    return Layer(wider, canvas, on_canvas(layer, canvas)), below
+
+
+def _seen(canvas: PixelBox, mesh: TriangleMesh) -> tuple[slice, slice]:
+    """Rows and columns of the picture in a canvas, at least those next to it."""
+    ends = ((canvas.top, canvas.bottom, mesh.height), (canvas.left, canvas.right, mesh.width))
+    rows, columns = (slice(min(max(start, 0), size - 1), max(min(end, size), 1)) for start, end, size in ends)
+    return rows, columns
 
 
 def _without(picture: FloatImage, hole: Mask) -> FloatImage:
@@ -89,14 +109,15 @@ def picture_beneath(
 ) -> FloatImage:
     """The picture without one body: the plate in its place, and the bodies further behind as far as they reach."""
     region = _grown(supports[number], _BESIDE)
-    beneath = np.where(region[..., None], plate, picture)
+    beneath = picture.copy()
+    beneath[region] = plate[region]
     for behind in range(number):
         in_front = np.logical_or.reduce(supports[behind + 1 :])
         visible = supports[behind] & ~_grown(in_front, _BESIDE)
         hidden = region & supports[behind]
         if hidden.any() and visible.any():
-            share = np.where(hidden, np.maximum(masks[behind], 0), np.float32(0))[..., None]
-            beneath = beneath + share * (spread_colours(picture, visible, hidden) - beneath)
+            share, own = np.maximum(masks[behind][hidden], 0)[:, None], beneath[hidden]
+            beneath[hidden] = own + share * (spread_colours(picture, visible, hidden)[hidden] - own)
     return beneath
 
 

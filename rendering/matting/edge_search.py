@@ -6,6 +6,8 @@ random walk (Grady, "Random Walks for Image Segmentation", 2006) then divides th
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -101,9 +103,9 @@ def _telling(image: FloatImage, core: Mask, outside: Mask, beyond: tuple[FloatIm
     far = core & ~near[0], outside & ~near[1]
     if not (far[0].any() and far[1].any()):
         return core, outside
-    telling = core.copy(), outside.copy()
-    telling[0][near[0]] = _likely(image, near[0], *far) > 1 - _DENIED
-    telling[1][near[1]] = _likely(image, near[1], *far) < _DENIED
+    likely, asked = np.full(core.shape, _HALF, dtype=np.float32), near[0] | near[1]
+    likely[asked] = _likely(image, asked, *far)
+    telling = core & ~(near[0] & (likely <= 1 - _DENIED)), outside & ~(near[1] & (likely >= _DENIED))
     return telling if telling[0].any() and telling[1].any() else (core, outside)
 
 
@@ -132,16 +134,17 @@ def explained(image: FloatImage, band: Mask, side: Mask) -> FloatImage:
     random = np.random.default_rng(0)
     spans = np.repeat([_NEAR, _FAR], _SAMPLES // 2)[:, None]
     steps = np.rint(random.uniform(-1, 1, (_SAMPLES, 2)) * spans).astype(np.int64)
-    colours, nearest = image.reshape(-1, image.shape[2]), nearest_pixels(side)[1]
-    # A sample beyond the border is taken at the border.
-    beside = cv2.copyMakeBorder(nearest, *[_FAR] * 4, cv2.BORDER_REPLICATE)
-    away, beside = steps @ (beside.shape[1], 1), beside.ravel()
+    colours, nearest = [plane.ravel() for plane in cv2.split(image)], nearest_pixels(side)[1]
     numbers = np.flatnonzero(band)
-    row, column = np.divmod(nearest.ravel()[numbers], band.shape[1])
-    places = (row + np.int64(_FAR)) * (band.shape[1] + 2 * _FAR) + column + _FAR
+    row, column = np.divmod(nearest.ravel().take(numbers), np.int64(band.shape[1]))
+    places = (row + _FAR) * (band.shape[1] + 2 * _FAR) + column + _FAR
+    # A sample beyond the border is taken at the border.
+    around = cv2.copyMakeBorder(nearest, *[_FAR] * 4, cv2.BORDER_REPLICATE)
+    away, beside = steps @ (around.shape[1], 1), around.ravel().astype(np.int64)
 
     def share(some: slice) -> FloatImage:
-        best = _best_of(colours[numbers[some]], colours, beside, places[some], away)
+        own = [plane.take(numbers[some]) for plane in colours]
+        best = _best_of(own, colours, beside, places[some], away)
         return np.asarray(np.exp(-best / (2 * _ALIKE**2)).mean(axis=0), dtype=np.float32)
 
     blocks = [slice(start, start + _AT_ONCE) for start in range(0, len(numbers), _AT_ONCE)]
@@ -149,26 +152,37 @@ def explained(image: FloatImage, band: Mask, side: Mask) -> FloatImage:
 
 
 def _best_of(
-    own: FloatImage, colours: FloatImage, beside: NDArray[np.int32], places: NDArray[np.int64], away: NDArray[np.int64]
+    own: Sequence[FloatImage],
+    colours: Sequence[FloatImage],
+    beside: NDArray[np.int64],
+    places: NDArray[np.int64],
+    away: NDArray[np.int64],
 ) -> FloatImage:
     """The smallest squared distances of colours to those of samples, smallest first, shape [_BEST, n].
 
     Args:
-        own: the colours that are compared, shape [n, c].
-        colours: of the picture, shape [h w, c].
+        own: the colours that are compared, one array of shape [n] for each channel.
+        colours: of the picture, likewise, shape [h w] each.
         beside: which of them is the sample at each place, shape [p].
         places: around which samples are taken, shape [n].
         away: how far from there each sample is, shape [s].
     """
-    best = np.full((_BEST, len(own)), np.inf, dtype=np.float32)
+    best = np.full((_BEST, len(places)), np.inf, dtype=np.float32)
+    place, sample = np.empty((2, len(places)), dtype=np.int64)
+    distance, more = np.empty((2, len(places)), dtype=np.float32)
     for step in away:
-        difference = colours.take(beside.take(places + step), axis=0)
-        np.subtract(own, difference, out=difference)
-        distance = np.einsum("ij,ij->i", difference, difference)
+        np.add(places, step, out=place)
+        beside.take(place, out=sample, mode="clip")
+        distance[:] = 0
+        for compared, plane in zip(own, colours, strict=True):
+            plane.take(sample, out=more, mode="clip")
+            more -= compared
+            more *= more
+            distance += more
         for kept in best:
-            worse = np.maximum(kept, distance)
+            np.maximum(kept, distance, out=more)
             np.minimum(kept, distance, out=kept)
-            distance = worse
+            distance, more = more, distance
     return best
 
 

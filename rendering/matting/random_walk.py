@@ -38,25 +38,34 @@ def chance_of_core(
     Returns:
         Chances in 0 to 1, in the order of the band's pixels, shape [n].
     """
-    from scipy.sparse import coo_matrix, diags
+    from scipy.sparse import csr_matrix, diags
     from scipy.sparse.linalg import cg
 
     count = int(band.sum())
-    number = np.full(band.shape, -1, dtype=np.int64)
+    number = np.full(band.shape, -1, dtype=np.int32)
     number[band] = np.arange(count)
+    # With a border around, every pixel has all neighbours, and each lies as far from it in memory.
+    numbers, known_core = np.pad(number, 1, constant_values=-1).ravel(), np.pad(core, 1).ravel()
+    width = band.shape[1] + 2
+    row, column = np.nonzero(band)
+    place = (row + 1) * width + column + 1
     total = np.asarray(_COLOUR * _told(image, band), dtype=np.float64)
     target = total * said
-    system = coo_matrix((count, count))
-    for one, other, conductance in _pairs(image, mask):
-        first, second, sure = number[one], number[other], core[one] | core[other]
-        both = (first >= 0) & (second >= 0)
-        joined = coo_matrix((-conductance[both], (first[both], second[both])), shape=(count, count))
-        system = system + joined + joined.T
-        for own in (first, second):
-            total += np.bincount(own[own >= 0], conductance[own >= 0], count)
-            ends = (own >= 0) & ~both & sure
-            target += np.bincount(own[ends], conductance[ends], count)
-    chance, _ = cg((system + diags(total)).tocsr(), target, x0=said, rtol=1e-3, M=diags(1 / total), maxiter=300)
+    # One row of the system for each pixel of the band, its neighbours and itself in the order of their numbers.
+    others, values = np.full((count, 9), -1, dtype=np.int32), np.zeros((count, 9))
+    for (down, right, _), ease in zip(_NEIGHBOURS, _eases(image, mask), strict=True):
+        step = down * width + right
+        for way, at in ((step, place), (-step, place - step)):
+            conductance, beside = ease.take(at), place + way
+            entry = 4 + np.sign(way) * (3 * down + right)
+            others[:, entry], values[:, entry] = numbers.take(beside), -conductance
+            total += conductance
+            target += np.where(known_core.take(beside), conductance, 0)
+    others[:, 4], values[:, 4] = np.arange(count), total
+    within = others >= 0
+    starts = np.concatenate([[0], np.cumsum(within.sum(axis=1))])
+    system = csr_matrix((values[within], others[within], starts), shape=(count, count))
+    chance, _ = cg(system, target, x0=said, rtol=1e-3, M=diags(1 / total), maxiter=300)
     return np.asarray(chance)
 
 
@@ -70,17 +79,21 @@ def _told(image: FloatImage, band: Mask) -> NDArray[np.float32]:
     return np.asarray(np.minimum(1, _TOLD / np.bincount(region.ravel())[region[band]]), dtype=np.float32)
 
 
-def _pairs(
-    image: FloatImage, mask: FloatImage
-) -> list[tuple[tuple[slice, slice], tuple[slice, slice], NDArray[np.float32]]]:
-    """Neighbouring pixels, as slices of either, with how easily a walk goes from one to the other."""
+def _eases(image: FloatImage, mask: FloatImage) -> list[NDArray[np.float32]]:
+    """How easily a walk goes from each pixel to its neighbour on one side, for each of those sides.
+
+    Flat, with a border of one pixel; 0 where there is no neighbour.
+    """
     height, width = mask.shape
-    pairs = []
+    eases = []
     for down, right, near in _NEIGHBOURS:
         one = slice(0, height - down), slice(max(0, -right), width - max(0, right))
         other = slice(down, height), slice(max(0, right), width + min(0, right))
         difference = image[one] - image[other]
         alike = np.exp(np.einsum("ijk,ijk->ij", difference, difference) / np.float32(-2 * _STEP**2))
         step = np.abs(mask[one] - mask[other]) > _MASK_STEP
-        pairs.append((one, other, np.float32(near) * (alike + _LEAK) * np.where(step, np.float32(_MASK_STEP), 1)))
-    return pairs
+        ease = np.zeros((height + 2, width + 2), dtype=np.float32)
+        inner = ease[1:-1, 1:-1]
+        inner[one] = np.float32(near) * (alike + _LEAK) * np.where(step, np.float32(_MASK_STEP), 1)
+        eases.append(ease.ravel())
+    return eases

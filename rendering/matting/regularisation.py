@@ -119,8 +119,9 @@ def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
     away = np.minimum(from_edge(shape), from_edge(edge.inside)) if soft else from_edge(shape)
     near = away <= REACH + np.minimum(edge.width, WIDEST)
     # Where the picture has no edge, a soft transition is what somebody wanted.
-    wanted = blurred & (edge_strength(image, shape) < LEAST_STEP)
-    wanted &= _long(wanted, shape, edge) | ~_shows_edge(image, mask, shape)
+    wanted = blurred & (edge_strength(image, shape) < LEAST_STEP) if blurred.any() else blurred
+    if wanted.any():
+        wanted &= _long(wanted, shape, edge) | ~_shows_edge(image, mask, shape)
     # Where a slightly soft edge stays in its place, it says between pixels where that is.
     narrowed = np.clip(_HALF + (mask - _HALF) * np.maximum(edge.width, 1), 0, 1)
     stays = ~displaced & ~noisy & (edge.width <= _BLURRED) & ((narrowed > _HALF) == shape) & ~in_blocks(mask)

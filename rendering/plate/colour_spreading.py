@@ -133,24 +133,31 @@ def _by_distance(
     height, width = known.shape
     size = [fft.next_fast_len(2 * length, real=True) for length in known.shape]
     y, x = (np.minimum(np.arange(length), length - np.arange(length)).astype(np.float64) for length in size)
-    kernel = fft.rfft2((y[:, None] ** 2 + x**2 + 0.5) ** (-power / 2))
+    # That of an even function is real.
+    kernel = np.ascontiguousarray(fft.rfft2((y[:, None] ** 2 + x**2 + 0.5) ** (-power / 2)).real)
+    row, column = np.nonzero(known)
 
-    def convolved(plane: FloatArray) -> FloatArray:
-        turned = fft.fft(fft.rfft(plane, size[1], workers=-1), size[0], axis=0, overwrite_x=True, workers=-1)
+    def convolved(values: FloatArray, at: NDArray[np.intp]) -> FloatArray:
+        first, last = int(row[at].min()), int(row[at].max()) + 1
+        plane = np.zeros((last - first, width))
+        plane[row[at] - first, column[at]] = values
+        turned = np.zeros(kernel.shape, dtype=np.complex128)
+        turned[first:last] = fft.rfft(plane, size[1], workers=-1)
+        turned = fft.fft(turned, axis=0, overwrite_x=True, workers=-1)
         turned *= kernel
         back = fft.ifft(turned, axis=0, overwrite_x=True, workers=-1)[:height]
         return np.asarray(fft.irfft(back, size[1], workers=-1)[:, :width][wanted])
 
-    number = np.full(known.shape, -1, dtype=np.int32)
-    number[known] = groups
+    colours = picture[known].astype(np.float64)
     count = int(groups.max()) + 1
     channels, pixels = picture.shape[2], int(wanted.sum())
     weights, sums = np.empty((count, pixels)), np.empty((count, channels, pixels))
     for k in range(count):
-        own = (number == k).astype(np.float64)
-        weights[k] = np.maximum(convolved(own), 1e-13)
+        own = np.flatnonzero(groups == k)
+        weights[k] = np.maximum(convolved(np.ones(len(own)), own), 1e-13)
         for channel in range(channels):
-            sums[k, channel] = convolved(picture[..., channel] * own)
+            values = colours[own, channel]
+            sums[k, channel] = convolved(values, own) if values.any() else 0
     return weights, sums
 
 

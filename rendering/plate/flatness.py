@@ -58,10 +58,11 @@ def flat_surroundings(picture: FloatImage, hole: Mask) -> FlatSurroundings:
     known = cv2.erode((~hole).astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     if not known.any():
         return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, 0.0)
-    deviation = _deviation(picture, 3)
+    squares = picture * picture
+    deviation = _deviation(picture, squares, 3)
     noise = float(np.quantile(deviation[known], _QUIET))
     most = _DEVIATIONS * noise + _LEVEL
-    even = (_deviation(picture, _WIDE) <= most).astype(np.uint8)
+    even = (_deviation(picture, squares, _WIDE) <= most).astype(np.uint8)
     flat = _large(known & (deviation <= most) & (cv2.dilate(even, np.ones((_WIDE, _WIDE), np.uint8)) > 0))
     if not flat.any():
         return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, noise)
@@ -75,13 +76,19 @@ def flat_surroundings(picture: FloatImage, hole: Mask) -> FlatSurroundings:
     plain = picture.copy()
     plain[beside] = colours[nearest[beside]]
     share = _carried((flat | (beside & known)).astype(np.float32), known, hole)
-    return FlatSurroundings(share, picture + share[..., None] * (plain - picture), noise)
+    plain -= picture
+    plain *= share[..., None]
+    plain += picture
+    return FlatSurroundings(share, plain, noise)
 
 
-def _deviation(picture: FloatImage, side: int) -> FloatImage:
-    """Of the colours in a square around each pixel, shape [h, w]."""
-    mean, squares = cv2.blur(picture, (side, side)), cv2.blur(picture * picture, (side, side))
-    return np.sqrt(np.maximum(squares - mean * mean, 0).max(axis=2))
+def _deviation(picture: FloatImage, squares: FloatImage, side: int) -> FloatImage:
+    """Of the colours in a square around each pixel, shape [h, w]; their squares are given."""
+    mean, variance = cv2.blur(picture, (side, side)), cv2.blur(squares, (side, side))
+    mean *= mean
+    variance -= mean
+    red, green, blue = cv2.split(variance)
+    return np.sqrt(np.maximum(np.maximum(np.maximum(red, green), blue), 0))
 
 
 def _large(flat: Mask) -> Mask:

@@ -32,6 +32,8 @@ _DISTINCT = 0.6
 _ELSEWHERE = 5.0
 # Ends closer than this are one line's [px].
 _SHORTEST_GAP = 8.0
+# What angles of many pairs at once may differ by from those of one.
+_ROUNDING = 1e-9
 # The middle of a line is found only roughly: profiles are compared shifted by each of these [px].
 _ASIDE = np.arange(-3, 3.25, 0.5)
 
@@ -46,11 +48,10 @@ def fitting_pairs(ends: list[LineEnd]) -> list[tuple[int, int, float, float]]:
         For each pair the numbers of both ends, its cost, and how far aside the middle of the second is moved [px].
     """
     costs, aside = np.full((len(ends), len(ends)), np.inf), np.zeros((len(ends), len(ends)))
-    for j, b in enumerate(ends):
-        for i, a in enumerate(ends[:j]):
-            costs[i, j], aside[i, j] = _fit(a, b)
-            costs[j, i] = costs[i, j]
     places = np.array([end.position for end in ends]).reshape(-1, 2)
+    for i, j in _smooth_pairs(places, np.array([end.direction for end in ends]).reshape(-1, 2)):
+        costs[i, j], aside[i, j] = _fit(ends[i], ends[j])
+        costs[j, i] = costs[i, j]
     elsewhere = np.linalg.norm(places[:, None] - places, axis=2) > _ELSEWHERE
     found = []
     for i, j in zip(*np.nonzero(np.triu(costs < _LARGEST_COST)), strict=True):
@@ -59,6 +60,20 @@ def fitting_pairs(ends: list[LineEnd]) -> list[tuple[int, int, float, float]]:
         if rests and costs[i, j] <= _DISTINCT * min(float(each.min(initial=np.inf)) for each in rivals):
             found.append((i, j, costs[i, j], aside[i, j]))
     return found
+
+
+def _smooth_pairs(places: FloatArray, directions: FloatArray) -> IndexArray:
+    """Pairs of ends that an arc joins that bends little enough, with few that do not, shape [n, 2]; i below j."""
+    way = places[None] - places[:, None]
+    start, end = _angles(directions[:, None], way), _angles(way, -directions[None])
+    bend, asymmetry = np.maximum(np.abs(start), np.abs(end)) / _BEND, np.abs(start - end) / _ASYMMETRY
+    return np.argwhere(np.triu(np.maximum(bend, asymmetry) <= _LARGEST_COST * (1 + _ROUNDING), 1))
+
+
+def _angles(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Signed angles from directions to others [radians], shape [i, j] of [i, j, 2] each."""
+    turn = one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
+    return np.asarray(np.arctan2(turn, (one * other).sum(axis=-1)))
 
 
 def _fit(a: LineEnd, b: LineEnd) -> tuple[float, float]:

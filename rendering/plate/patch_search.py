@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import cv2
 import numpy as np
@@ -49,6 +50,11 @@ class Level:
     hole: Mask
     guide: FloatImage
     smooth: FloatImage
+
+    @cached_property
+    def unknown(self) -> IndexArray:
+        """Flat indices of the pixels of the hole, shape [n]."""
+        return np.flatnonzero(self.hole)
 
     def halved(self) -> Level:
         """Half the size; a pixel is known if most of it was."""
@@ -113,16 +119,17 @@ class PatchSearch:
         self.features[sources] = self._described(patches, level.smooth, sources)
         depth = cv2.distanceTransform(level.hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
         self.fading = (_FADING ** -depth.reshape(-1)[self.targets]).astype(np.float32)
-        self.steps = list(self._neighbours())
+        steps = list(self._neighbours())
+        self.near = [self._away(step, 1) for step in steps]
+        self.far = [self._away(step, stride) for stride in (4, 2) for step in steps]
 
     def round(self, current: FloatImage) -> Finds:
         """Match all patches of the current fill."""
         self.wanted = self._described(_patches(current, self.targets), self.level.guide, self.targets)
-        self.cost = self._cost(self.source, np.arange(len(self.targets)))
+        self.cost = self._differing(self.source, np.arange(len(self.targets))) + self._aside(self.source)
         for sweep in range(_SWEEPS):
-            for stride in (1,) if sweep else (4, 2, 1):
-                for neighbour in self.steps:
-                    self._propagate(neighbour, stride)
+            for other, moved in self.near if sweep else self.far + self.near:
+                self._propagate(other, moved)
             self._guess()
         # As in Wexler et al.: the squared spread of the weights is the 75th percentile of all costs.
         scale = 2 * np.percentile(self.cost, 75) + 1e-9
@@ -133,16 +140,24 @@ class PatchSearch:
         return Finds(source.reshape(self.shape), trust.reshape(self.shape))
 
     def _described(self, patches: FloatImage, smooth: FloatImage, at: IndexArray) -> FloatImage:
+        """What patches are compared by, shape [n, components + 3]; overwrites them."""
         weight = np.float32(np.sqrt(_GUIDE_WEIGHT) * _SIDE)
-        return np.concatenate([(patches - self.mean) @ self.axes, smooth.reshape(-1, 3)[at] * weight], axis=1)
+        patches -= self.mean
+        return np.concatenate([patches @ self.axes, smooth.reshape(-1, 3)[at] * weight], axis=1)
 
-    def _cost(self, source: IndexArray, of: IndexArray) -> FloatImage:
-        """Cost of a match for each of some targets, given by their numbers."""
+    def _differing(self, source: IndexArray, of: IndexArray) -> FloatImage:
+        """How much patches differ from those of some targets, given by their numbers."""
         difference = self.features.take(source, axis=0)
         difference -= self.wanted.take(of, axis=0)
+        return np.asarray(np.einsum("ij,ij->i", difference, difference))
+
+    def _aside(self, source: IndexArray, of: IndexArray | None = None) -> FloatImage:
+        """What it costs that matches lie away from some targets, given by their numbers, or from all."""
         row = source // self.shape[1]
-        away = (row - self.row.take(of)) ** 2 + (source - row * self.shape[1] - self.column.take(of)) ** 2
-        return np.einsum("ij,ij->i", difference, difference) + np.float32(_NEARNESS) * away.astype(np.float32)
+        column = source - row * self.shape[1]
+        row -= self.row if of is None else self.row.take(of)
+        column -= self.column if of is None else self.column.take(of)
+        return _cost_of_distance(row, column)
 
     def _neighbours(self) -> Iterator[IndexArray]:
         """Number of the target to the right, below, left, above of each, or its own where there is none."""
@@ -154,12 +169,20 @@ class PatchSearch:
             beside = number[row, column]
             yield np.where(beside < 0, np.arange(len(self.targets)), beside)
 
-    def _propagate(self, neighbour: IndexArray, stride: int) -> None:
-        """Try the finds of the targets some steps away, moved back by as much."""
+    def _away(self, neighbour: IndexArray, stride: int) -> tuple[IndexArray, IndexArray]:
+        """Numbers of the targets some steps away, and how far away that is as a difference of flat indices."""
         other = neighbour
         for _ in range(stride - 1):
             other = neighbour[other]
-        self._try(self.source[other] - (self.targets[other] - self.targets))
+        return other, self.targets[other] - self.targets
+
+    def _propagate(self, other: IndexArray, moved: IndexArray) -> None:
+        """Try the finds of the targets some steps away, moved back by as much; mostly they have been found already."""
+        source = self.source.take(other)
+        source -= moved
+        new = (source != self.source).nonzero()[0]
+        source = source.take(new)
+        self._try(source, new, self._aside(source, new))
 
     def _guess(self) -> None:
         """Try random sources around the present ones, ever closer."""
@@ -168,20 +191,40 @@ class PatchSearch:
             row = self.source // self.shape[1]
             column = self.source - row * self.shape[1]
             shift = np.rint(self.random.uniform(-radius, radius, (2, len(row)))).astype(np.int64)
-            row = np.clip(row + shift[0], RADIUS, self.shape[0] - 1 - RADIUS)
-            column = np.clip(column + shift[1], RADIUS, self.shape[1] - 1 - RADIUS)
-            self._try(row * self.shape[1] + column)
+            for place, along, length in zip((row, column), shift, self.shape, strict=True):
+                place += along
+                np.minimum(np.maximum(place, RADIUS, out=place), length - 1 - RADIUS, out=place)
+            aside = _cost_of_distance(row - self.row, column - self.column)
+            row *= self.shape[1]
+            row += column
+            self._try(row, None, aside)
             radius /= 2.5  # PatchMatch halves it; this needs a quarter fewer guesses
 
-    def _try(self, source: IndexArray) -> None:
-        """Take other sources where they match better; neighbours mostly propose what has been found."""
-        np.clip(source, 0, self.usable.size - 1, out=source)
-        other = np.flatnonzero((source != self.source) & self.usable.take(source))
-        source = source.take(other)
-        cost = self._cost(source, other)
-        better = np.flatnonzero(cost < self.cost.take(other))
-        improved = other.take(better)
+    def _try(self, source: IndexArray, of: IndexArray | None, aside: FloatImage) -> None:
+        """Take other sources where they match better.
+
+        Args:
+            source: flat indices, which may lie beyond the picture, whose corners are never usable.
+            of: numbers of the targets they are for; None for all.
+            aside: what their distance costs. Most cost more by that alone than what has been found.
+        """
+        likely = aside < (self.cost if of is None else self.cost.take(of))
+        likely &= self.usable.take(source, mode="clip")
+        tried = likely.nonzero()[0]
+        source, of = source.take(tried), tried if of is None else of.take(tried)
+        cost = self._differing(source, of)
+        cost += aside.take(tried)
+        better = (cost < self.cost.take(of)).nonzero()[0]
+        improved = of.take(better)
         self.source[improved], self.cost[improved] = source.take(better), cost.take(better)
+
+
+def _cost_of_distance(down: IndexArray, right: IndexArray) -> FloatImage:
+    """What it costs that a match lies that far away [px]; overwrites both."""
+    down *= down
+    right *= right
+    down += right
+    return np.float32(_NEARNESS) * down.astype(np.float32)
 
 
 def _patches(picture: FloatImage, at: IndexArray) -> FloatImage:

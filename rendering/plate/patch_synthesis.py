@@ -81,28 +81,28 @@ def _voted(level: Level, current: FloatImage, finds: Finds) -> FloatImage:
     """The hole filled with the weighted mean of what all patches around each of its pixels propose."""
     width = level.hole.shape[1] + 2 * RADIUS
     # Around the picture there is room for patches of no trust, so that none has to be looked for.
-    trust, source = (
-        cv2.copyMakeBorder(each, *[RADIUS] * 4, cv2.BORDER_CONSTANT, value=0).ravel()
-        for each in (finds.trust, finds.source.astype(np.int32))
-    )
-    # The last channel sums the weights.
-    colours = np.column_stack([level.picture.reshape(-1, 3), np.ones(level.hole.size, np.float32)])
+    trust, source = (np.pad(each, RADIUS).ravel() for each in (finds.trust, finds.source))
+    colours = [plane.ravel() for plane in cv2.split(level.picture)]
 
     def vote(start: FloatImage, at: NDArray[np.int64]) -> FloatImage:
         # Where no patch is to be trusted at all, a pixel stays as it is.
-        total = np.column_stack([start, np.ones(len(at), np.float32)]) * np.float32(_LEAST_WEIGHT)
+        weights = np.full(len(at), _LEAST_WEIGHT, dtype=np.float32)
+        total = np.ascontiguousarray(start.T) * np.float32(_LEAST_WEIGHT)
         for down in range(-RADIUS, RADIUS + 1):
             for right in range(-RADIUS, RADIUS + 1):
                 patch = at - (down * width + right)
-                proposed = colours.take(source.take(patch) + (down * level.hole.shape[1] + right), axis=0, mode="clip")
-                proposed *= trust.take(patch)[:, None]
-                total += proposed
-        return total[:, :3] / total[:, 3:]
+                proposed, weight = source.take(patch), trust.take(patch)
+                proposed += down * level.hole.shape[1] + right
+                weights += weight
+                for summed, plane in zip(total, colours, strict=True):
+                    summed += plane.take(proposed, mode="clip") * weight
+        return np.asarray((total / weights).T)
 
-    row, column = np.nonzero(level.hole)
-    pixels = (row + RADIUS) * width + column + RADIUS
+    unknown, across = level.unknown, level.hole.shape[1]
+    pixels = (unknown // across + RADIUS) * width + unknown % across + RADIUS
     filled = current.copy()
-    filled[level.hole] = np.concatenate(list(side_by_side(vote, *_divided(current[level.hole], pixels))))
+    flat = filled.reshape(-1, 3)
+    flat[unknown] = np.concatenate(list(side_by_side(vote, *_divided(flat.take(unknown, axis=0), pixels))))
     return filled
 
 

@@ -109,6 +109,8 @@ def _ink(picture: FloatImage, known: Mask) -> Mask:
     widened = cv2.dilate(np.where(known, lightness, -_NO_COLOUR), _LINE_DISC)
     closed = cv2.erode(np.where(widened > -_NO_COLOUR, widened, _NO_COLOUR), _LINE_DISC)
     dark = known & (closed - lightness > _INK)
+    if not dark.any():
+        return dark
     crowd, some = (cv2.GaussianBlur(each.astype(np.float32), (0, 0), _AROUND) for each in (dark, known))
     dark &= crowd < _MOST_INK * np.maximum(some, np.float32(1e-3))
     return cv2.dilate(dark.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0

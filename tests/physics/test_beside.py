@@ -7,7 +7,7 @@ import time
 from collections.abc import Iterator
 
 import pytest
-from physanimator.physics.beside import Beside, side_by_side
+from physanimator.physics.beside import Beside, made_ahead, side_by_side
 from physanimator.physics.interruption import checkpoint, interruptible
 from physanimator.physics.threads import THREADS
 
@@ -101,3 +101,55 @@ def test_the_first_error_side_by_side_leaves_out_the_rest() -> None:
     with pytest.raises(ValueError, match="number 0"):
         list(side_by_side(fail, range(200)))
     assert len(begun) < 100
+
+
+def test_what_is_made_ahead_keeps_its_order_and_is_bounded() -> None:
+    begun: list[int] = []
+
+    def make(number: int) -> int:
+        begun.append(number)
+        time.sleep(0.02 if number % 2 else 0.001)
+        return number
+
+    making = made_ahead(make, range(20), most=2)
+    assert next(making) == 0
+    assert begun == [0]
+    for number in range(1, 20):
+        assert next(making) == number
+        assert len(begun) <= number + 4
+    assert sorted(begun) == list(range(20))
+    assert list(making) == []
+
+
+def test_two_are_made_ahead_at_once() -> None:
+    both = threading.Barrier(2, timeout=30)
+    assert list(made_ahead(lambda number: number and both.wait() * 0 + number, range(5), most=2)) == [0, 1, 2, 3, 4]
+
+
+def test_an_error_ahead_comes_in_its_turn() -> None:
+    making = made_ahead(lambda number: 6 // (3 - number), range(9))
+    assert [next(making) for _ in range(3)] == [2, 3, 6]
+    with pytest.raises(ZeroDivisionError):
+        next(making)
+
+
+def test_whoever_leaves_what_is_made_ahead_ends_it() -> None:
+    asked: list[int] = []
+
+    def arguments() -> Iterator[int]:
+        for number in range(1000):
+            asked.append(number)
+            yield number
+
+    making = made_ahead(lambda number: number, arguments())
+    assert [next(making) for _ in range(4)] == [0, 1, 2, 3]
+    making.close()
+    assert len(asked) < 12
+
+
+def test_of_one_thread_nothing_is_made_ahead(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(THREADS, "1")
+    made: list[int] = []
+    making = made_ahead(lambda number: made.append(number) or threading.get_ident(), range(3))
+    assert next(making) == threading.get_ident()
+    assert made == [0]

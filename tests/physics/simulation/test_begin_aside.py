@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 from physanimator.physics.errors import PhysAnimatorError
@@ -63,3 +68,24 @@ def test_where_no_process_can_be_started_it_runs_here(scene: Scene, monkeypatch:
     begin_aside()
     with simulated_beside():
         np.testing.assert_array_equal(simulate(scene, frames=4).positions, before)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="symbolic links need rights on Windows")
+def test_a_process_that_ends_at_once_does_not_wait_for_kernels(tmp_path: Path) -> None:
+    """As after bad input; on an empty disk cache they would take seconds."""
+    program = """
+import time
+from physanimator.physics.runtime import taichi_runtime
+from physanimator.physics.simulation import begin_aside
+begin_aside()
+while taichi_runtime._taichi_thread._worker._process is None:
+    time.sleep(0.001)
+"""
+    package, kernels = tmp_path / "package", tmp_path / "kernels"
+    for folder in (package, kernels):
+        folder.mkdir()
+    (package / "physanimator").symlink_to(Path(__file__).resolve().parents[3], target_is_directory=True)
+    variables = {"PYTHONPATH": str(package), "TI_OFFLINE_CACHE_FILE_PATH": str(kernels), THREADS: "2"}
+    environment = os.environ | variables
+    subprocess.run([sys.executable, "-c", program], env=environment, check=True, capture_output=True, timeout=60)
+    assert not list(kernels.rglob("*.tic"))

@@ -12,7 +12,7 @@ from physanimator.physics.motion import Motion
 from physanimator.physics.scene import Body
 from physanimator.rendering.composite import LayeredRenderer
 from physanimator.rendering.matting import fitting_plate, mixed_rim, regular_mask, soft_alpha, with_outline
-from physanimator.rendering.matting.mask_forms import step_of
+from physanimator.rendering.matting.mask_forms import step_of, up_to_white
 from physanimator.rendering.plate import fill_hole
 
 WIDTH, HEIGHT, FINE = 220, 180, 4
@@ -370,3 +370,14 @@ def test_the_smallest_pictures_and_any_masks_pass(size: tuple[int, int]) -> None
         assert regular.dtype == np.float32
         assert regular.min() >= 0
         assert regular.max() <= 1
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_white_is_what_a_tenth_of_the_bright_pixels_reach(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    mask = random.random((random.integers(1, 40), 7)).astype(np.float32)
+    mask[random.random(mask.shape) < random.random()] = random.choice([1, 0.97, 0.6])
+    mask *= np.float32(random.choice([1, 0.99, 0.5]))
+    white = float(np.percentile(mask[mask > 0.5 * mask.max()], 90))
+    scaled = mask / np.float32(white) if white < 0.98 else mask
+    np.testing.assert_array_equal(up_to_white(mask), np.where(scaled > 1 - 0.5 / 255, np.float32(1), scaled))
