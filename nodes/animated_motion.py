@@ -12,7 +12,7 @@ from ..physics.interruption import interruptible
 from ..rendering.picked_parts import AUTO
 from .animated_inputs import GivenPicture, chosen_parts, is_empty
 from .drawing import drawing_of
-from .host import all_told, host_check, parts_named, server, tell_user
+from .host import all_told, host_check, named_part, parts_named, server, tell_user
 from .host.wires import MaskedMotion, MaskedScene
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ def motion_of_parts(
     from ..rendering.options import AutomaticWind, LayerChoice, Timing, Watch
     from ..rendering.pipeline import animate
 
-    parts, presets, notes = (), None if said["preset"] == AUTO else said["preset"], list[str]()
+    parts, presets, notes = (), None if said["preset"] == AUTO else said["preset"], list[dict[str, list[str]]]()
     told: dict[str, list[str]] = {}
     layered: PickedLayers | None = None
     names: tuple[str, ...] = ()
@@ -130,7 +130,10 @@ def motion_of_parts(
         if stage == "simulate":  # the others would put the bar back
             simulated(done, total)
 
-    watch = Watch(of_stage, on_note=notes.append)
+    def tell(note: str) -> None:
+        notes.append(tell_user(node, [named_part(note, names)]))
+
+    watch = Watch(of_stage, on_note=tell)
     with _aside(contact="contact" in (document or {})), parts_named(names):
         made = animate(
             given.subject,
@@ -145,7 +148,7 @@ def motion_of_parts(
         )
     source = getattr(made.renderer, "source", None)
     layers = None if source is None else MovingLayers(source, tuple(made.renderer.moving_layers))  # type: ignore[union-attr]
-    told = all_told(told, tell_user(node, notes))
+    told = all_told(told, *notes)
     return Moved(MaskedMotion(made.motion, tuple(made.masks), layers), made.renderer, told)
 
 

@@ -27,6 +27,7 @@ from ..physics.simulation import begin_aside, simulate, simulated_beside
 from ..physics.threads import allowed_threads
 from .animation import Animation, timed
 from .drawing_checks import check_drawing
+from .edge_advice import edge_advice
 from .flat_pictures import FlatPicture
 from .movement import Movement
 from .neural import NetworkOptions
@@ -170,6 +171,9 @@ def animate(
         timing = timing.settled(whole)
         _check_length(timing, whole, networks)
         whole = _touching(whole, touching.contact, _colliders(touching.colliders, parts.image, parts.layer_mask))
+    if watch.on_note is not None:
+        for note in edge_advice(parts.ending, whole):
+            watch.on_note(note)
     if watch.on_scene is not None:
         watch.on_scene(whole)
     animated = partial(Animation, parts.image, parts.masks, whole, own=parts.own, networks=networks, first=timing.skip)

@@ -20,7 +20,7 @@ from ...physics.document import scene_to_dict
 from ...physics.errors import require
 from ...physics.mesh import runs_of
 from ...rendering.picked_parts import AUTO
-from ..host import boxes_of
+from ..host import boxes_of, named_part
 from ..host.pictures import as_load_image, picture_place, require_small
 from .layers import artwork_to_pick, cuts_of_layers, layered_place, moving_of_layers
 from .limits import MAX_EDITOR_NAME, MAX_FRAMES, MAX_PICKED_PIXELS, MAX_PICKED_POINTS, MAX_PICKED_SIZE
@@ -157,7 +157,9 @@ class Picker:
         made: dict[str, Any] = {"width": width, "height": height, "cuts": _told(masks, picked.numbers)}
         made["advice"] = picked.judged(masks)
         if wanted.move is not None:
-            made |= self._moving(picture, masks, (of_file, asked), picked, wanted.move)
+            moving, told = self._moving(picture, masks, (of_file, asked), picked, wanted.move)
+            made |= moving
+            made["advice"] = [*made["advice"], *told]
         return made
 
     def _answer_of_layers(self, artwork: Artwork, of_file: Hashable, wanted: PickRequest) -> dict[str, Any]:
@@ -185,8 +187,9 @@ class Picker:
         key: Hashable,
         picked: PickedParts,
         move: dict[str, Any],
-    ) -> dict[str, Any]:
-        """The bodies' key, and the scene that the node Animate Illustration makes for them."""
+    ) -> tuple[dict[str, Any], list[str]]:
+        """The bodies' key and the scene that the node Animate Illustration makes for them; and what is to be said."""
+        from ...rendering.edge_advice import edge_advice
         from ...rendering.parts import parts_of_picture
         from ...rendering.picked_parts import presets_of
 
@@ -198,7 +201,8 @@ class Picker:
         hole = np.logical_or.reduce(masks).astype(np.uint8) * np.uint8(255)
         stored = self._store.put(PreviewBodies(scene.bodies, picture, hole))
         document = scene_to_dict(scene, meshes=False)
-        return {"key": stored, "scene": document, "frames": min(int(move["frames"]), MAX_FRAMES)}
+        told = [named_part(each, names) for each in edge_advice(parts.ending, scene)]
+        return {"key": stored, "scene": document, "frames": min(int(move["frames"]), MAX_FRAMES)}, told
 
 
 def _movement(presets: Sequence[str] | None, move: dict[str, Any]) -> Movement:

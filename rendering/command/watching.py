@@ -38,7 +38,7 @@ def watch_of(options: argparse.Namespace, progress: StageProgress, points: Seque
             judge_points(cut, points, [f"--points {path}" for path in getattr(options, "points", None) or ()])
         ),
         on_scene=on_scene,
-        on_note=lambda sentence: tell([sentence]),
+        on_note=lambda sentence: tell([parts_in_options(sentence, options)]),
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .mask_edges import FAINT, SQUARE, WIDE, grown
 from .matte import fitting_plate, in_levels, mixed_rim, soft_alpha, with_outline
+from .open_edges import OpenEdge, open_edges
 from .part_meshes import part_mesh, shown_part
 from .regularisation import regular_mask
 
@@ -11,10 +12,12 @@ __all__ = [
     "FAINT",
     "SQUARE",
     "WIDE",
+    "OpenEdge",
     "fitting_plate",
     "grown",
     "in_levels",
     "mixed_rim",
+    "open_edges",
     "part_mesh",
     "regular_mask",
     "shown_part",
