@@ -191,8 +191,9 @@ def chosen_parts(node: Any, picture: NDArray[Any], points: str, masks: torch.Ten
     if not is_empty(points):
         height, width = picture.shape[:2]
         picked = picked_parts(points, width=width, height=height)
-        cut, own = segment_parts(as_uint8(over(picture)), picked.prompts), picked.presets
-        told = tell_user(node, picked.judged(cut))
+        seen = as_uint8(over(picture))
+        cut, own = segment_parts(seen, picked.prompts), picked.presets
+        told = tell_user(node, picked.judged(cut, seen))
         names += [f"Part {number + 1}" for number in picked.numbers]
     if not given and not cut:
         raise InvalidInputError(NOTHING_PICKED)

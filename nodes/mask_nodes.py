@@ -155,9 +155,10 @@ class SegmentByPoints(io.ComfyNode):
         prompts = prompts_of(_points_of(points, width, height, needed=not boxes), boxes)
         name, choice = chosen(backend or {"backend": _GRABCUT}, "backend", (_GRABCUT, _SAM))
         cleaning = {"smallest_speck": smallest_speck, "largest_hole": largest_hole, "smoothing": smoothing}
+        seen, others = as_uint8(picture), segmenter_advice() if name == _GRABCUT else ""
         with sam_network(choice) if name == _SAM else nullcontext() as network:
-            masks = segment_parts(as_uint8(picture), prompts, network=network, **cleaning)
-        told = tell_user(cls, judge_cuts(masks, prompts, instead=segmenter_advice() if name == _GRABCUT else ""))
+            masks = segment_parts(seen, prompts, network=network, **cleaning)
+        told = tell_user(cls, judge_cuts(masks, prompts, instead=others, image=seen))
         faded = np.where(np.logical_or.reduce(masks)[..., None], picture, 0.75 + 0.25 * picture)
         preview = batch_of_pictures([faded], 1)
         return io.NodeOutput(batch_of_masks(masks, len(masks)), preview, ui=shown_with(ui.PreviewImage(preview), told))

@@ -146,16 +146,18 @@ class Picker:
         size = len(picked.prompts) * width * height
         require("parts", len(picked.prompts), size <= MAX_PICKED_SIZE, "fewer, or of a smaller picture")
         cleaning = {name: value for name, value in wanted.cleaning.items() if name != "box"}
-        asked = repr([(prompt.points, prompt.labels, prompt.box) for prompt in picked.prompts]), repr(cleaning)
+        asked = repr([(each.points, each.labels, each.box, each.name) for each in picked.prompts]), repr(cleaning)
 
-        def cut() -> list[Mask]:
+        def cut() -> tuple[list[Mask], list[str]]:
             from ...rendering.segmentation import segment_parts
 
-            return segment_parts(as_uint8(over(picture)), picked.prompts, **cleaning)
+            seen = as_uint8(over(picture))
+            masks = segment_parts(seen, picked.prompts, **cleaning)
+            return masks, picked.judged(masks, seen)
 
-        masks = self._cuts.get((of_file, asked), cut)
+        masks, judged = self._cuts.get((of_file, asked), cut)
         made: dict[str, Any] = {"width": width, "height": height, "cuts": _told(masks, picked.numbers)}
-        made["advice"] = picked.judged(masks)
+        made["advice"] = judged
         if wanted.move is not None:
             moving, told = self._moving(picture, masks, (of_file, asked), picked, wanted.move)
             made |= moving
