@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import torch
 
     from ..physics.progress import Progress
+    from ..physics.scene import Scene
     from ..rendering.artwork import Artwork
     from ..rendering.composite import LayeredRenderer, PixelArtRenderer
     from ..rendering.picked_layers import PickedLayers
@@ -99,6 +100,7 @@ def motion_of_parts(
     Raises:
         InvalidInputError: nothing moves, or a value is none that may be.
     """
+    from ..physics.scene import advice
     from ..rendering.moving_layers import MovingLayers
     from ..rendering.options import AutomaticWind, LayerChoice, Timing, Watch
     from ..rendering.pipeline import animate
@@ -133,7 +135,11 @@ def motion_of_parts(
     def tell(note: str) -> None:
         notes.append(tell_user(node, [named_part(note, names)]))
 
-    watch = Watch(of_stage, on_note=tell)
+    def on_scene(acting: Scene) -> None:
+        for sentence in advice(acting):
+            tell(sentence)
+
+    watch = Watch(of_stage, on_note=tell, on_scene=on_scene)
     with _aside(contact="contact" in (document or {})), parts_named(names):
         made = animate(
             given.subject,

@@ -19,7 +19,7 @@ from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
 from ..physics.progress import Progress
-from ..physics.scene import Body, Held, Scene
+from ..physics.scene import Body, Held, Scene, doubts_about_mask
 from .composite import (
     LayeredRenderer,
     PixelArtRenderer,
@@ -73,7 +73,7 @@ class Parts:
         own: each part alone, straight RGBA, shape [h, w, 4] each; empty where only masks are known.
         still: names of layers that stand still by somebody's word.
         layer_mask: gives the mask of the still layer of a name, or refuses it; None where there are no layers.
-        notes: a sentence for each layer that stands still against its name.
+        notes: a sentence for each layer that stands still against its name, and for each doubtful mask.
         order: names of layers that somebody put in another order than the file's, from back to front.
         needs_motion: whether the renderer must know the motion when it is made.
         ending: where the mask of each ends within one colour; empty where that is not known.
@@ -191,7 +191,8 @@ def parts_of_picture(
     found = Parts(
         image, tuple(masks), tuple(meshes), ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer
     )
-    return replace(found, needs_motion=pixel_art, ending=tuple(ending))
+    notes = [f"bodies[{number}]: {each}" for number, mask in enumerate(masks) for each in doubts_about_mask(mask)]
+    return replace(found, needs_motion=pixel_art, ending=tuple(ending), notes=tuple(notes))
 
 
 def _elsewhere(masks: Sequence[Mask], cover: NDArray[np.bool_] | None) -> list[NDArray[np.bool_] | None]:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from .edges_within import OpenEdge, open_edges
 from .mask_edges import FAINT, SQUARE, WIDE, grown
 from .matte import fitting_plate, in_levels, mixed_rim, soft_alpha, with_outline
-from .open_edges import OpenEdge, open_edges
 from .part_meshes import part_mesh, shown_part
 from .regularisation import regular_mask
 
