@@ -135,8 +135,12 @@ def given_picture(
         artwork = load_artwork(file_of(name))
         return _layered(artwork, tell_user(node, artwork.warnings))
     from ..rendering.pictures import load_image
+    from ..rendering.pictures.picture_files import first_of_several, reading
 
-    return GivenPicture(load_image(file_of(name), alpha=True))
+    picture = load_image(file_of(name), alpha=True)
+    with reading(file_of(name), "picture") as opened:
+        several = first_of_several(opened, name)
+    return GivenPicture(picture, None, tell_user(node, several))
 
 
 def _layered(artwork: Artwork, told: dict[str, list[str]]) -> GivenPicture:

@@ -202,6 +202,18 @@ def test_steps_that_lie_in_each_other_by_chance_are_labels(tmp_path: Path) -> No
         read(tmp_path / "a.png", picture)
 
 
+@pytest.mark.parametrize("form", ["gif", "png", "webp", "tiff"])
+def test_the_first_of_several_is_used_and_told(tmp_path: Path, form: str) -> None:
+    first, second = (Image.fromarray((each * 255).astype(np.uint8)).convert("RGB") for each in (disc(), 1 - disc()))
+    for several in (False, True):
+        path = tmp_path / f"{several}.{form}"
+        more = {"save_all": True, "append_images": [second]} if several else {}
+        first.save(path, **({"lossless": True} if form == "webp" else {}), **more)
+        found = read_mask(path, width=WIDTH, height=HEIGHT)
+        assert np.abs(found.coverage - disc()).max() < 0.05
+        assert ["only the first is used" in note for note in found.notes] == [True] * several
+
+
 def test_a_photograph_is_no_mask(tmp_path: Path) -> None:
     colours = np.random.default_rng(0).integers(0, 256, (HEIGHT // 10, WIDTH // 10, 3), dtype=np.uint8)
     Image.fromarray(colours).resize((WIDTH, HEIGHT), Image.Resampling.BICUBIC).save(tmp_path / "a.png")
