@@ -31,7 +31,7 @@ _NEAR, _BESIDE = 4, 12
 _OWN, _WIDE, _LINE = 6, 24, 25.0
 # With lines along so much of the edge the part is one of line art: colours that differ by less than the second are
 # light and shade, or a highlight [8-bit Lab].
-_LINED, _SHADED = 0.6, 26.0
+_LINED, _SHADED = 0.75, 26.0
 _SAME = 8.0  # elsewhere, colours that differ by less are the same, in texture too [8-bit Lab]
 _DARK = 60.0  # in what is darker neither line nor edge would show [8-bit Lab]
 # Stretches shorter than this are an accident, and interruptions up to the second do not end one [px].
