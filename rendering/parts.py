@@ -29,6 +29,7 @@ from .composite import (
     renderer_of,
     resting_on,
 )
+from .doubtful_inputs import doubts_about_plate, repeated_masks
 from .layer_roots import attachment_of_layer, resting_on_held
 from .matting import OpenEdge, open_edges, part_mesh
 from .single_layers import LayerPictures
@@ -73,7 +74,8 @@ class Parts:
         own: each part alone, straight RGBA, shape [h, w, 4] each; empty where only masks are known.
         still: names of layers that stand still by somebody's word.
         layer_mask: gives the mask of the still layer of a name, or refuses it; None where there are no layers.
-        notes: a sentence for each layer that stands still against its name, and for each doubtful mask.
+        notes: a sentence for each layer that stands still against its name, and for what is doubtful about masks and
+            plate.
         order: names of layers that somebody put in another order than the file's, from back to front.
         needs_motion: whether the renderer must know the motion when it is made.
         ending: where the mask of each ends within one colour; empty where that is not known.
@@ -191,8 +193,9 @@ def parts_of_picture(
     found = Parts(
         image, tuple(masks), tuple(meshes), ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer
     )
-    notes = [f"bodies[{number}]: {each}" for number, mask in enumerate(masks) for each in doubts_about_mask(mask)]
-    return replace(found, needs_motion=pixel_art, ending=tuple(ending), notes=tuple(notes))
+    doubts = [f"bodies[{number}]: {each}" for number, mask in enumerate(masks) for each in doubts_about_mask(mask)]
+    notes = (*doubts, *repeated_masks(masks), *doubts_about_plate(image, plate, masks))
+    return replace(found, needs_motion=pixel_art, ending=tuple(ending), notes=notes)
 
 
 def _elsewhere(masks: Sequence[Mask], cover: NDArray[np.bool_] | None) -> list[NDArray[np.bool_] | None]:
