@@ -135,8 +135,12 @@ def given_picture(
         artwork = load_artwork(file_of(name))
         return _layered(artwork, tell_user(node, artwork.warnings))
     from ..rendering.pictures import load_image
+    from ..rendering.pictures.picture_files import first_of_several, reading
 
-    return GivenPicture(load_image(file_of(name), alpha=True))
+    picture = load_image(file_of(name), alpha=True)
+    with reading(file_of(name), "picture") as opened:
+        several = first_of_several(opened, name)
+    return GivenPicture(picture, None, tell_user(node, several))
 
 
 def _layered(artwork: Artwork, told: dict[str, list[str]]) -> GivenPicture:
@@ -191,8 +195,9 @@ def chosen_parts(node: Any, picture: NDArray[Any], points: str, masks: torch.Ten
     if not is_empty(points):
         height, width = picture.shape[:2]
         picked = picked_parts(points, width=width, height=height)
-        cut, own = segment_parts(as_uint8(over(picture)), picked.prompts), picked.presets
-        told = tell_user(node, picked.judged(cut))
+        seen = as_uint8(over(picture))
+        cut, own = segment_parts(seen, picked.prompts), picked.presets
+        told = tell_user(node, picked.judged(cut, seen))
         names += [f"Part {number + 1}" for number in picked.numbers]
     if not given and not cut:
         raise InvalidInputError(NOTHING_PICKED)

@@ -12,13 +12,14 @@ from ..physics.interruption import interruptible
 from ..rendering.picked_parts import AUTO
 from .animated_inputs import GivenPicture, chosen_parts, is_empty
 from .drawing import drawing_of
-from .host import all_told, host_check, parts_named, server, tell_user
+from .host import all_told, host_check, named_part, parts_named, server, tell_user
 from .host.wires import MaskedMotion, MaskedScene
 
 if TYPE_CHECKING:
     import torch
 
     from ..physics.progress import Progress
+    from ..physics.scene import Scene
     from ..rendering.artwork import Artwork
     from ..rendering.composite import LayeredRenderer, PixelArtRenderer
     from ..rendering.picked_layers import PickedLayers
@@ -99,11 +100,12 @@ def motion_of_parts(
     Raises:
         InvalidInputError: nothing moves, or a value is none that may be.
     """
+    from ..physics.scene import advice
     from ..rendering.moving_layers import MovingLayers
     from ..rendering.options import AutomaticWind, LayerChoice, Timing, Watch
     from ..rendering.pipeline import animate
 
-    parts, presets, notes = (), None if said["preset"] == AUTO else said["preset"], list[str]()
+    parts, presets, notes = (), None if said["preset"] == AUTO else said["preset"], list[dict[str, list[str]]]()
     told: dict[str, list[str]] = {}
     layered: PickedLayers | None = None
     names: tuple[str, ...] = ()
@@ -130,7 +132,14 @@ def motion_of_parts(
         if stage == "simulate":  # the others would put the bar back
             simulated(done, total)
 
-    watch = Watch(of_stage, on_note=notes.append)
+    def tell(note: str) -> None:
+        notes.append(tell_user(node, [named_part(note, names)]))
+
+    def on_scene(acting: Scene) -> None:
+        for sentence in advice(acting):
+            tell(sentence)
+
+    watch = Watch(of_stage, on_note=tell, on_scene=on_scene)
     with _aside(contact="contact" in (document or {})), parts_named(names):
         made = animate(
             given.subject,
@@ -145,7 +154,7 @@ def motion_of_parts(
         )
     source = getattr(made.renderer, "source", None)
     layers = None if source is None else MovingLayers(source, tuple(made.renderer.moving_layers))  # type: ignore[union-attr]
-    told = all_told(told, tell_user(node, notes))
+    told = all_told(told, *notes)
     return Moved(MaskedMotion(made.motion, tuple(made.masks), layers), made.renderer, told)
 
 

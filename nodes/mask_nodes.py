@@ -14,6 +14,7 @@ from ..physics.errors import InvalidInputError, MeshingError
 from .background_inputs import image_alpha_input
 from .drawing import in_front_input, in_front_of
 from .host import (
+    all_told,
     batch_of_masks,
     batch_of_pictures,
     boxes_of,
@@ -154,9 +155,10 @@ class SegmentByPoints(io.ComfyNode):
         prompts = prompts_of(_points_of(points, width, height, needed=not boxes), boxes)
         name, choice = chosen(backend or {"backend": _GRABCUT}, "backend", (_GRABCUT, _SAM))
         cleaning = {"smallest_speck": smallest_speck, "largest_hole": largest_hole, "smoothing": smoothing}
+        seen, others = as_uint8(picture), segmenter_advice() if name == _GRABCUT else ""
         with sam_network(choice) if name == _SAM else nullcontext() as network:
-            masks = segment_parts(as_uint8(picture), prompts, network=network, **cleaning)
-        told = tell_user(cls, judge_cuts(masks, prompts, instead=segmenter_advice() if name == _GRABCUT else ""))
+            masks = segment_parts(seen, prompts, network=network, **cleaning)
+        told = tell_user(cls, judge_cuts(masks, prompts, instead=others, image=seen))
         faded = np.where(np.logical_or.reduce(masks)[..., None], picture, 0.75 + 0.25 * picture)
         preview = batch_of_pictures([faded], 1)
         return io.NodeOutput(batch_of_masks(masks, len(masks)), preview, ui=shown_with(ui.PreviewImage(preview), told))
@@ -238,7 +240,8 @@ class MaskToMesh(io.ComfyNode):
         from ..physics.mesh import fitted, mesh_from_mask
         from ..physics.scene import mask_advice
         from ..rendering.composite import behind_still
-        from ..rendering.matting import part_mesh
+        from ..rendering.edge_advice import edges_in_words
+        from ..rendering.matting import open_edges, part_mesh
         from ..rendering.overlays import draw_wireframe
         from ..rendering.pictures import over
 
@@ -254,6 +257,9 @@ class MaskToMesh(io.ComfyNode):
             coverage = behind_still(coverage, front > 0.5)
         meshed = partial(part_mesh, picture) if given and not pixel_art else mesh_from_mask
         mesh = meshed(coverage, spacing=spacing_of(spacing), elements_across=elements_across, uniform=uniform)
+        if given and not pixel_art:
+            ending = open_edges(picture, coverage, elsewhere=None if front is None else front > 0.5)
+            told = all_told(told, tell_user(cls, edges_in_words(ending, of="the mask")))
         preview = batch_of_pictures([draw_wireframe(over(picture), mesh)], 1)
         seen = preview if not given else batch_of_pictures([draw_wireframe(_tinted(over(picture), coverage), mesh)], 1)
         return io.NodeOutput(MaskedMesh(mesh, coverage, front), preview, ui=shown_with(ui.PreviewImage(seen), told))

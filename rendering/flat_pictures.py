@@ -6,9 +6,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
-from ..physics.errors import InvalidInputError
+from ..physics.errors import InvalidInputError, require
 from ..physics.progress import Progress
 from .neural import NetworkOptions
 from .neural.checking import naming_files
@@ -55,10 +56,12 @@ class FlatPicture:
             InvalidInputError: something is of no such form, or of another size.
         """
         picture = as_picture(image, alpha=True)
+        listed = points is None or (isinstance(points, Sequence | np.ndarray) and not isinstance(points, str | bytes))
+        require("points", type(points).__name__, listed, "a list with the points of one part in each place")
         plate = _checked_plate(plate, picture)
         covered = coverages("masks", () if masks is None else masks, picture)
         front = None if in_front is None else coverage("in_front", in_front, picture)
-        return cls(picture, covered, points or (), plate, front)
+        return cls(picture, covered, () if points is None else points, plate, front)
 
     def cut(self, networks: NetworkOptions, watch: Watch) -> tuple[Mask, ...]:
         """The masks of all parts; somebody may look at those that were cut from points."""
@@ -103,7 +106,7 @@ def _checked_plate(plate: Image | None, image: Image) -> Image | None:
 
 
 def _segmented(image: Image, points: Sequence[Any], networks: NetworkOptions) -> Iterator[Mask]:
-    if not points:
+    if not len(points):
         return
     from ..physics.document import parse_points
     from .neural.cutting import segmenter_of

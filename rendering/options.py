@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
+from ..physics.checks import require_kind
 from ..physics.errors import require
 from ..physics.scene import Contact, Scene, check_scene_rate
 from ..physics.simulation import loop_frames
-from .drawing_checks import check_count
+from .drawing_checks import check_count, check_drawing
 from .stages import StageProgress
 
 if TYPE_CHECKING:
@@ -131,6 +132,27 @@ class Saving:
     path: str | os.PathLike[str]
     background: str | None = None
     width: int | None = None
+
+    def check(self, *, by_model: bool = False) -> None:
+        """Refuse what cannot be written, before there is anything to write.
+
+        Args:
+            by_model: a model draws the frames, or paints in them.
+
+        Raises:
+            InvalidInputError: nothing can be written there, the background is unknown, or the width is none.
+        """
+        from .composite import background_of
+        from .pictures import check_output
+
+        has_alpha = False
+        if self.background is not None:
+            require_kind("background", self.background, str, "a text")
+            has_alpha = background_of(self.background).has_alpha
+        check_drawing(transparent=has_alpha, by_model=by_model)
+        check_output(self.path, alpha=has_alpha)
+        if self.width is not None:
+            check_count("width", self.width, unit="px")
 
 
 @dataclass(frozen=True, eq=False)

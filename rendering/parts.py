@@ -19,7 +19,7 @@ from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
 from ..physics.progress import Progress
-from ..physics.scene import Body, Held, Scene
+from ..physics.scene import Body, Held, Scene, doubts_about_mask
 from .composite import (
     LayeredRenderer,
     PixelArtRenderer,
@@ -29,8 +29,9 @@ from .composite import (
     renderer_of,
     resting_on,
 )
+from .doubtful_inputs import doubts_about_plate, repeated_masks
 from .layer_roots import attachment_of_layer, resting_on_held
-from .matting import part_mesh
+from .matting import OpenEdge, open_edges, part_mesh
 from .single_layers import LayerPictures
 
 if TYPE_CHECKING:
@@ -73,9 +74,11 @@ class Parts:
         own: each part alone, straight RGBA, shape [h, w, 4] each; empty where only masks are known.
         still: names of layers that stand still by somebody's word.
         layer_mask: gives the mask of the still layer of a name, or refuses it; None where there are no layers.
-        notes: a sentence for each layer that stands still against its name.
+        notes: a sentence for each layer that stands still against its name, and for what is doubtful about masks and
+            plate.
         order: names of layers that somebody put in another order than the file's, from back to front.
         needs_motion: whether the renderer must know the motion when it is made.
+        ending: where the mask of each ends within one colour; empty where that is not known.
     """
 
     image: Image
@@ -93,6 +96,7 @@ class Parts:
     notes: tuple[str, ...] = ()
     order: tuple[str, ...] = ()
     needs_motion: bool = True
+    ending: tuple[Sequence[OpenEdge], ...] = ()
 
     def drawn_at_rest(self, scene: Scene) -> LayeredRenderer | PixelArtRenderer:
         """What draws the bodies of a scene as they are in the drawing; made without their motion."""
@@ -173,17 +177,35 @@ def parts_of_picture(
         return renderer_of(image, masks, motion, plate=plate, pixel_art=pixel_art, in_front=in_front)
 
     seen = None if pixel_art else image  # pixel art moves the very pixels of its mask
-    count, meshes = len(masks), list[TriangleMesh]()
+    count, meshes, ending = len(masks), list[TriangleMesh](), list[Sequence[OpenEdge]]()
     report = progress or (lambda _done, _total: None)
     report(0, count)
-    for mesh in side_by_side(lambda mask, name: _meshed(mask, spacing, name, seen), masks, names):
+
+    def made(mask: Mask, name: str, elsewhere: NDArray[np.bool_] | None) -> tuple[TriangleMesh, Sequence[OpenEdge]]:
+        mesh = _meshed(mask, spacing, name, seen)
+        return mesh, () if seen is None else open_edges(seen, mask, elsewhere=elsewhere)
+
+    for mesh, edges in side_by_side(made, masks, names, _elsewhere(masks, cover)):
         meshes.append(mesh)
+        ending.append(edges)
         report(len(meshes), count)
     nothing, guessed = (None,) * count, tuple[Held, ...](["auto"] * count)
     found = Parts(
         image, tuple(masks), tuple(meshes), ("",) * count, nothing, (cover,) * count, nothing, guessed, renderer
     )
-    return replace(found, needs_motion=pixel_art)
+    doubts = [f"bodies[{number}]: {each}" for number, mask in enumerate(masks) for each in doubts_about_mask(mask)]
+    notes = (*doubts, *repeated_masks(masks), *doubts_about_plate(image, plate, masks))
+    return replace(found, needs_motion=pixel_art, ending=tuple(ending), notes=notes)
+
+
+def _elsewhere(masks: Sequence[Mask], cover: NDArray[np.bool_] | None) -> list[NDArray[np.bool_] | None]:
+    """For each mask what covers it or is another's, shape [h, w]; None for nothing."""
+    shown = [mask > 0.5 for mask in masks]
+    found = []
+    for number in range(len(masks)):
+        planes = [*shown[:number], *shown[number + 1 :], *([] if cover is None else [cover])]
+        found.append(np.logical_or.reduce(planes) if planes else None)
+    return found
 
 
 def parts_of_artwork(

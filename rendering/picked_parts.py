@@ -36,13 +36,14 @@ class PickedParts:
     numbers: tuple[int, ...]
     presets: tuple[str | None, ...]
 
-    def judged(self, masks: Sequence[NDArray[np.bool_]]) -> list[str]:
+    def judged(self, masks: Sequence[NDArray[np.bool_]], image: NDArray[Any] | None = None) -> list[str]:
         """What is suspicious about the masks that were cut: sentences, with the part's name if there are more.
 
         Args:
             masks: one for each part, shape [h, w] each.
+            image: what they were cut from, RGB, shape [h, w, 3].
         """
-        return judge_cuts(masks, self.prompts)
+        return judge_cuts(masks, self.prompts, image=image)
 
 
 def picked_parts(points: str | Mapping[str, Any], *, width: int, height: int, boxes: Sequence[Box] = ()) -> PickedParts:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ..physics.assembly import work_of_minutes
 from ..physics.beside import Beside
+from ..physics.checks import require_kind
 from ..physics.document import LayerMasks, check_document
 from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
@@ -27,6 +28,7 @@ from ..physics.simulation import begin_aside, simulate, simulated_beside
 from ..physics.threads import allowed_threads
 from .animation import Animation, timed
 from .drawing_checks import check_drawing
+from .edge_advice import edge_advice
 from .flat_pictures import FlatPicture
 from .movement import Movement
 from .neural import NetworkOptions
@@ -34,7 +36,6 @@ from .neural.checking import check_networks
 from .options import AutomaticWind, LayerChoice, Saving, Timing, Touching, Watch
 from .parts import Parts, coverage, parts_of_artwork
 from .physics_options import PhysicsOptions
-from .pictures import check_output
 from .stages import StageProgress, stage_of
 
 if TYPE_CHECKING:
@@ -48,6 +49,17 @@ Image = NDArray[Any]
 Mask = NDArray[Any]
 
 _USUAL_WIND, _USUAL_TIMING, _AS_THE_SCENE_SAYS, _NOBODY = AutomaticWind(), Timing(), Touching(), Watch()
+_KINDS: dict[str, type] = {
+    "wind": AutomaticWind,
+    "timing": Timing,
+    "touching": Touching,
+    "layers": LayerChoice,
+    "physics": PhysicsOptions,
+    "watch": Watch,
+    "networks": NetworkOptions,
+    "save": Saving,
+}
+_SUCH = {"wind": "strength=2", "timing": "frames=48", "save": '"a.mp4"', "layers": 'move=("hair",)'}
 _BY_THEIR_NAMES, _NO_NETWORKS, _USUAL_PHYSICS = LayerChoice(), NetworkOptions(), PhysicsOptions()
 
 
@@ -131,8 +143,10 @@ def animate(
     from .artwork import Artwork
 
     seconds: dict[str, float] = {}
+    groups = {"wind": wind, "timing": timing, "touching": touching, "layers": layers, "physics": physics}
+    _check_kinds(**groups, watch=watch, networks=networks, save=save)
     if save is not None:
-        check_output(save.path)
+        save.check(by_model=networks.draws_opaque)
     work_of_minutes(max_minutes)
     if not (pixel_art or isinstance(image, Artwork)):
         begin_aside()  # it takes as long as to cut the parts out
@@ -155,6 +169,8 @@ def animate(
             if watch.progress is not None:
                 watch.progress("mesh", 1, 1)
     else:
+        named = bool(layers.move or layers.still or layers.plans)
+        require("layers", "names of layers", not named, "left out where the picture is flat")
         flat = FlatPicture.of(image, masks, points, plate, in_front)
         _colliders(touching.colliders, flat.image)
         with timed(seconds, "segment"):
@@ -170,6 +186,9 @@ def animate(
         timing = timing.settled(whole)
         _check_length(timing, whole, networks)
         whole = _touching(whole, touching.contact, _colliders(touching.colliders, parts.image, parts.layer_mask))
+    if watch.on_note is not None:
+        for note in edge_advice(parts.ending, whole):
+            watch.on_note(note)
     if watch.on_scene is not None:
         watch.on_scene(whole)
     animated = partial(Animation, parts.image, parts.masks, whole, own=parts.own, networks=networks, first=timing.skip)
@@ -182,6 +201,14 @@ def animate(
     if save is not None:
         animation.save(save.path, background=save.background, width=save.width, progress=watch.progress)
     return animation
+
+
+def _check_kinds(**given: object) -> None:
+    """Refuse groups of options that are none, such as a bare path to save to."""
+    for name, value in given.items():
+        kind = _KINDS[name]
+        if value is not None or name != "save":
+            require_kind(name, value, kind, f"given as {kind.__name__}({_SUCH.get(name, '...')})")
 
 
 def _simulated(

@@ -26,7 +26,7 @@ from .tensors import (
     pictures_for,
     pictures_of,
 )
-from .wording import parts_named, with_known_places
+from .wording import named_part, parts_named, with_known_places
 
 __all__ = [
     "EXR",
@@ -60,6 +60,7 @@ __all__ = [
     "lines_of_frames",
     "mask_batch",
     "mask_of",
+    "named_part",
     "not_made",
     "numbers_of",
     "parts_named",

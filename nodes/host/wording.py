@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 from ...physics.errors import InvalidInputError, PhysAnimatorError
 
-__all__ = ["in_users_words", "parts_named", "placed_errors", "with_known_places"]
+__all__ = ["in_users_words", "named_part", "parts_named", "placed_errors", "with_known_places"]
 
 _PART = re.compile(r"^(?:masks|bodies)\[(\d+)\](?: \([^)]*\))?(?=[:. ])")
 _LIST = re.compile(r"^(bodies|rig_points)\[(\d+)\](?=[: ])")
@@ -28,14 +28,24 @@ def parts_named(names: Sequence[str]) -> Iterator[None]:
     try:
         yield
     except InvalidInputError as error:
-        said = str(error)
-        found = _PART.match(said)
-        if found and int(found[1]) < len(names):
-            said = names[int(found[1])] + said[found.end() :]
-        elif names and said.startswith("masks must "):
+        said = named_part(str(error), names)
+        if names and said.startswith("masks must "):
             said = "the parts" + said[len("masks") :]
         error.args = (said,)
         raise
+
+
+def named_part(sentence: str, names: Sequence[str]) -> str:
+    """A sentence about one of the parts, with its name in place of its number.
+
+    Args:
+        sentence: as the library says it.
+        names: of the parts, in their order.
+    """
+    found = _PART.match(sentence)
+    if found is None or int(found[1]) >= len(names):
+        return sentence
+    return names[int(found[1])] + sentence[found.end() :]
 
 
 def in_users_words(sentence: str) -> str:

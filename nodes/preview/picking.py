@@ -20,7 +20,7 @@ from ...physics.document import scene_to_dict
 from ...physics.errors import require
 from ...physics.mesh import runs_of
 from ...rendering.picked_parts import AUTO
-from ..host import boxes_of
+from ..host import boxes_of, named_part
 from ..host.pictures import as_load_image, picture_place, require_small
 from .layers import artwork_to_pick, cuts_of_layers, layered_place, moving_of_layers
 from .limits import MAX_EDITOR_NAME, MAX_FRAMES, MAX_PICKED_PIXELS, MAX_PICKED_POINTS, MAX_PICKED_SIZE
@@ -146,18 +146,22 @@ class Picker:
         size = len(picked.prompts) * width * height
         require("parts", len(picked.prompts), size <= MAX_PICKED_SIZE, "fewer, or of a smaller picture")
         cleaning = {name: value for name, value in wanted.cleaning.items() if name != "box"}
-        asked = repr([(prompt.points, prompt.labels, prompt.box) for prompt in picked.prompts]), repr(cleaning)
+        asked = repr([(each.points, each.labels, each.box, each.name) for each in picked.prompts]), repr(cleaning)
 
-        def cut() -> list[Mask]:
+        def cut() -> tuple[list[Mask], list[str]]:
             from ...rendering.segmentation import segment_parts
 
-            return segment_parts(as_uint8(over(picture)), picked.prompts, **cleaning)
+            seen = as_uint8(over(picture))
+            masks = segment_parts(seen, picked.prompts, **cleaning)
+            return masks, picked.judged(masks, seen)
 
-        masks = self._cuts.get((of_file, asked), cut)
+        masks, judged = self._cuts.get((of_file, asked), cut)
         made: dict[str, Any] = {"width": width, "height": height, "cuts": _told(masks, picked.numbers)}
-        made["advice"] = picked.judged(masks)
+        made["advice"] = judged
         if wanted.move is not None:
-            made |= self._moving(picture, masks, (of_file, asked), picked, wanted.move)
+            moving, told = self._moving(picture, masks, (of_file, asked), picked, wanted.move)
+            made |= moving
+            made["advice"] = [*made["advice"], *told]
         return made
 
     def _answer_of_layers(self, artwork: Artwork, of_file: Hashable, wanted: PickRequest) -> dict[str, Any]:
@@ -185,8 +189,9 @@ class Picker:
         key: Hashable,
         picked: PickedParts,
         move: dict[str, Any],
-    ) -> dict[str, Any]:
-        """The bodies' key, and the scene that the node Animate Illustration makes for them."""
+    ) -> tuple[dict[str, Any], list[str]]:
+        """The bodies' key and the scene that the node Animate Illustration makes for them; and what is to be said."""
+        from ...rendering.edge_advice import edge_advice
         from ...rendering.parts import parts_of_picture
         from ...rendering.picked_parts import presets_of
 
@@ -198,7 +203,8 @@ class Picker:
         hole = np.logical_or.reduce(masks).astype(np.uint8) * np.uint8(255)
         stored = self._store.put(PreviewBodies(scene.bodies, picture, hole))
         document = scene_to_dict(scene, meshes=False)
-        return {"key": stored, "scene": document, "frames": min(int(move["frames"]), MAX_FRAMES)}
+        told = [named_part(each, names) for each in edge_advice(parts.ending, scene)]
+        return {"key": stored, "scene": document, "frames": min(int(move["frames"]), MAX_FRAMES)}, told
 
 
 def _movement(presets: Sequence[str] | None, move: dict[str, Any]) -> Movement:

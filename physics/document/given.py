@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from ..checks import require_kind
 from ..errors import InvalidInputError, counted
 from ..material import Material, with_values
 from ..material import preset as preset_of
@@ -91,6 +92,7 @@ def materials_of(names: str | Sequence[str], sway: float | None, count: int) -> 
     Raises:
         InvalidInputError: there is no such preset, or the number of names fits neither one nor all bodies.
     """
+    require_kind("preset", names, (str, Sequence), "the name of a material, or a list of names")
     chosen = [names] if isinstance(names, str) else list(names)
     if len(chosen) not in (1, count):
         raise InvalidInputError(f"preset must be named once, or once for each of the {count} masks. Got: {len(chosen)}")

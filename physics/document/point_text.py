@@ -258,6 +258,8 @@ def _coordinates(item: Any, name: str) -> tuple[float, float]:
         values = (item[0], item[1])
     else:
         raise InvalidInputError(f"{name} must be {POINT_FORMS}. Got: {shown(item)}")
+    if any(isinstance(value, bool | np.bool_) for value in values):
+        raise InvalidInputError(f"{name} must hold two numbers. Got: {shown(item)}")
     try:
         x, y = (float(value) for value in values)
     except OverflowError:

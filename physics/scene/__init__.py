@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .advising import absent_bodies, advice, mask_advice, unused_rig_points
+from .advising import absent_bodies, advice, unused_rig_points
 from .attachment import held_where_said, pins
 from .automatic import automatic_scene
 from .collider_outlines import (
@@ -15,6 +15,7 @@ from .collider_outlines import (
     window_of,
 )
 from .collision import Collider, Contact
+from .doubtful_masks import doubts_about_mask, mask_advice
 from .holds import Holds, holds_of, region_work
 from .paint import QUANTITIES, Paint
 from .query_points import QueryPoint
@@ -44,6 +45,7 @@ __all__ = [
     "automatic_scene",
     "check_scene_rate",
     "count_outlines",
+    "doubts_about_mask",
     "held_where_said",
     "holds_of",
     "mask_advice",

@@ -7,21 +7,17 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..errors import printable
 from ..mesh import PixelBox, TriangleMesh, may_be_inverted, triangle_ids
 from ..rig import Circle, MaskRegion, Polygon, RigPoint, coarseness_of, distances_of, leaders_of, vertices_of
 from .scene import Scene
 
-__all__ = ["absent_bodies", "advice", "inverted_masks", "loose_parts", "mask_advice", "unused_rig_points"]
+__all__ = ["absent_bodies", "advice", "inverted_masks", "loose_parts", "unused_rig_points"]
 
 _NAMED = 3
 _LISTED = 10
 _LOOKED_AT = 128  # longest side at which it is seen what a mesh covers [px]
-# A smaller part, and a smaller share of the picture, is rather a slip of the brush than something that bends [px^2].
-_TINY = 64
-_TINY_SHARE = 0.005
 
 
 def advice(scene: Scene, *, masks: bool = True) -> list[str]:
@@ -137,19 +133,3 @@ def _whereabouts(rig_point: RigPoint, meshes: Sequence[TriangleMesh], coarse: in
     if isinstance(region, Polygon):
         return f"its polygon lies {round(distance, 1):g} px away from the nearest vertex"
     return f"its mask lies about {round(distance, 1):g} px away from the nearest vertex"
-
-
-def mask_advice(mask: ArrayLike) -> list[str]:
-    """Sentences about a mask that probably shows something else than the part that shall move.
-
-    Args:
-        mask: coverage 0..1 or bool, shape [h, w].
-    """
-    coverage = np.asarray(mask, dtype=np.float32)
-    covered = coverage > 0.5
-    pixels, share = int(np.count_nonzero(covered)), float(covered.mean()) if covered.size else 0.0
-    if 0 < pixels < _TINY and share < _TINY_SHARE:
-        return [f"the mask covers {pixels} px only: is it the whole part that shall move?"]
-    if covered.size and may_be_inverted(coverage):
-        return [f"the mask covers {100 * share:.0f} % of the picture: is it inverted? White is what moves."]
-    return []

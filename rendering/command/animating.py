@@ -73,7 +73,7 @@ def animate_and_write(options: argparse.Namespace, image: Any, **inputs: Any) ->
             plate=plate,
             pixel_art=options.pixel_art,
             max_minutes=options.max_minutes,
-            watch=watch_of(options, progress, inputs.get("points", ())),
+            watch=watch_of(options, progress, inputs.get("points", ()), image),
             networks=networks_of(options),
             save=save,
             **inputs,

@@ -140,7 +140,7 @@ def _measure(options: argparse.Namespace) -> None:
     plate = read_plate(options, alpha=False)
     with ExitStack() as bars:
         progress = progress_of(options, bars)
-        watch = watch_of(options, progress, inputs["points"])
+        watch = watch_of(options, progress, inputs["points"], image)
         animation = animate(
             image,
             plate=plate,

@@ -142,9 +142,15 @@ def read_plate(options: argparse.Namespace, *, alpha: bool = True) -> Any:
 
 def _picture(path: str, option: str, *, alpha: bool = True) -> Any:
     from ..pictures import load_image
+    from ..pictures.picture_files import first_of_several, reading
+    from .messages import warn
 
     with named_as(option, "picture"):
-        return load_image(path, alpha=alpha)
+        picture = load_image(path, alpha=alpha)
+        with reading(path, "picture") as opened:
+            for sentence in first_of_several(opened, f"{option} {path}"):
+                warn(f"physanimator: warning: {sentence}")
+    return picture
 
 
 def _artwork(path: str) -> Artwork:

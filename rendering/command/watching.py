@@ -5,9 +5,11 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from contextlib import ExitStack
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from ...physics.scene import Scene
     from ..options import Watch
     from ..stages import StageProgress
@@ -15,10 +17,18 @@ if TYPE_CHECKING:
 __all__ = ["progress_of", "watch_of"]
 
 
-def watch_of(options: argparse.Namespace, progress: StageProgress, points: Sequence[str]) -> Watch:
-    """Who hears of the work; before the simulation, what is suspicious about the cuts and the scene is said."""
+def watch_of(options: argparse.Namespace, progress: StageProgress, points: Sequence[str], image: Any) -> Watch:
+    """Who hears of the work; before the simulation, what is suspicious about the cuts and the scene is said.
+
+    Args:
+        options: of the command.
+        progress: what is called with every step.
+        points: the texts of the point files.
+        image: the illustration; read where there are points.
+    """
     from ...physics.scene import advice
     from ..options import Watch
+    from ..pictures import as_picture, over
     from ..segmentation import judge_points
     from .messages import warn
     from .names import parts_in_options
@@ -28,17 +38,20 @@ def watch_of(options: argparse.Namespace, progress: StageProgress, points: Seque
         for sentence in sentences:
             warn(f"physanimator: warning: {sentence}")
 
+    def on_cut(cut: Sequence[NDArray[Any]]) -> None:
+        if points:
+            names = [f"--points {path}" for path in getattr(options, "points", None) or ()]
+            tell(judge_points(cut, points, names, image=over(as_picture(image, alpha=True))))
+
     def on_scene(scene: Scene) -> None:
         check_keyframes(options, scene)
         tell([parts_in_options(each, options) for each in advice(scene, masks=not getattr(options, "mask", None))])
 
     return Watch(
         progress=progress,
-        on_cut=lambda cut: tell(
-            judge_points(cut, points, [f"--points {path}" for path in getattr(options, "points", None) or ()])
-        ),
+        on_cut=on_cut,
         on_scene=on_scene,
-        on_note=lambda sentence: tell([sentence]),
+        on_note=lambda sentence: tell([parts_in_options(sentence, options)]),
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .edges_within import OpenEdge, open_edges
 from .mask_edges import FAINT, SQUARE, WIDE, grown
 from .matte import fitting_plate, in_levels, mixed_rim, soft_alpha, with_outline
 from .part_meshes import part_mesh, shown_part
@@ -11,10 +12,12 @@ __all__ = [
     "FAINT",
     "SQUARE",
     "WIDE",
+    "OpenEdge",
     "fitting_plate",
     "grown",
     "in_levels",
     "mixed_rim",
+    "open_edges",
     "part_mesh",
     "regular_mask",
     "shown_part",

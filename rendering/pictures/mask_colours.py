@@ -168,15 +168,18 @@ def flat_levels(plane: FloatPlane) -> list[tuple[float, float]]:
     counts = cv2.calcHist([levels], [0], flat, [256], [0, 256]).ravel().astype(np.float64)
     # At least four pixels, a thousandth of the plane and a fiftieth of what is brighter than black.
     least = max(4.0, 0.001 * levels.size, 0.02 * counts[9:].sum())
-    found = []
+    found, all_counts = [], counts.copy()
     for level in np.argsort(-counts):
-        if counts[level] <= 0:
-            break
+        if counts[level] <= 0:  # it was counted with a level beside it, which noise has spread
+            continue
         for window, around in _WINDOWS:
-            near = counts[max(0, level - window) : level + window + 1].sum()
-            beside = counts[max(0, level - around) : level + around + 1].sum() - near
+            first = max(0, level - window)
+            own = counts[first : level + window + 1]
+            near = own.sum()
+            beside = all_counts[max(0, level - around) : level + around + 1].sum() - near
             if near >= max(least, _APART * beside):
-                found.append((float(level) / 255, float(near / levels.size)))
+                middle = int(np.searchsorted(np.cumsum(own), near / 2))
+                found.append((float(first + middle) / 255, float(near / levels.size)))
                 counts[max(0, level - _WINDOWS[1][0]) : level + _WINDOWS[1][0] + 1] = 0
                 break
     return sorted(found)

@@ -12,7 +12,7 @@ from PIL import ImageOps
 from ...physics.errors import InvalidInputError
 from ...physics.mesh import fitted, may_be_inverted
 from .mask_rule import EMPTY, MaskFile, judged
-from .picture_files import reading
+from .picture_files import first_of_several, reading
 
 __all__ = ["read_mask"]
 
@@ -43,12 +43,13 @@ def read_mask(path: StrPath, *, width: int, height: int, name: str = "mask") -> 
     """
     called = f"{name} {path}"
     with reading(path, "picture") as opened:
+        several = first_of_several(opened, called)
         picture = ImageOps.exif_transpose(opened)
         found = judged(picture, called)
     coverage = fitted(found.coverage, width, height, name=called)
     if coverage.max() < 0.5:
         raise InvalidInputError(f"{called} must be {EMPTY}")
-    notes = found.notes
+    notes = (*several, *found.notes)
     if may_be_inverted(coverage):
         share = 100 * float(coverage.mean())
         notes += (f"{called} covers {share:.0f} % of the picture: if white is what shall stay still, invert it",)

@@ -14,7 +14,7 @@ from ...physics.errors import InvalidInputError
 from .mask_colours import Colour, colours_of, flat_levels, named, share_of_colour
 from .picture_modes import GREY_MODES, grey_numbers, has_transparency, in_srgb, with_opacity
 from .pixels import as_float
-from .posterised import is_posterised
+from .posterised import is_gradient, is_posterised
 
 __all__ = ["EMPTY", "MaskFile", "judged"]
 
@@ -126,7 +126,8 @@ def _by_grey(plane: FloatPlane, called: str) -> MaskFile:
     greys = [level for level, _ in levels if level > (_DARK if highest >= 0.5 else _DARK / 3)]
     if len([level for level in greys if level >= _BRIGHT]) > 1:  # JPEG's noise in white
         greys = [level for level in greys if level < _BRIGHT] + [1.0]
-    if len(greys) > 1 and is_posterised(plane / np.float32(unit)):
+    soft = _as_soft(plane / np.float32(unit), len(greys), called) if len(greys) > 1 else ()
+    if len(greys) > 1 and soft is not None:
         greys = [highest / unit]
     white = highest >= _BRIGHT and _has_white(plane, levels)
     if white and len([level for level in greys if level < _BRIGHT]) == 1:
@@ -140,12 +141,20 @@ def _by_grey(plane: FloatPlane, called: str) -> MaskFile:
             f" Got: {len(greys)} grey levels besides black: {seen}"
         )
     if (greys and greys[0] < _BRIGHT * highest / unit) or (highest < 0.5 and (greys or _of_one_level(plane))):
-        return MaskFile(np.clip(plane / np.float32(unit * greys[0] if greys else highest), 0, 1))
+        return MaskFile(np.clip(plane / np.float32(unit * greys[0] if greys else highest), 0, 1), soft or ())
     if highest < 0.5:
         raise InvalidInputError(
             f"{called} must be {EMPTY}: its brightest pixel is {255 * highest:.0f} of 255, without an even area"
         )
-    return MaskFile(np.clip(plane / np.float32(greys[0]), 0, 1) if greys and greys[0] < _BRIGHT else plane)
+    return MaskFile(np.clip(plane / np.float32(greys[0]), 0, 1) if greys and greys[0] < _BRIGHT else plane, soft or ())
+
+
+def _as_soft(plane: FloatPlane, count: int, called: str) -> tuple[str, ...] | None:
+    """What is to be said of a plane of a few greys that is one soft mask; None where these are labels."""
+    if is_posterised(plane):
+        return ()
+    note = f"{called} shows {count} shades in order: they were taken as one soft mask, not as labels"
+    return (note,) if is_gradient(plane) else None
 
 
 def _has_white(plane: FloatPlane, levels: list[tuple[float, float]]) -> bool:
@@ -184,13 +193,14 @@ def _by_colour(rgb: NDArray[np.uint8], called: str) -> MaskFile:
     part, rest = pair
     plane = share_of_colour(rgb, part, rest)
     between = [level for level, _ in flat_levels(plane) if _DARK < level < _BRIGHT]
-    if between and not is_posterised(plane):
+    soft = _as_soft(plane, len(between) + 1, called) if between else ()
+    if soft is None:
         raise InvalidInputError(
             f"{called} must show one part; of labels, save one as a mask of its own. Got: {len(between) + 1} shades of"
             f" {part.name}"
         )
     notes = (f"{called}: {part.name} on white was taken as the part",) if rest.name == "white" else ()
-    return MaskFile(plane, notes)
+    return MaskFile(plane, (*notes, *soft))
 
 
 def _part_and_rest(colours: list[Colour], rgb: NDArray[np.uint8]) -> tuple[Colour, Colour] | None:

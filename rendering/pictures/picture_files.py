@@ -15,7 +15,7 @@ from ..files import check_regular
 if TYPE_CHECKING:
     from PIL import Image
 
-__all__ = ["check_size", "open_picture", "reading"]
+__all__ = ["check_size", "first_of_several", "open_picture", "reading"]
 
 StrPath = str | os.PathLike[str]
 
@@ -94,6 +94,26 @@ def reading(path: StrPath, name: str) -> Iterator[Image.Image]:
         raise InvalidInputError(f"{name} {path} cannot be read: {_reason(error)}") from error
 
 
+def first_of_several(picture: Image.Image, called: str) -> tuple[str, ...]:
+    """A sentence about a picture of which only the first frame or page is read; none where it is the only one.
+
+    Args:
+        picture: as it was opened; it shows its first frame again afterwards.
+        called: its name, for the sentence.
+    """
+    if picture.format not in _SEVERAL:
+        return ()
+    try:
+        picture.seek(1)
+    except Exception:  # there is none, or it is damaged
+        return ()
+    finally:
+        picture.seek(0)
+    what = "pages" if picture.format == "TIFF" else "frames"
+    return (f"{called} has several {what}: only the first is used",)
+
+
+_SEVERAL = ("GIF", "WEBP", "PNG", "TIFF", "AVIF")
 _BOUNDS = (
     f"at most {MAX_PICTURE_PIXELS / 1e6:.0f} million pixels (such as 8192 x 8192 or 1600 x 30000) and at most"
     f" {MAX_PICTURE_SIDE} px on a side"

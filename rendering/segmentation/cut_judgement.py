@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...physics.document import parse_points
+from .parts_beyond import parts_beyond
 from .prompts import Box, Prompt
 
 __all__ = ["judge_cut", "judge_cuts", "judge_points"]
@@ -21,7 +22,15 @@ _SPECK = 1e-4
 _LARGEST = 0.5
 
 
-def judge_cut(mask: Mask, points: ArrayLike, labels: ArrayLike, *, box: Box | None = None) -> list[str]:
+def judge_cut(
+    mask: Mask,
+    points: ArrayLike,
+    labels: ArrayLike,
+    *,
+    box: Box | None = None,
+    image: NDArray[Any] | None = None,
+    others: Mask | None = None,
+) -> list[str]:
     """What is suspicious about a mask, given the points that it was cut from.
 
     Args:
@@ -29,6 +38,8 @@ def judge_cut(mask: Mask, points: ArrayLike, labels: ArrayLike, *, box: Box | No
         points: x and y of each point [px], shape [k, 2].
         labels: 1 for a point on the object, 0 for one beside it, shape [k].
         box: x0, y0, x1, y1 [px] around the object, where one was given.
+        image: what it was cut from, RGB, shape [h, w, 3]; without it nothing is said of what lies across a strap.
+        others: what belongs to other parts, shape [h, w].
 
     Returns:
         Sentences, each with what to do; none where nothing is suspicious.
@@ -47,16 +58,21 @@ def judge_cut(mask: Mask, points: ArrayLike, labels: ArrayLike, *, box: Box | No
             f"The cut is {100 * share:.0f} % of the picture from one point, most likely the background too: put points"
             " beside it (0) on what shall stay, or draw a box around what shall move."
         )
+    if image is not None and not any(found) and box is None:
+        found.append(_across(image, mask, cells[~positive], others))
     return [each for each in found if each]
 
 
-def judge_cuts(masks: Sequence[Mask], prompts: Sequence[Prompt], *, instead: str = "") -> list[str]:
+def judge_cuts(
+    masks: Sequence[Mask], prompts: Sequence[Prompt], *, instead: str = "", image: NDArray[Any] | None = None
+) -> list[str]:
     """What is suspicious about the masks of several parts.
 
     Args:
         masks: shape [h, w] each.
         prompts: what was asked for, in the same order.
         instead: what else cuts, named where anything is suspicious: a sentence.
+        image: what they were cut from, RGB, shape [h, w, 3]; see ``judge_cut``.
 
     Returns:
         Sentences, with the part's name where there are several, or else its number, counted from 1.
@@ -64,17 +80,23 @@ def judge_cuts(masks: Sequence[Mask], prompts: Sequence[Prompt], *, instead: str
     told = []
     for number, (mask, prompt) in enumerate(zip(masks, prompts, strict=True)):
         part = f"{prompt.name or f'Part {number + 1}'}: " if len(masks) > 1 else ""
-        told += [part + each for each in judge_cut(mask, prompt.points, prompt.labels, box=prompt.box)]
+        rest = [other for index, other in enumerate(masks) if index != number]
+        others = np.logical_or.reduce(rest) if rest else None
+        said = judge_cut(mask, prompt.points, prompt.labels, box=prompt.box, image=image, others=others)
+        told += [part + each for each in said]
     return [*told, instead] if told and instead else told
 
 
-def judge_points(masks: Sequence[Mask], points: Sequence[Any], names: Sequence[str] = ()) -> list[str]:
+def judge_points(
+    masks: Sequence[Mask], points: Sequence[Any], names: Sequence[str] = (), *, image: NDArray[Any] | None = None
+) -> list[str]:
     """What is suspicious about masks that were cut each from points as they are read.
 
     Args:
         masks: shape [h, w] each.
         points: for each mask what ``parse_points`` reads.
         names: what sentences call the masks; their numbers, counted from 1, if left out.
+        image: what they were cut from, RGB, shape [h, w, 3]; see ``judge_cut``.
 
     Returns:
         Sentences, with the mask's name where there are several.
@@ -83,7 +105,21 @@ def judge_points(masks: Sequence[Mask], points: Sequence[Any], names: Sequence[s
     for mask, given, name in zip(masks, points, names or [""] * len(masks), strict=True):
         clicked = parse_points(given, width=mask.shape[1], height=mask.shape[0])
         prompts.append(Prompt([(each.x, each.y) for each in clicked], [each.positive for each in clicked], None, name))
-    return judge_cuts(masks, prompts)
+    return judge_cuts(masks, prompts, image=image)
+
+
+def _across(image: NDArray[Any], mask: Mask, beside: NDArray[np.int_], others: Mask | None) -> str:
+    """About what looks like the part on the other side of something narrow, such as a strap."""
+    found = parts_beyond(image, mask, beside=beside)
+    if others is not None:
+        found = [each for each in found if not others[each.y, each.x]]
+    if not found:
+        return ""
+    places = ", ".join(f"({each.x}, {each.y})" for each in found[:3]) + (", ..." if len(found) > 3 else "")
+    return (
+        f"The cut ends at something narrow, and its colours go on beyond it, at {places}: {found[0].area} px that stay"
+        " still. If they belong to the part, put a point on them; if not, one beside the part (0)."
+    )
 
 
 def _specks(mask: Mask, cells: NDArray[np.int_]) -> str:

@@ -17,7 +17,7 @@ from physanimator.physics.material import PRESETS
 from physanimator.physics.scene import Scene
 from physanimator.rendering.animation import Animation, timed
 from physanimator.rendering.composite import LayeredRenderer
-from physanimator.rendering.options import AutomaticWind, Timing, Watch
+from physanimator.rendering.options import AutomaticWind, LayerChoice, Saving, Timing, Watch
 from physanimator.rendering.parts import Parts
 from physanimator.rendering.pipeline import animate
 from PIL import Image
@@ -287,9 +287,29 @@ def test_saved_video_has_the_right_length_rate_and_alpha(windy: Animation, tmp_p
         ({"scene": document(bodies=[{}, {}])}, "bod"),
         ({"masks": [np.zeros((HEIGHT, WIDTH), bool)]}, "mask"),
         ({"points": ["5000,2,1"]}, "inside the picture"),
+        ({"points": "10,2,1"}, "points must be a list with the points of one part in each place. Got: str"),
+        ({"points": 7}, "points must be a list"),
+        ({"preset": 5}, "preset must be the name of a material, or a list of names. Got: int"),
+        ({"layers": LayerChoice(move=("hair",))}, "layers must be left out where the picture is flat"),
+        ({"wind": 3}, r"wind must be given as AutomaticWind\(strength=2\). Got: int"),
+        ({"touching": "hair"}, r"touching must be given as Touching\(...\). Got: str"),
+        ({"physics": {}}, "physics must be given as PhysicsOptions"),
+        ({"networks": "sam"}, "networks must be given as NetworkOptions"),
+        ({"watch": print}, "watch must be given as Watch"),
+        ({"layers": ["hair"]}, "layers must be given as LayerChoice"),
+        ({"save": "girl.mp4"}, r"save must be given as Saving\(\"a.mp4\"\). Got: str"),
+        ({"save": Saving("girl.xyz")}, "output must end in"),
+        ({"save": Saving("girl.mp4", background="no colour")}, "background must be picture, transparent"),
+        ({"save": Saving("girl.mp4", background=5)}, "background must be a text. Got: int"),  # type: ignore[arg-type]
+        ({"save": Saving("girl.gif", background="transparent", width=-3)}, "width must be at least 1 px"),
+        ({"save": Saving("girl.mp4", background="transparent")}, "transparen"),
     ],
 )
-def test_bad_input_is_refused_in_one_sentence(changes: dict[str, Any], words: str) -> None:
+def test_bad_input_is_refused_in_one_sentence_before_the_simulation(
+    changes: dict[str, Any], words: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr("physanimator.rendering.pipeline.simulate", lambda *_, **__: pytest.fail("simulated"))
+    monkeypatch.chdir(tmp_path)
     timing = {name: changes[name] for name in ("frames", "skip", "frame_rate") if name in changes}
     inputs: dict[str, Any] = {name: value for name, value in changes.items() if name not in timing}
     with pytest.raises(InvalidInputError, match=words) as caught:

@@ -51,6 +51,8 @@ def test_no_points_are_no_error_here() -> None:
         ("[[1, 2], [3]]", r"points\[1\] must be .*\[x, y\].*Got: \[3\]"),
         ('[{"x": 1}]', r"points\[0\] must be"),
         ('[[1, "left"]]', r"points\[0\] must hold two numbers"),
+        ("[[true, false]]", r"points\[0\] must hold two numbers. Got: \[True, False\]"),
+        ('[{"x": 1, "y": true}]', r"points\[0\] must hold two numbers"),
         ("[[1, 2, 7]]", r"points\[0\] label must be 1 \(on the object\) or 0"),
         ("[[1, 2", "points must be valid JSON"),
         ("", "points must be a list of points.*empty text"),

@@ -147,6 +147,42 @@ def test_several_parts_are_refused_with_what_was_seen(
     assert str(path) in str(caught.value)
 
 
+@pytest.mark.parametrize("noise", [1, 2, 3])
+@pytest.mark.parametrize("greys", [(85, 170, 255), (100, 200, 0), (40, 80, 120)])
+def test_labels_with_noise_are_labels(tmp_path: Path, greys: tuple[int, ...], noise: int) -> None:
+    picture = np.array([0, *greys])[labels()]
+    picture += np.random.default_rng(0).integers(-noise, noise + 1, picture.shape)
+    with pytest.raises(InvalidInputError, match=f"{np.count_nonzero(greys)} grey levels besides black: {greys[0]} on"):
+        read(tmp_path / "a.png", np.clip(picture, 0, 255).astype(np.uint8))
+
+
+@pytest.mark.parametrize("noise", [0, 1])
+@pytest.mark.parametrize("greys", [4, 5, 6])
+@pytest.mark.parametrize("form", ["across", "radial", "inside of a hard outline"])
+def test_a_gradient_in_a_few_steps_is_one_soft_mask_and_says_so(
+    tmp_path: Path, form: str, greys: int, noise: int
+) -> None:
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
+    if form == "radial":
+        if greys > 4:
+            pytest.skip("steps as narrow as these are read without a word")
+        shares = np.clip(1.1 - np.hypot(x - 60, y - 45) / 44, 0, 1)
+    else:
+        shares = np.clip((x - 10) / 90, 0, 1)
+    levels = np.rint(shares * (greys - 1)) / (greys - 1)
+    if form.startswith("inside"):
+        if greys == 4:
+            pytest.skip("too few to tell")
+        levels = np.where(abs(y - 45) < 30, levels, 0)
+    picture = np.rint(levels * 255).astype(int)
+    if noise:
+        picture += np.random.default_rng(0).integers(-noise, noise + 1, picture.shape)
+    Image.fromarray(np.clip(picture, 0, 255).astype(np.uint8)).save(tmp_path / "a.png")
+    found = read_mask(tmp_path / "a.png", width=WIDTH, height=HEIGHT)
+    assert np.abs(found.coverage - levels).max() < 0.04
+    assert f"shows {greys - 1} shades in order" in found.notes[0]
+
+
 @pytest.mark.parametrize("greys", [4, 6, 8, 16, 32])
 @pytest.mark.parametrize("colour", ["white", "red"])
 @pytest.mark.parametrize("highest", [1, 0.6])
@@ -164,6 +200,18 @@ def test_steps_that_lie_in_each_other_by_chance_are_labels(tmp_path: Path) -> No
         picture[10 : int(HEIGHT * side), 10 : int(WIDTH * side)] = grey
     with pytest.raises(InvalidInputError, match=r"[23] grey levels"):
         read(tmp_path / "a.png", picture)
+
+
+@pytest.mark.parametrize("form", ["gif", "png", "webp", "tiff"])
+def test_the_first_of_several_is_used_and_told(tmp_path: Path, form: str) -> None:
+    first, second = (Image.fromarray((each * 255).astype(np.uint8)).convert("RGB") for each in (disc(), 1 - disc()))
+    for several in (False, True):
+        path = tmp_path / f"{several}.{form}"
+        more = {"save_all": True, "append_images": [second]} if several else {}
+        first.save(path, **({"lossless": True} if form == "webp" else {}), **more)
+        found = read_mask(path, width=WIDTH, height=HEIGHT)
+        assert np.abs(found.coverage - disc()).max() < 0.05
+        assert ["only the first is used" in note for note in found.notes] == [True] * several
 
 
 def test_a_photograph_is_no_mask(tmp_path: Path) -> None:
