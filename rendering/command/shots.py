@@ -71,16 +71,19 @@ def add_shots(parser: argparse.ArgumentParser) -> None:
 
 
 def _shots(options: argparse.Namespace) -> None:
-    from ..shots import check_installed, others_files
+    from ..shots import begin_fork_server, check_installed, others_files
     from .shots_run import run_shots
 
     _check_options(options)
     for_farms = options.write_commands or options.write_openjd
-    if not (options.workers == 0 or options.dry_run or for_farms):
+    in_processes = not (options.workers == 0 or options.dry_run or for_farms)
+    if in_processes:
         check_installed()
     with _output_folder(options):
         shots, problems = _chosen(options)
         kept, jobs = _what_to_do(options, shots)
+        if in_processes and options.scheduler is None and jobs:
+            begin_fork_server(f"{__package__}.shot_imports")  # it imports while the shots are checked
         to_do = shots if for_farms else [each.shot for each in jobs]
         _refuse(options, [*problems, *others_files(options.output, to_do), *_wrong(to_do)])
         if for_farms:

@@ -7,6 +7,7 @@ from .collisions import colliding_outputs
 from .document import ShotRow, read_rows
 from .engine import SchedulerLost, check_workers, outcomes_here, outcomes_of, workers_for
 from .farms import command_lines, openjd_template
+from .fork_server import begin_fork_server
 from .job import Animated, Job, Outcome
 from .option_words import OptionNames, Word, shot_name, words_of
 from .problems import Problem, merged
@@ -31,6 +32,7 @@ __all__ = [
     "ShotRow",
     "Word",
     "alone_in",
+    "begin_fork_server",
     "check_installed",
     "check_workers",
     "colliding_outputs",
