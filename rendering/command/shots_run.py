@@ -55,7 +55,16 @@ def run_shots(options: argparse.Namespace, shots: Sequence[Shot], kept: Sequence
 def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitStack) -> Iterator[Outcome]:
     from ...physics.errors import counted
     from ...physics.threads import chosen_threads
-    from ..shots import check_workers, connected, local_cluster, outcomes_of, threads_each, usual_workers, workers_for
+    from ..shots import (
+        check_workers,
+        connected,
+        local_cluster,
+        longest_first,
+        outcomes_of,
+        threads_each,
+        usual_workers,
+        workers_for,
+    )
     from .messages import say
 
     if options.scheduler is not None:
@@ -73,7 +82,7 @@ def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitSta
     if not options.quiet:
         say(f"{counted(len(jobs), 'shot')} to do, {_when(sum(client.nthreads().values()), jobs)}")
     check_workers(client, jobs, ship=options.ship)
-    return outcomes_of(client, jobs, ship=options.ship, token=secrets.token_hex(4), heard=_heard)
+    return outcomes_of(client, longest_first(jobs), ship=options.ship, token=secrets.token_hex(4), heard=_heard)
 
 
 def _when(at_once: int, jobs: Sequence[Job]) -> str:

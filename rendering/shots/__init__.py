@@ -10,6 +10,7 @@ from .farms import command_lines, openjd_template
 from .fork_server import begin_fork_server
 from .job import Animated, Job, Outcome
 from .option_words import OptionNames, Word, shot_name, words_of
+from .ordering import longest_first
 from .problems import Problem, merged
 from .report import write_report
 from .run_folder import NOTES, alone_in, forgetting, others_files
@@ -42,6 +43,7 @@ __all__ = [
     "identity_of",
     "is_finished",
     "local_cluster",
+    "longest_first",
     "merged",
     "openjd_template",
     "others_files",

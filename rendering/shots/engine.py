@@ -6,6 +6,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ... import __version__
@@ -13,7 +14,7 @@ from ...physics.errors import InvalidInputError
 from ...physics.threads import chosen_threads, keep_to_threads
 from ..files import is_full
 from .cluster import GPU
-from .job import MOST_RUNS, Job, Outcome, perform, told_of
+from .job import MOST_RUNS, Job, Outcome, as_now, perform, told_of
 from .shipping import Parcel, Returned, packed, perform_elsewhere, unpacked
 
 if TYPE_CHECKING:
@@ -106,7 +107,7 @@ def outcomes_of(
                     heard()
                     job = queue.popleft()
                     try:
-                        parcel = packed(job) if ship else None
+                        job, parcel = _packed(job) if ship else (job, None)
                     except OSError as error:
                         yield Outcome(job.shot.name, "failed", told_of(error))
                         continue
@@ -144,6 +145,13 @@ def _places(client: Client, *, on_gpu: bool) -> int:
     if on_gpu:
         return max(1, int(sum(each.get("resources", {}).get(GPU, 0) for each in workers)))
     return max(1, sum(int(each["nthreads"]) for each in workers))
+
+
+def _packed(job: Job) -> tuple[Job, Parcel]:
+    """A job with what it reads, and known by that; by nothing where it changes meanwhile, so that it is done again."""
+    job = as_now(job)
+    parcel = packed(job)
+    return (job if as_now(job).identity == job.identity else replace(job, identity="")), parcel
 
 
 def _submitted(client: Client, job: Job, parcel: Parcel | None, key: str) -> Future:

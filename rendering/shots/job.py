@@ -14,7 +14,7 @@ from ...physics.errors import Cancelled
 from ...physics.interruption import interruptible
 from ..files import is_full, noting_unfinished, remove_noted
 from .locks import held, is_held
-from .shot import Shot
+from .shot import FileDigests, Shot, identity_of
 from .shot_record import ShotRecord, is_finished, write_shot_record, written_by
 
 __all__ = [
@@ -24,6 +24,7 @@ __all__ = [
     "Job",
     "Outcome",
     "animated",
+    "as_now",
     "forget_runs",
     "notes_of",
     "outcome_of",
@@ -36,6 +37,9 @@ FAULT = 70
 
 MOST_RUNS = 3
 """How often a shot is begun in all when the workers that do it are killed."""
+
+
+_CHANGED = "what it reads was changed meanwhile; the same command does it again"
 
 
 @dataclass(frozen=True)
@@ -100,6 +104,14 @@ class Job:
     notes: str
 
 
+def as_now(job: Job) -> Job:
+    """The job with the identity that its files give it now; as it is where one of them cannot be read."""
+    try:
+        return replace(job, identity=identity_of(job.shot, FileDigests()))
+    except OSError:
+        return job
+
+
 def perform(job: Job, wanted: Callable[[], bool] = lambda: True) -> Outcome:
     """Do a shot where its files are, and write its record.
 
@@ -107,6 +119,7 @@ def perform(job: Job, wanted: Callable[[], bool] = lambda: True) -> Outcome:
         job: what to do.
         wanted: whether anybody still waits for it; asked now and then.
     """
+    job = as_now(job)  # somebody may have painted since the list was read
     shot, machine = job.shot, platform.node()
     kept = is_finished(shot, job.identity)
     if kept is not None:  # by a worker that was killed before it could say so
@@ -121,12 +134,17 @@ def perform(job: Job, wanted: Callable[[], bool] = lambda: True) -> Outcome:
     with held(run), noting_unfinished(run):
         ended = animated(job.run, shot.command(), wanted)
         outcome = outcome_of(shot, ended, time.perf_counter() - start, machine)
-        if outcome.state == "done":
-            try:
-                record_of(job, outcome)
-            except (OSError, ValueError) as error:
-                outcome = replace(outcome, state="failed", why=told_of(error), full=is_full(error))
-    return outcome
+        return _recorded(job, outcome) if outcome.state == "done" else outcome
+
+
+def _recorded(job: Job, outcome: Outcome) -> Outcome:
+    """Write the record of a shot that is done; of one whose files have changed meanwhile such that it is done again."""
+    same = as_now(job).identity == job.identity
+    try:
+        record_of(job if same else replace(job, identity=""), outcome)
+    except (OSError, ValueError) as error:
+        return replace(outcome, state="failed", why=told_of(error), full=is_full(error))
+    return outcome if same else replace(outcome, state="failed", why=_CHANGED)
 
 
 def animated(run: Callable[[Sequence[str]], Animated], words: Sequence[str], wanted: Callable[[], bool]) -> Animated:

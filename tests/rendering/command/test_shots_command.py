@@ -14,12 +14,15 @@ from pathlib import Path
 from unittest.mock import ANY
 
 import cv2
+import numpy as np
 import pytest
 from command_status import status
+from PIL import Image
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.threads import THREADS, thread_variables
 from physanimator.rendering.command import shot_task
 from physanimator.rendering.command.shot_list import check_shot, read_list
+from physanimator.rendering.pictures import save_image
 from physanimator.rendering.shots import Animated, read_shot_record
 from shot_lists import contents, draw, litter, write_list
 
@@ -133,6 +136,42 @@ def test_a_second_run_does_only_what_is_missing_or_changed(folder: Path, capsys:
     draw(folder)  # the same pixels, at another time
     assert status(*SHOTS) == 0
     assert "0 done now, 4 done before" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("when", ["before", "meanwhile"])
+def test_a_picture_that_is_painted_on_during_the_run_is_never_taken_for_done(
+    folder: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch, when: str
+) -> None:
+    """Of a change before the shot begins the record knows; one while it is made is told, and it is made again."""
+    animate, first = shot_task.animate_shot, (folder / "girl.png").read_bytes()
+
+    def painting(words: list[str]) -> Animated:
+        if when == "before" and is_of(words, "one"):
+            paint()
+        ended = animate(words)
+        if when == "meanwhile" and is_of(words, "two"):
+            paint()
+        return ended
+
+    def is_of(words: list[str], name: str) -> bool:
+        return any(each.endswith(f"{name}.mp4") for each in words)
+
+    def paint() -> None:
+        save_image(folder / "girl.png", 255 - np.asarray(Image.open(folder / "girl.png")))
+
+    write_list(folder / "list.toml", ['name = "one"\nmask = "other.png"', 'name = "two"'])
+    (folder / "other.png").write_bytes((folder / "hair.png").read_bytes())
+    monkeypatch.setattr(shot_task, "animate_shot", painting)
+    assert status(*SHOTS) == 1
+    told = capsys.readouterr().err
+    changed = "one" if when == "before" else "two"
+    assert re.findall(r"^(\w+) +failed  what it reads was changed", told, re.MULTILINE) == [changed]
+    monkeypatch.setattr(shot_task, "animate_shot", animate)
+    (folder / "girl.png").write_bytes(first)
+    assert status(*SHOTS, "--dry-run") == 0
+    again = re.findall(r"^(\w+): to do again", capsys.readouterr().out, re.MULTILINE)
+    assert again == (["one", "two"] if when == "before" else ["two"])
+    assert status(*SHOTS) == 0
 
 
 @pytest.mark.parametrize("how", [(), ("--dry-run",), ("--write-commands", "lines.txt")])

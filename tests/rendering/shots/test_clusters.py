@@ -62,7 +62,9 @@ def workers_of(client: subprocess.Popen[str]) -> list[int]:
     """The processes in which a client's workers are."""
     import psutil
 
-    return [each.pid for each in psutil.Process(client.pid).children() if "--multiprocessing-fork" in each.cmdline()]
+    below = psutil.Process(client.pid).children(recursive=True)
+    spawned = [each.pid for each in below if "--multiprocessing-fork" in each.cmdline()]
+    return spawned or [each.pid for each in below if each.ppid() != client.pid]  # forked
 
 
 def begun(out: Path, name: str) -> bool:

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from PIL import Image
 from physanimator import __version__
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.threads import THREADS
@@ -20,6 +21,7 @@ from physanimator.rendering.shots import (
     check_workers,
     cluster,
     command_lines,
+    longest_first,
     openjd_template,
 )
 from physanimator.rendering.shots.shipping import packed, perform_elsewhere, unpacked
@@ -115,6 +117,21 @@ def test_workers_that_could_not_do_it_are_refused(
     with pytest.raises(InvalidInputError) as refused:
         check_workers(cluster, jobs, ship=ship)
     assert told in str(refused.value)
+
+
+def test_the_longest_shots_are_begun_first(tmp_path: Path) -> None:
+    """By frames and pixels; what is no picture is no reason to fail."""
+    for name, size in (("small", (8, 8)), ("large", (80, 80))):
+        Image.new("L", size).save(tmp_path / f"{name}.png")
+    (tmp_path / "odd.png").write_text("x")
+
+    def of(name: str, picture: str, frames: int) -> Job:
+        shot = Shot(name, (Word("", str(tmp_path / picture), "input", "image"),), {}, "", frames=frames)
+        return Job(shot, "", joined, all_in, "")
+
+    given = [of("a", "small.png", 10), of("b", "large.png", 10), of("c", "small.png", 10), of("d", "small.png", 20)]
+    given += [of("e", "odd.png", 10), of("f", "none.png", 10), of("g", "", 0)]
+    assert [each.shot.name for each in longest_first(given)] == ["b", "d", "a", "c", "e", "f", "g"]
 
 
 def test_keys_have_lines() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator, Sequence
@@ -13,8 +15,8 @@ import pytest
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.threads import THREADS, allowed_threads
 from physanimator.rendering.command import shots_run
-from physanimator.rendering.shots import Animated, Job, Shot, check_workers, engine, local_cluster, outcomes_of
-from shot_lists import environment
+from physanimator.rendering.shots import Animated, Job, Shot, check_workers, engine, fork_server, local_cluster, outcomes_of
+from shot_lists import draw, environment
 
 distributed = pytest.importorskip("distributed")
 
@@ -55,6 +57,33 @@ def test_a_worker_of_ours_keeps_to_its_threads(tmp_path: Path, monkeypatch: pyte
     with local_cluster(1, threads=threads) as client:
         assert list(client.run(allowed_threads).values()) == [threads]
         assert list(client.run(cv2.getNumThreads).values()) == [threads]
+
+
+@pytest.mark.skipif(not fork_server.FORKS, reason="workers are not forked on this system")
+def test_workers_are_forked_from_what_has_imported_everything(tmp_path: Path) -> None:
+    """It has one thread, without which it could not be forked, and leaves Taichi and Ctrl+C to others."""
+    draw(tmp_path)
+    asked = f"""
+import os, signal, sys
+import physanimator.rendering.command.shot_imports
+threads = len(os.listdir("/proc/self/task"))
+taichi = "taichi" in sys.modules
+known = {{each.split(".")[0] for each in sys.modules}}
+from physanimator.rendering.command.shot_task import animate_shot
+ended = animate_shot(["girl.png", "--mask", "hair.png", "--frames", "2", "--output", "a.mp4"])
+late = {{each.split(".")[0] for each in sys.modules}} - known
+print(threads, taichi, signal.getsignal(signal.SIGINT) is signal.SIG_IGN, ended.status)
+print(sorted(late & {{"av", "cv2", "distributed", "numpy", "PIL", "pythoncdt", "scipy"}}))
+"""
+    run = subprocess.run(
+        [sys.executable, "-c", asked],
+        cwd=tmp_path,
+        env={**environment(tmp_path), "OPENBLAS_NUM_THREADS": "1", THREADS: "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.stdout.splitlines() == ["1 False True 0", "[]"], run.stderr
 
 
 @pytest.fixture
