@@ -114,7 +114,10 @@ def words_of(row: ShotRow, name: str, names: OptionNames, *, folder: str, out: s
             if kind:
                 texts = [_path(each, folder, maybe=option == "collider") for each in texts]
         except InvalidInputError as error:
-            problems.append(Problem(str(error), name, written, row.lines.get(option, row.line)))
+            line = row.lines.get(option, row.line)
+            if option not in names.actions and row.head is not None:  # the whole column is wrong
+                line = row.head
+            problems.append(Problem(str(error), name, written, line))
             continue
         if not action.option_strings:
             words[:0] = [Word("", each, kind, option) for each in texts]

@@ -23,7 +23,7 @@ from physanimator.physics.threads import THREADS, thread_variables
 from physanimator.rendering.command import shot_task
 from physanimator.rendering.command.shot_list import check_shot, read_list
 from physanimator.rendering.pictures import save_image
-from physanimator.rendering.shots import Animated, read_shot_record
+from physanimator.rendering.shots import Animated, merged, read_shot_record
 from shot_lists import contents, draw, litter, write_list
 
 Output = pytest.CaptureFixture[str]
@@ -237,6 +237,32 @@ def test_a_csv_file_has_a_row_for_each_shot(folder: Path, capsys: Output) -> Non
     settings = read_shot_record(str(folder / "out" / "a.mp4.shot.json")).settings  # type: ignore[union-attr]
     assert settings["pixel_art"] is True
     assert "wind" not in settings
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "sep=;\nName;Image;--mask;Wind Angle;;\na;girl.png;hair.png;20;;\n",
+        "sep=\t\r\nname\timage\tmask\twind-angle\r\na\tgirl.png\thair.png\t20\r\n",
+        'SEP=,\n"name","image","mask","wind_angle"\na,girl.png,hair.png,20\n',
+    ],
+)
+def test_csv_files_are_as_spreadsheets_write_them(folder: Path, text: str) -> None:
+    (folder / "list.csv").write_text(text, encoding="utf-8", newline="")
+    read = read_list(str(folder / "list.csv"), str(folder / "out"))
+    assert [str(each) for each in read.problems] == []
+    assert [(shot.name, shot.settings["wind_angle"]) for shot in read.shots] == [("a", 20)]
+
+
+def test_a_wrong_column_is_told_once(folder: Path) -> None:
+    rows = "".join(f"a{n},girl.png,hair.png,3,\n" for n in range(5))
+    told = problems(f"name,image,mask,wnid,\n{rows}b,girl.png,hair.png,,4\n", folder, "list.csv")
+    assert sum("wnid" in each for each in told) == 5  # before those that are the same are merged
+    read = read_list(str(folder / "list.csv"), str(folder / "out"))
+    assert [str(each) for each in merged(read.problems)] == [
+        "line 1: options must be those of animate, and name. Got: wnid; is wind meant?",
+        "line 7, shot b: every column must have a name. Got: 4 below none",
+    ]
 
 
 def test_all_errors_are_in_one_list_with_shot_option_and_line(folder: Path) -> None:
