@@ -10,6 +10,7 @@ from .farms import command_lines, openjd_template
 from .fork_server import begin_fork_server
 from .job import Animated, Job, Outcome
 from .option_words import OptionNames, Word, shot_name, words_of
+from .missing_workers import GPU_WORKERS, missing_workers_told
 from .ordering import longest_first
 from .problems import Problem, merged
 from .report import write_report
@@ -20,6 +21,7 @@ from .summary import summary_lines
 
 __all__ = [
     "ENDING",
+    "GPU_WORKERS",
     "NOTES",
     "Animated",
     "FileDigests",
@@ -45,6 +47,7 @@ __all__ = [
     "local_cluster",
     "longest_first",
     "merged",
+    "missing_workers_told",
     "openjd_template",
     "others_files",
     "outcomes_here",

@@ -15,8 +15,18 @@ import pytest
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.threads import THREADS, allowed_threads
 from physanimator.rendering.command import shots_run
-from physanimator.rendering.shots import Animated, Job, Shot, check_workers, engine, fork_server, local_cluster, outcomes_of
-from shot_lists import draw, environment
+from physanimator.rendering.shots import (
+    Animated,
+    Job,
+    Shot,
+    check_workers,
+    engine,
+    fork_server,
+    local_cluster,
+    missing_workers_told,
+    outcomes_of,
+)
+from shot_lists import draw, environment, until
 
 distributed = pytest.importorskip("distributed")
 
@@ -88,7 +98,7 @@ print(sorted(late & {{"av", "cv2", "distributed", "numpy", "PIL", "pythoncdt", "
 
 @pytest.fixture
 def workers(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
-    """A cluster in this process, which can be given workers: ``add(name, **resources)``."""
+    """A cluster in this process, which can be given workers: ``add(name, **resources)``, ``remove(name)``."""
     monkeypatch.setattr(engine, "keep_to_threads", lambda _: None)  # this process is not theirs
     made = distributed.SpecCluster(
         scheduler={
@@ -105,8 +115,13 @@ def workers(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
         made.sync(made._correct_state)
         client.wait_for_workers(count[0])
 
+    def remove(name: str) -> None:
+        del made.worker_spec[name]
+        count[0] -= 1
+        made.sync(made._correct_state)
+
     with made, distributed.Client(made, set_as_default=False) as client:
-        client.add = add
+        client.add, client.remove = add, remove
         yield client
 
 
@@ -133,12 +148,30 @@ def test_a_shot_with_networks_waits_for_a_card_and_has_it_alone(
         target=lambda: ended.extend(outcomes_of(workers, jobs, ship=False, token="t", heard=lambda: None))
     )
     going.start()
-    until = time.monotonic() + 30
-    while len(list(tmp_path.glob("plain*.shot.json"))) < 6 and time.monotonic() < until:
-        time.sleep(0.02)
+    until(lambda: len(list(tmp_path.glob("plain*.shot.json"))) == 6)
     assert places == {"gpu": set(), "plain": {"plain"}}  # those with networks wait, the others do not wait for them
     workers.add("card", GPU=1)
     going.join(30)
     assert sorted((each.name, each.state) for each in ended) == sorted((each.shot.name, "done") for each in jobs)
     assert places["gpu"] == {"card"}
     assert HERE["most"] == 1
+
+
+def test_it_is_told_when_the_last_worker_for_a_shot_leaves_and_when_one_comes(workers: Any) -> None:
+    told: list[str] = []
+
+    def until_told(words: str) -> None:
+        until(lambda: any(words in each for each in told))
+
+    workers.add("plain")
+    workers.add("card", GPU=1)
+    with missing_workers_told(workers, lambda on_gpu: 3 if on_gpu else 0, told.append, look=0.05):
+        time.sleep(0.3)
+        assert told == []
+        workers.remove("card")
+        until_told("no worker is left: 3 shots with networks wait for one with a graphics card")
+        workers.remove("plain")  # which nobody misses
+        time.sleep(0.3)
+        workers.add("other", GPU=1)
+        until_told("a worker has come for 3 shots with networks")
+    assert len(told) == 2
