@@ -6,6 +6,8 @@ import argparse
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import replace
+from itertools import repeat
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -85,13 +87,15 @@ def _shots(options: argparse.Namespace) -> None:
         if in_processes and options.scheduler is None and jobs:
             begin_fork_server(f"{__package__}.shot_imports")  # it imports while the shots are checked
         to_do = shots if for_farms else [each.shot for each in jobs]
-        _refuse(options, [*problems, *others_files(options.output, to_do), *_wrong(to_do)])
+        moving: dict[str, int] = {}
+        _refuse(options, [*problems, *others_files(options.output, to_do), *_wrong(to_do, moving)])
         if for_farms:
             _write_for_farms(options, shots)
         elif options.dry_run:
             _tell_plan(options, shots, jobs)
         else:
-            run_shots(options, shots, kept, jobs)
+            known = [replace(job, shot=replace(job.shot, moving=moving.get(job.shot.name, 0))) for job in jobs]
+            run_shots(options, shots, kept, known)
 
 
 def _check_options(options: argparse.Namespace) -> None:
@@ -170,12 +174,12 @@ def _refuse(options: argparse.Namespace, problems: Sequence[Problem]) -> None:
     raise InvalidInputError(f"{options.list} has {counted(len(told), 'error')}; nothing was begun")
 
 
-def _wrong(shots: Sequence[Shot]) -> Iterator[Problem]:
-    """All that ``animate`` would refuse of shots."""
+def _wrong(shots: Sequence[Shot], moving: dict[str, int]) -> Iterator[Problem]:
+    """All that ``animate`` would refuse of shots; ``moving`` gets how many pixels of each move."""
     from ...physics.beside import side_by_side
     from .shot_list import check_shot
 
-    for found in side_by_side(check_shot, shots):
+    for found in side_by_side(check_shot, shots, repeat(moving, len(shots))):
         yield from found
 
 

@@ -9,8 +9,8 @@ from .engine import SchedulerLost, check_workers, outcomes_here, outcomes_of, wo
 from .farms import command_lines, openjd_template
 from .fork_server import begin_fork_server
 from .job import Animated, Job, Outcome
-from .option_words import OptionNames, Word, shot_name, words_of
 from .missing_workers import GPU_WORKERS, missing_workers_told
+from .option_words import OptionNames, Word, shot_name, words_of
 from .ordering import longest_first
 from .problems import Problem, merged
 from .report import write_report

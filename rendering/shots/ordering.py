@@ -11,9 +11,18 @@ from .shot import Shot
 __all__ = ["longest_first"]
 
 
+# What a pixel that moves takes, its mesh and the picture behind it, in pixels of a frame that are drawn and encoded:
+# four shots of 1280 x 720 pixels, 25 000 to 84 000 of which move, took 0.8 to 2.7 s.
+_MOVING = 2500
+
+
 def longest_first(jobs: Sequence[Job]) -> list[Job]:
-    """Jobs by how many pixels are to be drawn; those of the same size in the order that they have."""
-    return sorted(jobs, key=lambda job: -job.shot.frames * _pixels(job.shot))
+    """Jobs by how long they may take; those that are alike in the order that they have."""
+    return sorted(jobs, key=lambda job: -_work(job.shot))
+
+
+def _work(shot: Shot) -> int:
+    return shot.frames * _pixels(shot) + _MOVING * shot.moving
 
 
 def _pixels(shot: Shot) -> int:

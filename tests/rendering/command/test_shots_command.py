@@ -17,13 +17,13 @@ import cv2
 import numpy as np
 import pytest
 from command_status import status
-from PIL import Image
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.threads import THREADS, thread_variables
 from physanimator.rendering.command import shot_task
 from physanimator.rendering.command.shot_list import check_shot, read_list
 from physanimator.rendering.pictures import save_image
 from physanimator.rendering.shots import Animated, merged, read_shot_record
+from PIL import Image
 from shot_lists import contents, draw, litter, write_list
 
 Output = pytest.CaptureFixture[str]
@@ -419,6 +419,15 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_work(folder: Path
     assert "--output" in capsys.readouterr().err
     assert status(*SHOTS) == 2
     assert "the folder for" in capsys.readouterr().err
+
+
+def test_checks_tell_how_much_moves(folder: Path) -> None:
+    write_list(folder / "list.toml", ['name = "a"', 'name = "b"\nframes = 0'])
+    moving: dict[str, int] = {}
+    (folder / "out").mkdir()
+    shots = read_list("list.toml", "out").shots
+    assert [bool(check_shot(shot, moving)) for shot in shots] == [False, True]
+    assert moving == {"a": 11 * 35}  # pixels of the strip
 
 
 def test_some_shots_are_chosen_by_name(folder: Path, capsys: Output) -> None:

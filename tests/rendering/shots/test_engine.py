@@ -9,7 +9,6 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from PIL import Image
 from physanimator import __version__
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.threads import THREADS
@@ -26,6 +25,7 @@ from physanimator.rendering.shots import (
 )
 from physanimator.rendering.shots.shipping import packed, perform_elsewhere, unpacked
 from physanimator.rendering.shots.table_lines import table_lines
+from PIL import Image
 
 
 def job(tmp_path: Path, *, on_gpu: bool = False) -> Job:
@@ -120,18 +120,20 @@ def test_workers_that_could_not_do_it_are_refused(
 
 
 def test_the_longest_shots_are_begun_first(tmp_path: Path) -> None:
-    """By frames and pixels; what is no picture is no reason to fail."""
+    """By frames, pixels and how many of them move; what is no picture is no reason to fail."""
     for name, size in (("small", (8, 8)), ("large", (80, 80))):
         Image.new("L", size).save(tmp_path / f"{name}.png")
     (tmp_path / "odd.png").write_text("x")
 
-    def of(name: str, picture: str, frames: int) -> Job:
-        shot = Shot(name, (Word("", str(tmp_path / picture), "input", "image"),), {}, "", frames=frames)
+    def of(name: str, picture: str, frames: int, moving: int = 0) -> Job:
+        word = Word("", str(tmp_path / picture), "input", "image")
+        shot = Shot(name, (word,), {}, "", frames=frames, moving=moving)
         return Job(shot, "", joined, all_in, "")
 
     given = [of("a", "small.png", 10), of("b", "large.png", 10), of("c", "small.png", 10), of("d", "small.png", 20)]
     given += [of("e", "odd.png", 10), of("f", "none.png", 10), of("g", "", 0)]
-    assert [each.shot.name for each in longest_first(given)] == ["b", "d", "a", "c", "e", "f", "g"]
+    given += [of("h", "small.png", 1, moving=1000)]
+    assert "".join(each.shot.name for each in longest_first(given)) == "hbdacefg"
 
 
 def test_keys_have_lines() -> None:

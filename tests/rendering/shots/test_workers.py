@@ -73,17 +73,17 @@ def test_a_worker_of_ours_keeps_to_its_threads(tmp_path: Path, monkeypatch: pyte
 def test_workers_are_forked_from_what_has_imported_everything(tmp_path: Path) -> None:
     """It has one thread, without which it could not be forked, and leaves Taichi and Ctrl+C to others."""
     draw(tmp_path)
-    asked = f"""
+    asked = """
 import os, signal, sys
 import physanimator.rendering.command.shot_imports
 threads = len(os.listdir("/proc/self/task"))
 taichi = "taichi" in sys.modules
-known = {{each.split(".")[0] for each in sys.modules}}
+known = {each.split(".")[0] for each in sys.modules}
 from physanimator.rendering.command.shot_task import animate_shot
 ended = animate_shot(["girl.png", "--mask", "hair.png", "--frames", "2", "--output", "a.mp4"])
-late = {{each.split(".")[0] for each in sys.modules}} - known
+late = {each.split(".")[0] for each in sys.modules} - known
 print(threads, taichi, signal.getsignal(signal.SIGINT) is signal.SIG_IGN, ended.status)
-print(sorted(late & {{"av", "cv2", "distributed", "numpy", "PIL", "pythoncdt", "scipy"}}))
+print(sorted(late & {"av", "cv2", "distributed", "numpy", "PIL", "pythoncdt", "scipy"}))
 """
     run = subprocess.run(
         [sys.executable, "-c", asked],
