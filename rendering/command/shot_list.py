@@ -68,7 +68,7 @@ def read_list(path: str, out: str, *, also_written: Sequence[tuple[str, str]] = 
         options, refused = _parsed(parser, row, name, words, wrong)
         problems += [*wrong, *refused]
         if options is not None and not wrong:
-            shots.append(_shot(row, name, words, options))
+            shots.append(replace(_shot(row, name, words, options), listed=os.path.basename(path)))
     problems += colliding_outputs(
         shots, also_read=[os.path.abspath(path)], also_written=also_written, is_frame=is_frame_name
     )

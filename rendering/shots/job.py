@@ -180,7 +180,9 @@ def record_of(job: Job, outcome: Outcome) -> None:
     shot = job.shot
     files = written_by(shot.record, [each.text or "" for each in shot.paths("output")], job.files_of)
     settings, said = dict(shot.settings), outcome.said
-    record = ShotRecord(shot.name, job.identity, files, outcome.seconds, outcome.machine, said, settings)
+    record = ShotRecord(
+        shot.name, job.identity, files, outcome.seconds, outcome.machine, said, settings, listed=shot.listed
+    )
     write_shot_record(shot.record, record)
 
 

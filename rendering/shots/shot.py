@@ -31,6 +31,7 @@ class Shot:
         on_gpu: whether it asks for a graphics card.
         frames: how many it has, as far as its options tell.
         moving: pixels that move, as far as its masks tell.
+        listed: name of the list's file.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Shot:
     on_gpu: bool = False
     frames: int = 0
     moving: int = 0
+    listed: str = ""
 
     def command(self, places: Mapping[str, str] | None = None) -> Sequence[str]:
         """The words as a command has them; see :meth:`Word.spelled`."""

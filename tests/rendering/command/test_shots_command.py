@@ -185,6 +185,24 @@ def test_what_others_have_put_there_is_not_replaced(folder: Path, capsys: Output
     assert (folder / "out" / "a.mp4").read_text() == "mine"
 
 
+def test_clips_of_another_list_are_not_replaced(folder: Path, capsys: Output) -> None:
+    """Two episodes may have shots of the same name; those that are the same are done."""
+    frames = 'name = "d"\noutput = "{out}/d/"'
+    write_list(folder / "list.toml", ['name = "a"', 'name = "b"', frames])
+    assert status(*SHOTS) == 0
+    made = contents(folder / "out")
+    write_list(folder / "other.toml", ['name = "a"', 'name = "b"\nwind = 3', 'name = "c"', f"{frames}\nwind = 3"])
+    words = ("shots", "other.toml", *SHOTS[2:])
+    capsys.readouterr()
+    assert status(*words) == 2
+    told = capsys.readouterr().err
+    assert re.search(r"line 9, shot b: output must be new, or a clip of other.toml. Got: .*, which list.toml has", told)
+    assert re.search(r"shot d: output must be new, or a clip of other.toml. Got: .*/out/d/, which list.toml has", told)
+    assert contents(folder / "out") == made
+    assert status(*words, "--only", "a", "c") == 0
+    assert "1 done now, 1 done before" in capsys.readouterr().out
+
+
 def test_a_clip_whose_run_was_killed_before_its_record_is_made_again(folder: Path, capsys: Output) -> None:
     write_list(folder / "list.toml", ['name = "a"'])
     assert status(*SHOTS) == 0
@@ -419,6 +437,16 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_work(folder: Path
     assert "--output" in capsys.readouterr().err
     assert status(*SHOTS) == 2
     assert "the folder for" in capsys.readouterr().err
+
+
+def test_names_and_folders_may_have_braces(folder: Path) -> None:
+    out = folder / "{name} of {out}"
+    write_list(folder / "list.toml", ['name = "a {out}"', 'name = "{name}"\noutput = "{out}/{name}-{out}.webm"'])
+    read = read_list("list.toml", str(out))
+    assert [each.text for shot in read.shots for each in shot.paths("output")] == [
+        str(out / "a {out}.mp4"),
+        f"{out}/{{name}}-{out}.webm",
+    ]
 
 
 def test_checks_tell_how_much_moves(folder: Path) -> None:
