@@ -172,18 +172,24 @@ def outcome_of(shot: Shot, ended: Animated, seconds: float, machine: str) -> Out
 
 
 def record_of(job: Job, outcome: Outcome) -> None:
-    """Write the record of a shot that is done.
+    """Write the record of a shot that is done. Where that fails, its clip goes too: nobody would know whose it is.
 
     Raises:
         OSError: it cannot be written, or a result is not there.
     """
     shot = job.shot
-    files = written_by(shot.record, [each.text or "" for each in shot.paths("output")], job.files_of)
     settings, said = dict(shot.settings), outcome.said
-    record = ShotRecord(
-        shot.name, job.identity, files, outcome.seconds, outcome.machine, said, settings, listed=shot.listed
-    )
-    write_shot_record(shot.record, record)
+    try:
+        files = written_by(shot.record, [each.text or "" for each in shot.paths("output")], job.files_of)
+        record = ShotRecord(
+            shot.name, job.identity, files, outcome.seconds, outcome.machine, said, settings, listed=shot.listed
+        )
+        write_shot_record(shot.record, record)
+    except OSError:
+        clips = [each.text or "" for each in shot.paths("output") if each.option == "output"]
+        for file in (file for clip in clips for file in job.files_of(clip)):
+            Path(file).unlink(missing_ok=True)
+        raise
 
 
 def told_of(error: Exception) -> str:

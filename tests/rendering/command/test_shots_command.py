@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
@@ -429,6 +430,25 @@ def test_nothing_more_is_begun_where_the_disk_is_full(
     told = capsys.readouterr().err
     assert re.search(r"^a +failed  out/a.mp4: No space left", told, re.MULTILINE)
     assert len(re.findall(r"^[bc] +left +not begun: out/a.mp4: No space left", told, re.MULTILINE)) == 2
+
+
+@pytest.mark.parametrize("output", ["{out}/{name}.mp4", "{out}/{name}/"])
+def test_a_clip_without_room_for_its_record_does_not_stay(
+    folder: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch, output: str
+) -> None:
+    """It would be taken for somebody else's, and the same command could not make it again."""
+
+    def full(path: str, _: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), path)
+
+    write_list(folder / "list.toml", [f'name = "a"\noutput = "{output}"'])
+    with monkeypatch.context() as without_room:
+        without_room.setattr("physanimator.rendering.shots.job.write_shot_record", full)
+        assert status(*SHOTS) == 1
+    assert "No space left on device" in capsys.readouterr().err
+    assert not [path for path in (folder / "out").rglob("*") if path.is_file()]
+    assert status(*SHOTS) == 0
+    assert "1 done now" in capsys.readouterr().out
 
 
 def test_a_folder_that_cannot_be_written_is_refused_before_the_work(folder: Path, capsys: Output) -> None:
