@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -32,7 +34,7 @@ def begin_fork_server(module: str) -> None:
 
     kept = {name: os.environ.get(name, value) for name, value in _MEMORY.items()}
     forkserver.set_forkserver_preload([module])
-    with _environment({**kept, **dict.fromkeys(thread_variables(1), "1")}):
+    with _environment({**kept, **dict.fromkeys(thread_variables(1), "1")}), _without_interruptions():
         forkserver.ensure_running()
 
 
@@ -49,3 +51,16 @@ def _environment(variables: dict[str, str]) -> Iterator[None]:
                 del os.environ[name]
             else:
                 os.environ[name] = value
+
+
+@contextmanager
+def _without_interruptions() -> Iterator[None]:
+    """Processes that are started meanwhile leave Ctrl+C, which reaches all of a terminal, to this one."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)  # None: not set from Python

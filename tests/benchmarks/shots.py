@@ -228,7 +228,7 @@ def main() -> None:
     """Print the figures."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--shots", type=int, default=24)
-    parser.add_argument("--frames", type=int, default=48)
+    parser.add_argument("--frames", type=int, default=DEFAULT_FRAMES, help="of each (default: %(default)s, as animate)")
     parser.add_argument(
         "--width", type=int, help="scale the pictures to this [px]; small ones show what starting takes"
     )
