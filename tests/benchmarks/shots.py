@@ -18,6 +18,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+import source_tree  # noqa: F401 (loads this source tree as the package physanimator)
+from physanimator.rendering.options import DEFAULT_FRAMES
 from PIL import Image
 
 __all__ = ["measured", "memory_measured"]
