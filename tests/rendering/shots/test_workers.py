@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import threading
@@ -67,6 +68,18 @@ def test_a_worker_of_ours_keeps_to_its_threads(tmp_path: Path, monkeypatch: pyte
     with local_cluster(1, threads=threads) as client:
         assert list(client.run(allowed_threads).values()) == [threads]
         assert list(client.run(cv2.getNumThreads).values()) == [threads]
+
+
+@pytest.mark.skipif(not fork_server.FORKS, reason="workers are not forked on this system")
+def test_workers_begin_with_what_lets_them_keep_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Before Python starts: the C library does not look later. Dask would have every picture mapped anew."""
+    monkeypatch.syspath_prepend(environment(tmp_path)["PYTHONPATH"])
+    before = dict(os.environ)
+    with local_cluster(1) as client:
+        (born,) = client.run(lambda: Path("/proc/self/environ").read_text().split("\0")).values()
+    assert "MALLOC_TRIM_THRESHOLD_=268435456" in born
+    assert "MALLOC_MMAP_THRESHOLD_=33554432" in born
+    assert not [name for name in os.environ if name.startswith("MALLOC") and name not in before]
 
 
 @pytest.mark.skipif(not fork_server.FORKS, reason="workers are not forked on this system")
