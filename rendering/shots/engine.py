@@ -39,7 +39,7 @@ def outcomes_here(jobs: Sequence[Job], heard: Callable[[], None]) -> Iterator[Ou
         if full:
             yield Outcome(job.shot.name, "left", full)
             continue
-        outcome = perform(job)
+        outcome = perform(job, waits=True)
         full = f"not begun: {outcome.why}" if outcome.full else ""
         yield outcome
 

@@ -15,7 +15,14 @@ from ...physics.interruption import interruptible
 from ..files import is_full, noting_unfinished, remove_noted
 from .locks import held, is_held
 from .shot import FileDigests, Shot, identity_of
-from .shot_record import ShotRecord, is_finished, write_shot_record, written_by
+from .shot_record import (
+    ShotRecord,
+    described,
+    is_finished,
+    read_shot_record,
+    write_shot_record,
+    written_by,
+)
 
 __all__ = [
     "FAULT",
@@ -39,6 +46,7 @@ MOST_RUNS = 3
 """How often a shot is begun in all when the workers that do it are killed."""
 
 
+_POLL = 0.2  # [s]
 _CHANGED = "what it reads was changed meanwhile; the same command does it again"
 
 
@@ -112,13 +120,16 @@ def as_now(job: Job) -> Job:
         return job
 
 
-def perform(job: Job, wanted: Callable[[], bool] = lambda: True) -> Outcome:
+def perform(job: Job, wanted: Callable[[], bool] = lambda: True, *, waits: bool = False) -> Outcome:
     """Do a shot where its files are, and write its record.
 
     Args:
         job: what to do.
         wanted: whether anybody still waits for it; asked now and then.
+        waits: where another process does the very shot, wait for it to end first.
     """
+    while waits and any(is_held(note) for note in notes_of(Path(job.notes), job.shot)):
+        time.sleep(_POLL)
     job = as_now(job)  # somebody may have painted since the list was read
     shot, machine = job.shot, platform.node()
     kept = is_finished(shot, job.identity)
@@ -186,9 +197,11 @@ def record_of(job: Job, outcome: Outcome) -> None:
         )
         write_shot_record(shot.record, record)
     except OSError:
+        earlier = read_shot_record(shot.record)
         clips = [each.text or "" for each in shot.paths("output") if each.option == "output"]
         for file in (file for clip in clips for file in job.files_of(clip)):
-            Path(file).unlink(missing_ok=True)
+            if earlier is None or not described(earlier, shot, file):  # nobody else has made the same meanwhile
+                Path(file).unlink(missing_ok=True)
         raise
 
 
@@ -201,16 +214,27 @@ def told_of(error: Exception) -> str:
 
 def _begun(notes: Path, shot: Shot) -> Path | None:
     """The note of this run; None where earlier runs were killed too often. What they have left is removed."""
-    notes.mkdir(exist_ok=True)
     for note in notes_of(notes, shot):
         if not note.exists():
-            note.touch()
+            _touch(note)
             return note
         if is_held(note):  # by a run that is at work
             continue
         remove_noted(note)
-        note.touch()  # it counts
+        _touch(note)  # it counts
     return None
+
+
+def _touch(note: Path) -> None:
+    """Make a note, again where another run has just tidied up its folder."""
+    for last in (False, True):
+        note.parent.mkdir(exist_ok=True)
+        try:
+            note.touch()
+            return
+        except FileNotFoundError:
+            if last:
+                raise
 
 
 def forget_runs(notes: Path, shot: Shot) -> None:

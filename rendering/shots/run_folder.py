@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -38,9 +37,10 @@ def alone_in(out: str) -> Iterator[None]:
         try:
             yield
         finally:
-            with suppress(OSError):
-                lock.close()
-                shutil.rmtree(notes)
+            lock.close()
+            with suppress(OSError):  # there are notes of others, such as of the lines of a farm
+                (notes / "lock").unlink()
+                notes.rmdir()
 
 
 @contextmanager
