@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections import deque
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -16,6 +16,7 @@ from ..files import is_full
 from .cluster import GPU
 from .job import MOST_RUNS, Job, Outcome, as_now, perform, told_of
 from .shipping import Parcel, Returned, packed, perform_elsewhere, unpacked
+from .waiting_shots import WaitingShots
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 __all__ = ["SchedulerLost", "check_workers", "outcomes_here", "outcomes_of", "workers_for"]
 
 _AHEAD = 2  # shots for each thread that the scheduler knows: none waits for the client, and memory stays bounded
+
+_ANY = ""  # whichever worker
 
 _LOST = "the scheduler is gone; finished shots are whole, and the same command does the others"
 
@@ -95,30 +98,30 @@ def outcomes_of(
     """
     from distributed import as_completed
 
-    waiting = {on_gpu: deque(job for job in jobs if job.shot.on_gpu is on_gpu) for on_gpu in (True, False)}
-    under_way: dict[Any, Job] = {}
+    waiting = {on_gpu: WaitingShots(job for job in jobs if job.shot.on_gpu is on_gpu) for on_gpu in (True, False)}
+    under_way: dict[Any, tuple[Job, str]] = {}
     completed = as_completed(loop=client.loop, raise_errors=False)
     full = ""
     try:
         while any(waiting.values()) or under_way:
             for on_gpu, queue in waiting.items():
-                begun = sum(job.shot.on_gpu is on_gpu for job in under_way.values())
-                for _ in range(min(len(queue), _places(client, on_gpu=on_gpu) * _AHEAD - begun)):
+                begun = Counter(worker for job, worker in under_way.values() if job.shot.on_gpu is on_gpu)
+                for worker in _places(client, begun, on_gpu=on_gpu)[: len(queue)]:
                     heard()
-                    job = queue.popleft()
+                    job = queue.next_for(worker)
                     try:
                         job, parcel = _packed(job) if ship else (job, None)
                     except OSError as error:
                         yield Outcome(job.shot.name, "failed", told_of(error))
                         continue
-                    future = _submitted(client, job, parcel, f"{token}-{job.shot.name}")
-                    under_way[future.key] = job
+                    future = _submitted(client, job, parcel, f"{token}-{job.shot.name}", worker)
+                    under_way[future.key] = job, worker
                     completed.add(future)
                     del future
             if not under_way:
                 continue
             future = next(completed)
-            job = under_way.pop(future.key)
+            job, _ = under_way.pop(future.key)
             outcome = _outcome(job, future)
             del future
             yield outcome
@@ -126,25 +129,41 @@ def outcomes_of(
                 full = f"not begun: {outcome.why}"
                 for queue in waiting.values():
                     while queue:
-                        yield Outcome(queue.popleft().shot.name, "left", full)
+                        yield Outcome(queue.next_for(_ANY).shot.name, "left", full)
     finally:
         if under_way:
             client.cancel(list(completed.futures), force=True)
 
 
-def _places(client: Client, *, on_gpu: bool) -> int:
-    """How many shots of a kind the cluster can do at once, now.
+def _places(client: Client, begun: Counter[str], *, on_gpu: bool) -> list[str]:
+    """The address of a worker for each shot of a kind that the cluster can take now, the idle ones first.
+
+    Args:
+        client: of the cluster.
+        begun: how many shots of the kind each worker has got.
+        on_gpu: the kind.
 
     Raises:
         SchedulerLost: the scheduler does not answer.
     """
     try:
-        workers = client.scheduler_info(n_workers=-1)["workers"].values()
+        workers = client.scheduler_info(n_workers=-1)["workers"]
     except OSError:
         raise SchedulerLost(_LOST) from None
-    if on_gpu:
-        return max(1, int(sum(each.get("resources", {}).get(GPU, 0) for each in workers)))
-    return max(1, sum(int(each["nthreads"]) for each in workers))
+    if on_gpu:  # Dask chooses one with a card
+        most = {_ANY: int(sum(each.get("resources", {}).get(GPU, 0) for each in workers.values()))}
+    else:
+        most = {address: int(each["nthreads"]) for address, each in workers.items()}
+    if not sum(most.values()):
+        most = {_ANY: 1}
+    # What was given to workers that have gone is done by others.
+    gone = sum(begun.values()) - sum(begun[each] for each in most)
+    free = [
+        (begun[worker] + each, number, worker)
+        for number, worker in enumerate(most)
+        for each in range(most[worker] * _AHEAD - begun[worker])
+    ]
+    return [worker for _, _, worker in sorted(free)][: max(0, len(free) - gone)]
 
 
 def _packed(job: Job) -> tuple[Job, Parcel]:
@@ -154,11 +173,14 @@ def _packed(job: Job) -> tuple[Job, Parcel]:
     return (job if as_now(job).identity == job.identity else replace(job, identity="")), parcel
 
 
-def _submitted(client: Client, job: Job, parcel: Parcel | None, key: str) -> Future:
-    resources = {GPU: 1} if job.shot.on_gpu else None
+def _submitted(client: Client, job: Job, parcel: Parcel | None, key: str, worker: str) -> Future:
+    """Have a job done by a worker; by another one where that is gone, or has more to do."""
+    where: dict[str, Any] = {"workers": [worker], "allow_other_workers": True} if worker != _ANY else {}
+    if job.shot.on_gpu:
+        where["resources"] = {GPU: 1}
     if parcel is not None:
-        return client.submit(_away, job, parcel, key=key, resources=resources, pure=False)
-    return client.submit(_there, job, key=key, resources=resources, pure=False)
+        return client.submit(_away, job, parcel, key=key, pure=False, **where)
+    return client.submit(_there, job, key=key, pure=False, **where)
 
 
 def _outcome(job: Job, future: Future) -> Outcome:

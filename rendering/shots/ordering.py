@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Hashable, Sequence
 
 from .job import Job
 from .shot import Shot
+from .waiting_shots import picture_of
 
 __all__ = ["longest_first"]
 
@@ -17,8 +19,17 @@ _MOVING = 2500
 
 
 def longest_first(jobs: Sequence[Job]) -> list[Job]:
-    """Jobs by how long they may take; those that are alike in the order that they have."""
-    return sorted(jobs, key=lambda job: -_work(job.shot))
+    """Jobs by how long they may take, with those of the same picture in a row; those that are alike in the order that
+    they have.
+    """
+    work = [_work(job.shot) for job in jobs]
+    together: Counter[Hashable] = Counter()
+    for job, each in zip(jobs, work, strict=True):
+        together[picture_of(job)] += each
+    place = {picture: number for number, (picture, _) in enumerate(together.most_common())}
+    return [
+        job for job, _ in sorted(zip(jobs, work, strict=True), key=lambda each: (place[picture_of(each[0])], -each[1]))
+    ]
 
 
 def _work(shot: Shot) -> int:

@@ -25,6 +25,7 @@ from physanimator.rendering.shots import (
 )
 from physanimator.rendering.shots.shipping import packed, perform_elsewhere, unpacked
 from physanimator.rendering.shots.table_lines import table_lines
+from physanimator.rendering.shots.waiting_shots import WaitingShots
 from PIL import Image
 
 
@@ -133,7 +134,18 @@ def test_the_longest_shots_are_begun_first(tmp_path: Path) -> None:
     given = [of("a", "small.png", 10), of("b", "large.png", 10), of("c", "small.png", 10), of("d", "small.png", 20)]
     given += [of("e", "odd.png", 10), of("f", "none.png", 10), of("g", "", 0)]
     given += [of("h", "small.png", 1, moving=1000)]
-    assert "".join(each.shot.name for each in longest_first(given)) == "hbdacefg"
+    assert "".join(each.shot.name for each in longest_first(given)) == "hdacbefg"  # those of one picture in a row
+
+
+def test_a_worker_goes_on_with_the_picture_that_it_knows() -> None:
+    def of(name: str, picture: str) -> Job:
+        shot = Shot(name, (Word("", picture, "input", "image"), Word("--scene", name, "input", "scene")), {}, "")
+        return Job(shot, "", joined, all_in, "")
+
+    waiting = WaitingShots([of("a", "x"), of("b", "y"), of("c", "x"), of("d", "x"), of("e", "y"), of("f", "z")])
+    told = "".join(waiting.next_for(worker).shot.name for worker in ("one", "two", "two", "two", "one", "three"))
+    assert told == "abefcd"  # the last one where most is left, though another worker knows it
+    assert not waiting
 
 
 def test_keys_have_lines() -> None:

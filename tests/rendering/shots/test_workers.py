@@ -20,6 +20,7 @@ from physanimator.rendering.shots import (
     Animated,
     Job,
     Shot,
+    Word,
     check_workers,
     engine,
     fork_server,
@@ -30,6 +31,7 @@ from physanimator.rendering.shots import (
 from shot_lists import draw, environment, until
 
 distributed = pytest.importorskip("distributed")
+config = pytest.importorskip("dask.config")
 
 
 HERE: dict[str, Any] = {}  # what shots of workers in this process tell
@@ -113,12 +115,13 @@ print(sorted(late & {"av", "cv2", "distributed", "numpy", "PIL", "pythoncdt", "s
 def workers(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     """A cluster in this process, which can be given workers: ``add(name, **resources)``, ``remove(name)``."""
     monkeypatch.setattr(engine, "keep_to_threads", lambda _: None)  # this process is not theirs
-    made = distributed.SpecCluster(
-        scheduler={
-            "cls": distributed.Scheduler,
-            "options": {"port": 0, "dashboard_address": "127.0.0.1:0", "host": "127.0.0.1"},
-        }
-    )
+    with config.set({"distributed.scheduler.work-stealing": False}):
+        made = distributed.SpecCluster(
+            scheduler={
+                "cls": distributed.Scheduler,
+                "options": {"port": 0, "dashboard_address": "127.0.0.1:0", "host": "127.0.0.1"},
+            }
+        )
     count = [0]
 
     def add(name: str, **resources: int) -> None:
@@ -168,6 +171,35 @@ def test_a_shot_with_networks_waits_for_a_card_and_has_it_alone(
     assert sorted((each.name, each.state) for each in ended) == sorted((each.shot.name, "done") for each in jobs)
     assert places["gpu"] == {"card"}
     assert HERE["most"] == 1
+
+
+def of_picture(words: Sequence[str]) -> Animated:
+    with LOCK:
+        HERE["of pictures"].setdefault(words[0], set()).add(distributed.get_worker().name)
+    time.sleep(0.05)
+    return Animated(0)
+
+
+def test_the_shots_of_a_picture_are_done_by_one_worker(
+    tmp_path: Path, workers: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It need not cut out the parts again; when it has gone, another one does them."""
+    seen: dict[str, set[str]] = {}
+    monkeypatch.setitem(HERE, "of pictures", seen)
+    monkeypatch.setattr(engine, "_AHEAD", 1)
+    for name in ("one", "two"):
+        workers.add(name)
+    jobs = []
+    for n in range(40):
+        word = Word("", f"picture {n % 4}", "input", "image")
+        shot = Shot(f"s{n}", (word,), {}, str(tmp_path / f"s{n}.shot.json"))
+        jobs.append(Job(shot, shot.name, of_picture, nothing_written, str(tmp_path / "notes")))
+    done = outcomes_of(workers, jobs[:32], ship=False, token="t", heard=lambda: None)
+    assert [each.state for each in done] == ["done"] * 32
+    assert sum(len(each) for each in seen.values()) <= 5  # of 8: who ends first helps with the last picture
+    workers.remove("one")
+    done = outcomes_of(workers, jobs[32:], ship=False, token="u", heard=lambda: None)
+    assert [each.state for each in done] == ["done"] * 8
 
 
 def test_it_is_told_when_the_last_worker_for_a_shot_leaves_and_when_one_comes(workers: Any) -> None:
