@@ -92,7 +92,8 @@ def _on_cluster(
     check_workers(client, jobs, ship=options.ship)
     if options.scheduler is not None:
         stack.enter_context(missing_workers_told(client, left, warn))
-    return outcomes_of(client, longest_first(jobs), ship=options.ship, token=secrets.token_hex(4), heard=_heard)
+    ours, token = options.scheduler is None, secrets.token_hex(4)
+    return outcomes_of(client, longest_first(jobs), ship=options.ship, token=token, heard=_heard, chosen=ours)
 
 
 def _when(at_once: int, jobs: Sequence[Job]) -> str:

@@ -80,6 +80,7 @@ def local_cluster(workers: int, *, threads: int = 1, cards: int = 0) -> Iterator
     from dask import config
     from distributed import Client, Nanny, Scheduler, SpecCluster
 
+    from .scheduler_plugin import LetsNewWorkersHelp
     from .worker_plugin import KeepsToItself
 
     require("--workers", workers, 1 <= workers <= _MOST_WORKERS, f"0 to {_MOST_WORKERS}")
@@ -105,6 +106,7 @@ def local_cluster(workers: int, *, threads: int = 1, cards: int = 0) -> Iterator
         "dashboard": True,
         "dashboard_address": "127.0.0.1:8787",  # another port where that is taken
         "allowed_failures": MOST_RUNS - 1,
+        "plugins": (LetsNewWorkersHelp(),),
     }
     started = {_METHOD: "forkserver" if FORKS else "spawn", _TRIMMED: None, _PROFILED: False}
     with _quiet(), config.set(started), ExitStack() as closing:

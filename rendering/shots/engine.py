@@ -82,7 +82,7 @@ def workers_for(jobs: Sequence[Job], most: int) -> int:
 
 
 def outcomes_of(
-    client: Client, jobs: Sequence[Job], *, ship: bool, token: str, heard: Callable[[], None]
+    client: Client, jobs: Sequence[Job], *, ship: bool, token: str, heard: Callable[[], None], chosen: bool = False
 ) -> Iterator[Outcome]:
     """What becomes of each shot, as they end.
 
@@ -92,6 +92,7 @@ def outcomes_of(
         ship: send files along and bring results back.
         token: unlike that of any other run.
         heard: called now and then; may raise to stop.
+        chosen: choose the worker of each shot by the picture that it knows; only in a cluster of our own.
 
     Raises:
         SchedulerLost: the scheduler is gone; shots that are not told of are not done.
@@ -106,7 +107,7 @@ def outcomes_of(
         while any(waiting.values()) or under_way:
             for on_gpu, queue in waiting.items():
                 begun = Counter(worker for job, worker in under_way.values() if job.shot.on_gpu is on_gpu)
-                for worker in _places(client, begun, on_gpu=on_gpu)[: len(queue)]:
+                for worker in _places(client, begun, on_gpu=on_gpu, chosen=chosen)[: len(queue)]:
                     heard()
                     job = queue.next_for(worker)
                     try:
@@ -135,13 +136,14 @@ def outcomes_of(
             client.cancel(list(completed.futures), force=True)
 
 
-def _places(client: Client, begun: Counter[str], *, on_gpu: bool) -> list[str]:
+def _places(client: Client, begun: Counter[str], *, on_gpu: bool, chosen: bool) -> list[str]:
     """The address of a worker for each shot of a kind that the cluster can take now, the idle ones first.
 
     Args:
         client: of the cluster.
         begun: how many shots of the kind each worker has got.
         on_gpu: the kind.
+        chosen: whether we choose the worker, not Dask.
 
     Raises:
         SchedulerLost: the scheduler does not answer.
@@ -150,10 +152,11 @@ def _places(client: Client, begun: Counter[str], *, on_gpu: bool) -> list[str]:
         workers = client.scheduler_info(n_workers=-1)["workers"]
     except OSError:
         raise SchedulerLost(_LOST) from None
-    if on_gpu:  # Dask chooses one with a card
+    if on_gpu:  # Dask knows which of them have a card
         most = {_ANY: int(sum(each.get("resources", {}).get(GPU, 0) for each in workers.values()))}
     else:
         most = {address: int(each["nthreads"]) for address, each in workers.items()}
+        most = most if chosen else {_ANY: sum(most.values())}
     if not sum(most.values()):
         most = {_ANY: 1}
     # What was given to workers that have gone is done by others.

@@ -1,4 +1,4 @@
-"""Shots that wait to be begun: each worker goes on with the picture that it knows, whose parts it need not cut out again."""
+"""Shots that wait to be begun: a worker goes on with the picture that it knows, whose parts it need not cut out again."""
 
 from __future__ import annotations
 

@@ -194,11 +194,11 @@ def test_the_shots_of_a_picture_are_done_by_one_worker(
         word = Word("", f"picture {n % 4}", "input", "image")
         shot = Shot(f"s{n}", (word,), {}, str(tmp_path / f"s{n}.shot.json"))
         jobs.append(Job(shot, shot.name, of_picture, nothing_written, str(tmp_path / "notes")))
-    done = outcomes_of(workers, jobs[:32], ship=False, token="t", heard=lambda: None)
+    done = outcomes_of(workers, jobs[:32], ship=False, token="t", heard=lambda: None, chosen=True)
     assert [each.state for each in done] == ["done"] * 32
     assert sum(len(each) for each in seen.values()) <= 5  # of 8: who ends first helps with the last picture
     workers.remove("one")
-    done = outcomes_of(workers, jobs[32:], ship=False, token="u", heard=lambda: None)
+    done = outcomes_of(workers, jobs[32:], ship=False, token="u", heard=lambda: None, chosen=True)
     assert [each.state for each in done] == ["done"] * 8
 
 
