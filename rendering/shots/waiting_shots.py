@@ -1,4 +1,4 @@
-"""Shots that wait to be begun: a worker goes on with the picture that it knows, whose parts it need not cut out again."""
+"""Shots that wait to be begun: a worker goes on with the picture that it knows and whose parts it has cut out."""
 
 from __future__ import annotations
 
