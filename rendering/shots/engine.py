@@ -15,6 +15,7 @@ from ...physics.threads import chosen_threads, keep_to_threads
 from ..files import is_full
 from .cluster import GPU
 from .job import MOST_RUNS, Job, Outcome, as_now, perform, told_of
+from .memory import keep_memory
 from .shipping import Parcel, Returned, packed, perform_elsewhere, unpacked
 from .waiting_shots import WaitingShots
 
@@ -222,12 +223,13 @@ def _away(job: Job, parcel: Parcel) -> Returned:
 
 @contextmanager
 def _as_a_worker(job: Job) -> Iterator[None]:
-    """Keep to the cores that are this worker's, one unless it is told; let idle ones draw frames of a long shot."""
+    """Keep memory, and to the cores that are ours, one unless told; let idle workers draw frames of a long shot."""
     from distributed import get_client, rejoin, secede
 
     from ..frame_drawing import frames_drawn_by
     from .spreading import LONG, drawing_on_idle_workers
 
+    keep_memory()
     keep_to_threads(chosen_threads() or 1)
     if job.shot.frames < LONG:
         yield

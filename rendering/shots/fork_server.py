@@ -10,14 +10,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from ...physics.threads import thread_variables
+from .memory import MEMORY_KEPT
 
 __all__ = ["FORKS", "begin_fork_server"]
 
 FORKS = sys.platform == "linux"
 """Whether workers are forked. Windows cannot, and system libraries of macOS do not live through it."""
-
-# What workers keep of the memory that they have used: else each picture is mapped anew, and each page of it cleared.
-_MEMORY = {"MALLOC_TRIM_THRESHOLD_": str(1 << 28), "MALLOC_MMAP_THRESHOLD_": str(1 << 25)}
 
 
 def begin_fork_server(module: str) -> None:
@@ -32,7 +30,7 @@ def begin_fork_server(module: str) -> None:
         return
     from multiprocessing import forkserver
 
-    kept = {name: os.environ.get(name, value) for name, value in _MEMORY.items()}
+    kept = {name: os.environ.get(name, value) for name, value in MEMORY_KEPT.items()}
     forkserver.set_forkserver_preload([module])
     with _environment({**kept, **dict.fromkeys(thread_variables(1), "1")}), _without_interruptions():
         forkserver.ensure_running()

@@ -84,6 +84,30 @@ def test_workers_begin_with_what_lets_them_keep_memory(tmp_path: Path, monkeypat
     assert not [name for name in os.environ if name.startswith("MALLOC") and name not in before]
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="the C library of Linux")
+def test_a_worker_of_dask_keeps_memory_once_it_has_a_shot(tmp_path: Path) -> None:
+    """Pages that are mapped anew for each picture are counted, with what Dask sets for its workers."""
+    asked = """
+import resource
+import numpy as np
+from physanimator.rendering.shots.memory import keep_memory
+
+def mapped():
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+    for _ in range(20):
+        np.ones((720, 1280), np.float32).sum()
+    return resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before
+
+before = mapped()
+keep_memory()
+print(before, mapped())
+"""
+    variables = {**environment(tmp_path), "MALLOC_TRIM_THRESHOLD_": "65536"}
+    run = subprocess.run([sys.executable, "-c", asked], env=variables, capture_output=True, text=True, check=True)
+    before, after = map(int, run.stdout.split())
+    assert after < before / 4
+
+
 @pytest.mark.skipif(not fork_server.FORKS, reason="workers are not forked on this system")
 def test_workers_are_forked_from_what_has_imported_everything(tmp_path: Path) -> None:
     """It has one thread, without which it could not be forked, and leaves Taichi and Ctrl+C to others."""
