@@ -68,7 +68,7 @@ def read_list(path: str, out: str, *, also_written: Sequence[tuple[str, str]] = 
         options, refused = _parsed(parser, row, name, words, wrong)
         problems += [*wrong, *refused]
         if options is not None and not wrong:
-            shots.append(_shot(row, name, words, options))
+            shots.append(replace(_shot(row, name, words, options), listed=os.path.basename(path)))
     problems += colliding_outputs(
         shots, also_read=[os.path.abspath(path)], also_written=also_written, is_frame=is_frame_name
     )
@@ -121,14 +121,22 @@ def _on_gpu(options: argparse.Namespace) -> bool:
         return False
 
 
-def check_shot(shot: Shot) -> list[Problem]:
-    """All that ``animate`` would refuse before it simulates, and what can be seen of the rest."""
+def check_shot(shot: Shot, moving: dict[str, int] | None = None) -> list[Problem]:
+    """All that ``animate`` would refuse before it simulates, and what can be seen of the rest.
+
+    Args:
+        shot: to be checked.
+        moving: gets how many pixels move by the shot's name, where its masks tell.
+    """
     from ..files import check_replaceable
     from .messages import gathered
 
     options = shot_parser().parse_args([*shot.command(), "--quiet"])
     with gathered():
-        told = _missing(shot) or _refused(options) or _told(lambda _: check_replaceable(shot.record), options)
+        area: list[int] = []
+        told = _missing(shot) or _refused(options, area) or _told(lambda _: check_replaceable(shot.record), options)
+    if moving is not None and area:
+        moving[shot.name] = area[0]
     return [_problem(shot, each) for each in told]
 
 
@@ -147,8 +155,10 @@ def _missing(shot: Shot) -> list[str]:
     ]
 
 
-def _refused(options: argparse.Namespace) -> list[str]:
-    """What single checks refuse; the pictures are only read where nothing else is wrong."""
+def _refused(options: argparse.Namespace, area: list[int]) -> list[str]:
+    """What single checks refuse; the pictures are only read where nothing else is wrong, and then ``area`` gets how
+    many pixels move.
+    """
     from .inputs import check_inputs
     from .networks import check_networks_used, keyframes_of, timing_of
     from .outputs import check_outputs
@@ -163,7 +173,7 @@ def _refused(options: argparse.Namespace) -> list[str]:
         physics_of,
     )
     found = [told for check in checks for told in _told(check, options)]
-    return list(dict.fromkeys(found or _told(_read_all, options)))
+    return list(dict.fromkeys(found or _told(lambda _: area.append(_read_all(options)), options)))
 
 
 def _told(check: Callable[[argparse.Namespace], Any], options: argparse.Namespace) -> list[str]:
@@ -180,8 +190,14 @@ def _told(check: Callable[[argparse.Namespace], Any], options: argparse.Namespac
     return []
 
 
-def _read_all(options: argparse.Namespace) -> None:
-    """Read all inputs, and try the values that are otherwise first looked at when the parts have meshes."""
+def _read_all(options: argparse.Namespace) -> int:
+    """Read all inputs, and try the values that are otherwise first looked at when the parts have meshes.
+
+    Returns:
+        How many pixels move, as masks tell; 0 without any.
+    """
+    import numpy as np
+
     from ...physics.assembly import work_of_minutes
     from ...physics.document import check_document
     from .animating import checked_inputs, picture_of_inputs
@@ -195,6 +211,7 @@ def _read_all(options: argparse.Namespace) -> None:
     if inputs["scene"] is not None:
         check_document(inputs["scene"])
     _rehearse(options, inputs)
+    return sum(int(np.count_nonzero(mask)) for mask in inputs["masks"])
 
 
 def _rehearse(options: argparse.Namespace, inputs: Mapping[str, Any]) -> None:

@@ -6,6 +6,8 @@ import argparse
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import replace
+from itertools import repeat
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -71,24 +73,29 @@ def add_shots(parser: argparse.ArgumentParser) -> None:
 
 
 def _shots(options: argparse.Namespace) -> None:
-    from ..shots import check_installed, others_files
+    from ..shots import begin_fork_server, check_installed, others_files
     from .shots_run import run_shots
 
     _check_options(options)
     for_farms = options.write_commands or options.write_openjd
-    if not (options.workers == 0 or options.dry_run or for_farms):
+    in_processes = not (options.workers == 0 or options.dry_run or for_farms)
+    if in_processes:
         check_installed()
     with _output_folder(options):
         shots, problems = _chosen(options)
         kept, jobs = _what_to_do(options, shots)
+        if in_processes and options.scheduler is None and jobs:
+            begin_fork_server(f"{__package__}.shot_imports")  # it imports while the shots are checked
         to_do = shots if for_farms else [each.shot for each in jobs]
-        _refuse(options, [*problems, *others_files(options.output, to_do), *_wrong(to_do)])
+        moving: dict[str, int] = {}
+        _refuse(options, [*problems, *others_files(options.output, to_do), *_wrong(to_do, moving)])
         if for_farms:
             _write_for_farms(options, shots)
         elif options.dry_run:
             _tell_plan(options, shots, jobs)
         else:
-            run_shots(options, shots, kept, jobs)
+            known = [replace(job, shot=replace(job.shot, moving=moving.get(job.shot.name, 0))) for job in jobs]
+            run_shots(options, shots, kept, known)
 
 
 def _check_options(options: argparse.Namespace) -> None:
@@ -167,12 +174,12 @@ def _refuse(options: argparse.Namespace, problems: Sequence[Problem]) -> None:
     raise InvalidInputError(f"{options.list} has {counted(len(told), 'error')}; nothing was begun")
 
 
-def _wrong(shots: Sequence[Shot]) -> Iterator[Problem]:
-    """All that ``animate`` would refuse of shots."""
+def _wrong(shots: Sequence[Shot], moving: dict[str, int]) -> Iterator[Problem]:
+    """All that ``animate`` would refuse of shots; ``moving`` gets how many pixels of each move."""
     from ...physics.beside import side_by_side
     from .shot_list import check_shot
 
-    for found in side_by_side(check_shot, shots):
+    for found in side_by_side(check_shot, shots, repeat(moving, len(shots))):
         yield from found
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import secrets
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from itertools import islice
@@ -46,17 +46,34 @@ def run_shots(options: argparse.Namespace, shots: Sequence[Shot], kept: Sequence
         stack.callback(_end, options, shots, found)
         if not jobs:
             return
-        outcomes = outcomes_here(jobs, _heard) if options.workers == 0 else _on_cluster(options, jobs, stack)
+
+        def left(on_gpu: bool) -> int:
+            return sum(job.shot.on_gpu is on_gpu and job.shot.name not in found for job in jobs)
+
+        outcomes = outcomes_here(jobs, _heard) if options.workers == 0 else _on_cluster(options, jobs, left, stack)
         for outcome in outcomes:
             found[outcome.name] = outcome
             told(outcome)
 
 
-def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitStack) -> Iterator[Outcome]:
+def _on_cluster(
+    options: argparse.Namespace, jobs: Sequence[Job], left: Callable[[bool], int], stack: ExitStack
+) -> Iterator[Outcome]:
+    """The outcomes of jobs, of which so many are left, with networks or without."""
     from ...physics.errors import counted
     from ...physics.threads import chosen_threads
-    from ..shots import check_workers, connected, local_cluster, outcomes_of, threads_each, usual_workers, workers_for
-    from .messages import say
+    from ..shots import (
+        check_workers,
+        connected,
+        local_cluster,
+        longest_first,
+        missing_workers_told,
+        outcomes_of,
+        threads_each,
+        usual_workers,
+        workers_for,
+    )
+    from .messages import say, warn
 
     if options.scheduler is not None:
         client = stack.enter_context(connected(options.scheduler))
@@ -73,16 +90,21 @@ def _on_cluster(options: argparse.Namespace, jobs: Sequence[Job], stack: ExitSta
     if not options.quiet:
         say(f"{counted(len(jobs), 'shot')} to do, {_when(sum(client.nthreads().values()), jobs)}")
     check_workers(client, jobs, ship=options.ship)
-    return outcomes_of(client, jobs, ship=options.ship, token=secrets.token_hex(4), heard=_heard)
+    if options.scheduler is not None:
+        stack.enter_context(missing_workers_told(client, left, warn))
+    ours, token = options.scheduler is None, secrets.token_hex(4)
+    return outcomes_of(client, longest_first(jobs), ship=options.ship, token=token, heard=_heard, chosen=ours)
 
 
 def _when(at_once: int, jobs: Sequence[Job]) -> str:
     """How many shots are done at once, or for what they wait."""
+    from ..shots import GPU_WORKERS
+
     if at_once:
         return f"{at_once} at once"
     when = "once a worker has come to the scheduler"
     if any(job.shot.on_gpu for job in jobs):
-        when += "; those with networks wait for one with a graphics card, dask worker --resources 'GPU=1'"
+        when += f"; those with networks wait for {GPU_WORKERS}"
     return when
 
 

@@ -7,8 +7,11 @@ from .collisions import colliding_outputs
 from .document import ShotRow, read_rows
 from .engine import SchedulerLost, check_workers, outcomes_here, outcomes_of, workers_for
 from .farms import command_lines, openjd_template
+from .fork_server import begin_fork_server
 from .job import Animated, Job, Outcome
+from .missing_workers import GPU_WORKERS, missing_workers_told
 from .option_words import OptionNames, Word, shot_name, words_of
+from .ordering import longest_first
 from .problems import Problem, merged
 from .report import write_report
 from .run_folder import NOTES, alone_in, forgetting, others_files
@@ -18,6 +21,7 @@ from .summary import summary_lines
 
 __all__ = [
     "ENDING",
+    "GPU_WORKERS",
     "NOTES",
     "Animated",
     "FileDigests",
@@ -31,6 +35,7 @@ __all__ = [
     "ShotRow",
     "Word",
     "alone_in",
+    "begin_fork_server",
     "check_installed",
     "check_workers",
     "colliding_outputs",
@@ -40,7 +45,9 @@ __all__ = [
     "identity_of",
     "is_finished",
     "local_cluster",
+    "longest_first",
     "merged",
+    "missing_workers_told",
     "openjd_template",
     "others_files",
     "outcomes_here",

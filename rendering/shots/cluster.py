@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ...physics.errors import InvalidInputError, require
 from ...physics.threads import chosen_threads, thread_variables
 from ..files import uninterrupted
+from .fork_server import FORKS, begin_fork_server
 from .job import MOST_RUNS
 
 if TYPE_CHECKING:
@@ -28,6 +29,8 @@ _MOST_WORKERS = 1024
 _CONNECT_SECONDS = 20
 # What Dask sets so that workers give memory back at once: each picture is mapped anew then, 30 % of the processor time.
 _TRIMMED = "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_"
+_METHOD = "distributed.worker.multiprocessing-method"
+_PROFILED = "distributed.worker.profile.enabled"  # a look at what workers do, every 10 ms
 _PER_CARD = "CUDA_VISIBLE_DEVICES"
 
 
@@ -77,7 +80,8 @@ def local_cluster(workers: int, *, threads: int = 1, cards: int = 0) -> Iterator
     from dask import config
     from distributed import Client, Nanny, Scheduler, SpecCluster
 
-    from .worker_plugin import LeavesInterruptions
+    from .scheduler_plugin import LetsNewWorkersHelp
+    from .worker_plugin import KeepsToItself
 
     require("--workers", workers, 1 <= workers <= _MOST_WORKERS, f"0 to {_MOST_WORKERS}")
     visible = [each for each in os.environ.get(_PER_CARD, "").split(",") if each] or [str(n) for n in range(cards)]
@@ -90,7 +94,7 @@ def local_cluster(workers: int, *, threads: int = 1, cards: int = 0) -> Iterator
             "host": "127.0.0.1",
             "dashboard": False,
             "silence_logs": logging.CRITICAL,
-            "plugins": (LeavesInterruptions(),),
+            "plugins": (KeepsToItself(),),
             "env": variables,
         }
         if number < cards:
@@ -102,9 +106,12 @@ def local_cluster(workers: int, *, threads: int = 1, cards: int = 0) -> Iterator
         "dashboard": True,
         "dashboard_address": "127.0.0.1:8787",  # another port where that is taken
         "allowed_failures": MOST_RUNS - 1,
+        "plugins": (LetsNewWorkersHelp(),),
     }
-    with _quiet(), ExitStack() as closing:
-        with uninterrupted(), config.set({_TRIMMED: None}):
+    started = {_METHOD: "forkserver" if FORKS else "spawn", _TRIMMED: None, _PROFILED: False}
+    with _quiet(), config.set(started), ExitStack() as closing:
+        begin_fork_server(__name__)
+        with uninterrupted():
             specs_of_scheduler = {"cls": Scheduler, "options": scheduler}
             try:
                 made = SpecCluster(workers=specs, scheduler=specs_of_scheduler, silence_logs=logging.CRITICAL)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -17,6 +18,9 @@ __all__ = ["ShotRow", "read_rows"]
 
 _SEVERAL = "|"  # between the values of a cell of a CSV file: a name of a file has none
 
+# With which spreadsheets begin a file.
+_SEPARATOR = re.compile(r"sep=([,;\t|])\s*$", re.IGNORECASE)
+
 
 @dataclass(frozen=True)
 class ShotRow:
@@ -28,6 +32,7 @@ class ShotRow:
         lines: of the file, for each value.
         line: of the file, where the shot begins.
         as_text: whether all values are text, of which numbers and lists have to be made.
+        head: line of the names of options, where all rows have them from there.
     """
 
     number: int
@@ -35,6 +40,7 @@ class ShotRow:
     lines: Mapping[str, int] = field(default_factory=dict)
     line: int | None = None
     as_text: bool = False
+    head: int | None = None
 
 
 def read_rows(path: str) -> tuple[list[ShotRow], list[Problem]]:
@@ -104,23 +110,26 @@ def _named(
 
 def _rows_of_csv(text: str, path: str) -> tuple[list[ShotRow], list[Problem]]:
     first = text.lstrip("\r\n").partition("\n")[0]
-    delimiter = max(",;\t", key=first.count)
+    said = _SEPARATOR.match(first)
+    delimiter = said[1] if said else max(",;\t", key=first.count)
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
     rows: list[ShotRow] = []
     problems: list[Problem] = []
     names: list[str] = []
+    head = 0
     try:
         for cells in reader:
-            if not any(cell.strip() for cell in cells):
+            filled = [cell for cell in cells if cell.strip()]
+            if not filled or (said and not names and filled[0].lower() == "sep="):
                 continue
             if not names:
-                names = [cell.strip().lstrip("-").replace("-", "_") for cell in cells]
+                names, head = [_option(cell) for cell in cells], reader.line_num
                 problems += [
-                    Problem(f"every column must have its own name. Got: {shown(name)} twice", line=reader.line_num)
-                    for name in sorted({each for each in names if names.count(each) > 1})
+                    Problem(f"every column must have its own name. Got: {shown(name)} twice", line=head)
+                    for name in sorted({each for each in names if each and names.count(each) > 1})
                 ]
                 continue
-            rows.append(_row_of_cells(len(rows) + 1, names, cells, reader.line_num, problems))
+            rows.append(_row_of_cells(len(rows) + 1, names, cells, reader.line_num, head, problems))
     except csv.Error as error:
         raise InvalidInputError(f"SHOTS must be CSV. Got: {path}: {error} in line {reader.line_num}") from None
     if not rows:
@@ -130,15 +139,24 @@ def _rows_of_csv(text: str, path: str) -> tuple[list[ShotRow], list[Problem]]:
     return rows, problems
 
 
+def _option(cell: str) -> str:
+    """The option that a column is for, however a person writes it: wind-angle, --wind-angle or Wind Angle."""
+    return "_".join(cell.strip().lstrip("-").replace("-", " ").lower().split())
+
+
 def _row_of_cells(
-    number: int, names: Sequence[str], cells: Sequence[str], line: int, problems: list[Problem]
+    number: int, names: Sequence[str], cells: Sequence[str], line: int, head: int, problems: list[Problem]
 ) -> ShotRow:
-    given = {name: cell.strip() for name, cell in zip(names, cells, strict=False) if cell.strip()}
+    given = {name: cell.strip() for name, cell in zip(names, cells, strict=False) if name and cell.strip()}
+    shot = given.get("name", str(number))
     if any(cell.strip() for cell in cells[len(names) :]):
         told = f"rows must have at most {len(names)} cells, as the first has. Got: {len(cells)}"
-        problems.append(Problem(told, given.get("name", str(number)), line=line))
+        problems.append(Problem(told, shot, line=line))
+    for name, cell in zip(names, cells, strict=False):
+        if cell.strip() and not name:
+            problems.append(Problem(f"every column must have a name. Got: {shown(cell)} below none", shot, line=line))
     values = {
         name: [each.strip() for each in cell.split(_SEVERAL)] if _SEVERAL in cell else cell
         for name, cell in given.items()
     }
-    return ShotRow(number, values, dict.fromkeys(values, line), line, as_text=True)
+    return ShotRow(number, values, dict.fromkeys(values, line), line, as_text=True, head=head)

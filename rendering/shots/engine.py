@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections import deque
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ... import __version__
@@ -13,8 +14,10 @@ from ...physics.errors import InvalidInputError
 from ...physics.threads import chosen_threads, keep_to_threads
 from ..files import is_full
 from .cluster import GPU
-from .job import MOST_RUNS, Job, Outcome, perform, told_of
+from .job import MOST_RUNS, Job, Outcome, as_now, perform, told_of
+from .memory import keep_memory
 from .shipping import Parcel, Returned, packed, perform_elsewhere, unpacked
+from .waiting_shots import WaitingShots
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -22,6 +25,8 @@ if TYPE_CHECKING:
 __all__ = ["SchedulerLost", "check_workers", "outcomes_here", "outcomes_of", "workers_for"]
 
 _AHEAD = 2  # shots for each thread that the scheduler knows: none waits for the client, and memory stays bounded
+
+_ANY = ""  # whichever worker
 
 _LOST = "the scheduler is gone; finished shots are whole, and the same command does the others"
 
@@ -38,7 +43,7 @@ def outcomes_here(jobs: Sequence[Job], heard: Callable[[], None]) -> Iterator[Ou
         if full:
             yield Outcome(job.shot.name, "left", full)
             continue
-        outcome = perform(job)
+        outcome = perform(job, waits=True)
         full = f"not begun: {outcome.why}" if outcome.full else ""
         yield outcome
 
@@ -78,7 +83,7 @@ def workers_for(jobs: Sequence[Job], most: int) -> int:
 
 
 def outcomes_of(
-    client: Client, jobs: Sequence[Job], *, ship: bool, token: str, heard: Callable[[], None]
+    client: Client, jobs: Sequence[Job], *, ship: bool, token: str, heard: Callable[[], None], chosen: bool = False
 ) -> Iterator[Outcome]:
     """What becomes of each shot, as they end.
 
@@ -88,36 +93,37 @@ def outcomes_of(
         ship: send files along and bring results back.
         token: unlike that of any other run.
         heard: called now and then; may raise to stop.
+        chosen: choose the worker of each shot by the picture that it knows; only in a cluster of our own.
 
     Raises:
         SchedulerLost: the scheduler is gone; shots that are not told of are not done.
     """
     from distributed import as_completed
 
-    waiting = {on_gpu: deque(job for job in jobs if job.shot.on_gpu is on_gpu) for on_gpu in (True, False)}
-    under_way: dict[Any, Job] = {}
+    waiting = {on_gpu: WaitingShots(job for job in jobs if job.shot.on_gpu is on_gpu) for on_gpu in (True, False)}
+    under_way: dict[Any, tuple[Job, str]] = {}
     completed = as_completed(loop=client.loop, raise_errors=False)
     full = ""
     try:
         while any(waiting.values()) or under_way:
             for on_gpu, queue in waiting.items():
-                begun = sum(job.shot.on_gpu is on_gpu for job in under_way.values())
-                for _ in range(min(len(queue), _places(client, on_gpu=on_gpu) * _AHEAD - begun)):
+                begun = Counter(worker for job, worker in under_way.values() if job.shot.on_gpu is on_gpu)
+                for worker in _places(client, begun, on_gpu=on_gpu, chosen=chosen)[: len(queue)]:
                     heard()
-                    job = queue.popleft()
+                    job = queue.next_for(worker)
                     try:
-                        parcel = packed(job) if ship else None
+                        job, parcel = _packed(job) if ship else (job, None)
                     except OSError as error:
                         yield Outcome(job.shot.name, "failed", told_of(error))
                         continue
-                    future = _submitted(client, job, parcel, f"{token}-{job.shot.name}")
-                    under_way[future.key] = job
+                    future = _submitted(client, job, parcel, f"{token}-{job.shot.name}", worker)
+                    under_way[future.key] = job, worker
                     completed.add(future)
                     del future
             if not under_way:
                 continue
             future = next(completed)
-            job = under_way.pop(future.key)
+            job, _ = under_way.pop(future.key)
             outcome = _outcome(job, future)
             del future
             yield outcome
@@ -125,32 +131,60 @@ def outcomes_of(
                 full = f"not begun: {outcome.why}"
                 for queue in waiting.values():
                     while queue:
-                        yield Outcome(queue.popleft().shot.name, "left", full)
+                        yield Outcome(queue.next_for(_ANY).shot.name, "left", full)
     finally:
         if under_way:
             client.cancel(list(completed.futures), force=True)
 
 
-def _places(client: Client, *, on_gpu: bool) -> int:
-    """How many shots of a kind the cluster can do at once, now.
+def _places(client: Client, begun: Counter[str], *, on_gpu: bool, chosen: bool) -> list[str]:
+    """The address of a worker for each shot of a kind that the cluster can take now, the idle ones first.
+
+    Args:
+        client: of the cluster.
+        begun: how many shots of the kind each worker has got.
+        on_gpu: the kind.
+        chosen: whether we choose the worker, not Dask.
 
     Raises:
         SchedulerLost: the scheduler does not answer.
     """
     try:
-        workers = client.scheduler_info(n_workers=-1)["workers"].values()
+        workers = client.scheduler_info(n_workers=-1)["workers"]
     except OSError:
         raise SchedulerLost(_LOST) from None
-    if on_gpu:
-        return max(1, int(sum(each.get("resources", {}).get(GPU, 0) for each in workers)))
-    return max(1, sum(int(each["nthreads"]) for each in workers))
+    if on_gpu:  # Dask knows which of them have a card
+        most = {_ANY: int(sum(each.get("resources", {}).get(GPU, 0) for each in workers.values()))}
+    else:
+        most = {address: int(each["nthreads"]) for address, each in workers.items()}
+        most = most if chosen else {_ANY: sum(most.values())}
+    if not sum(most.values()):
+        most = {_ANY: 1}
+    # What was given to workers that have gone is done by others.
+    gone = sum(begun.values()) - sum(begun[each] for each in most)
+    free = [
+        (begun[worker] + each, number, worker)
+        for number, worker in enumerate(most)
+        for each in range(most[worker] * _AHEAD - begun[worker])
+    ]
+    return [worker for _, _, worker in sorted(free)][: max(0, len(free) - gone)]
 
 
-def _submitted(client: Client, job: Job, parcel: Parcel | None, key: str) -> Future:
-    resources = {GPU: 1} if job.shot.on_gpu else None
+def _packed(job: Job) -> tuple[Job, Parcel]:
+    """A job with what it reads, and known by that; by nothing where it changes meanwhile, so that it is done again."""
+    job = as_now(job)
+    parcel = packed(job)
+    return (job if as_now(job).identity == job.identity else replace(job, identity="")), parcel
+
+
+def _submitted(client: Client, job: Job, parcel: Parcel | None, key: str, worker: str) -> Future:
+    """Have a job done by a worker; by another one where that is gone, or has more to do."""
+    where: dict[str, Any] = {"workers": [worker], "allow_other_workers": True} if worker != _ANY else {}
+    if job.shot.on_gpu:
+        where["resources"] = {GPU: 1}
     if parcel is not None:
-        return client.submit(_away, job, parcel, key=key, resources=resources, pure=False)
-    return client.submit(_there, job, key=key, resources=resources, pure=False)
+        return client.submit(_away, job, parcel, key=key, pure=False, **where)
+    return client.submit(_there, job, key=key, pure=False, **where)
 
 
 def _outcome(job: Job, future: Future) -> Outcome:
@@ -189,12 +223,13 @@ def _away(job: Job, parcel: Parcel) -> Returned:
 
 @contextmanager
 def _as_a_worker(job: Job) -> Iterator[None]:
-    """Keep to the cores that are this worker's, one unless it is told; let idle ones draw frames of a long shot."""
+    """Keep memory, and to the cores that are ours, one unless told; let idle workers draw frames of a long shot."""
     from distributed import get_client, rejoin, secede
 
     from ..frame_drawing import frames_drawn_by
     from .spreading import LONG, drawing_on_idle_workers
 
+    keep_memory()
     keep_to_threads(chosen_threads() or 1)
     if job.shot.frames < LONG:
         yield

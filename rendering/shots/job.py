@@ -14,8 +14,15 @@ from ...physics.errors import Cancelled
 from ...physics.interruption import interruptible
 from ..files import is_full, noting_unfinished, remove_noted
 from .locks import held, is_held
-from .shot import Shot
-from .shot_record import ShotRecord, is_finished, write_shot_record, written_by
+from .shot import FileDigests, Shot, identity_of
+from .shot_record import (
+    ShotRecord,
+    described,
+    is_finished,
+    read_shot_record,
+    write_shot_record,
+    written_by,
+)
 
 __all__ = [
     "FAULT",
@@ -24,6 +31,7 @@ __all__ = [
     "Job",
     "Outcome",
     "animated",
+    "as_now",
     "forget_runs",
     "notes_of",
     "outcome_of",
@@ -36,6 +44,10 @@ FAULT = 70
 
 MOST_RUNS = 3
 """How often a shot is begun in all when the workers that do it are killed."""
+
+
+_POLL = 0.2  # [s]
+_CHANGED = "what it reads was changed meanwhile; the same command does it again"
 
 
 @dataclass(frozen=True)
@@ -100,13 +112,25 @@ class Job:
     notes: str
 
 
-def perform(job: Job, wanted: Callable[[], bool] = lambda: True) -> Outcome:
+def as_now(job: Job) -> Job:
+    """The job with the identity that its files give it now; as it is where one of them cannot be read."""
+    try:
+        return replace(job, identity=identity_of(job.shot, FileDigests()))
+    except OSError:
+        return job
+
+
+def perform(job: Job, wanted: Callable[[], bool] = lambda: True, *, waits: bool = False) -> Outcome:
     """Do a shot where its files are, and write its record.
 
     Args:
         job: what to do.
         wanted: whether anybody still waits for it; asked now and then.
+        waits: where another process does the very shot, wait for it to end first.
     """
+    while waits and any(is_held(note) for note in notes_of(Path(job.notes), job.shot)):
+        time.sleep(_POLL)
+    job = as_now(job)  # somebody may have painted since the list was read
     shot, machine = job.shot, platform.node()
     kept = is_finished(shot, job.identity)
     if kept is not None:  # by a worker that was killed before it could say so
@@ -121,12 +145,17 @@ def perform(job: Job, wanted: Callable[[], bool] = lambda: True) -> Outcome:
     with held(run), noting_unfinished(run):
         ended = animated(job.run, shot.command(), wanted)
         outcome = outcome_of(shot, ended, time.perf_counter() - start, machine)
-        if outcome.state == "done":
-            try:
-                record_of(job, outcome)
-            except (OSError, ValueError) as error:
-                outcome = replace(outcome, state="failed", why=told_of(error), full=is_full(error))
-    return outcome
+        return _recorded(job, outcome) if outcome.state == "done" else outcome
+
+
+def _recorded(job: Job, outcome: Outcome) -> Outcome:
+    """Write the record of a shot that is done; of one whose files have changed meanwhile such that it is done again."""
+    same = as_now(job).identity == job.identity
+    try:
+        record_of(job if same else replace(job, identity=""), outcome)
+    except (OSError, ValueError) as error:
+        return replace(outcome, state="failed", why=told_of(error), full=is_full(error))
+    return outcome if same else replace(outcome, state="failed", why=_CHANGED)
 
 
 def animated(run: Callable[[Sequence[str]], Animated], words: Sequence[str], wanted: Callable[[], bool]) -> Animated:
@@ -154,16 +183,26 @@ def outcome_of(shot: Shot, ended: Animated, seconds: float, machine: str) -> Out
 
 
 def record_of(job: Job, outcome: Outcome) -> None:
-    """Write the record of a shot that is done.
+    """Write the record of a shot that is done. Where that fails, its clip goes too: nobody would know whose it is.
 
     Raises:
         OSError: it cannot be written, or a result is not there.
     """
     shot = job.shot
-    files = written_by(shot.record, [each.text or "" for each in shot.paths("output")], job.files_of)
     settings, said = dict(shot.settings), outcome.said
-    record = ShotRecord(shot.name, job.identity, files, outcome.seconds, outcome.machine, said, settings)
-    write_shot_record(shot.record, record)
+    try:
+        files = written_by(shot.record, [each.text or "" for each in shot.paths("output")], job.files_of)
+        record = ShotRecord(
+            shot.name, job.identity, files, outcome.seconds, outcome.machine, said, settings, listed=shot.listed
+        )
+        write_shot_record(shot.record, record)
+    except OSError:
+        earlier = read_shot_record(shot.record)
+        clips = [each.text or "" for each in shot.paths("output") if each.option == "output"]
+        for file in (file for clip in clips for file in job.files_of(clip)):
+            if earlier is None or not described(earlier, shot, file):  # nobody else has made the same meanwhile
+                Path(file).unlink(missing_ok=True)
+        raise
 
 
 def told_of(error: Exception) -> str:
@@ -175,16 +214,27 @@ def told_of(error: Exception) -> str:
 
 def _begun(notes: Path, shot: Shot) -> Path | None:
     """The note of this run; None where earlier runs were killed too often. What they have left is removed."""
-    notes.mkdir(exist_ok=True)
     for note in notes_of(notes, shot):
         if not note.exists():
-            note.touch()
+            _touch(note)
             return note
         if is_held(note):  # by a run that is at work
             continue
         remove_noted(note)
-        note.touch()  # it counts
+        _touch(note)  # it counts
     return None
+
+
+def _touch(note: Path) -> None:
+    """Make a note, again where another run has just tidied up its folder."""
+    for last in (False, True):
+        note.parent.mkdir(exist_ok=True)
+        try:
+            note.touch()
+            return
+        except FileNotFoundError:
+            if last:
+                raise
 
 
 def forget_runs(notes: Path, shot: Shot) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import difflib
 import os
+import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -16,6 +17,7 @@ from .problems import Problem
 
 __all__ = ["OptionNames", "Word", "shot_name", "spelled", "words_of"]
 
+_PLACEHOLDER = re.compile(r"\{(name|out)\}")
 _YES_OR_NO = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
 
 
@@ -101,7 +103,7 @@ def words_of(row: ShotRow, name: str, names: OptionNames, *, folder: str, out: s
     """
     words: list[Word] = []
     problems: list[Problem] = []
-    for option, value in {"output": os.path.join(out, f"{name}.mp4"), **row.values}.items():
+    for option, value in {"output": os.path.join("{out}", "{name}.mp4"), **row.values}.items():
         if option == "name":
             continue
         written = option.replace("_", "-")
@@ -110,11 +112,14 @@ def words_of(row: ShotRow, name: str, names: OptionNames, *, folder: str, out: s
             texts = _texts(action, value, as_text=row.as_text)
             kind = names.kind_of(option)
             if kind == "output":
-                texts = [each.replace("{name}", name).replace("{out}", out) for each in texts]
+                texts = [_PLACEHOLDER.sub(lambda found: {"name": name, "out": out}[found[1]], each) for each in texts]
             if kind:
                 texts = [_path(each, folder, maybe=option == "collider") for each in texts]
         except InvalidInputError as error:
-            problems.append(Problem(str(error), name, written, row.lines.get(option, row.line)))
+            line = row.lines.get(option, row.line)
+            if option not in names.actions and row.head is not None:  # the whole column is wrong
+                line = row.head
+            problems.append(Problem(str(error), name, written, line))
             continue
         if not action.option_strings:
             words[:0] = [Word("", each, kind, option) for each in texts]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -38,9 +37,10 @@ def alone_in(out: str) -> Iterator[None]:
         try:
             yield
         finally:
-            with suppress(OSError):
-                lock.close()
-                shutil.rmtree(notes)
+            lock.close()
+            with suppress(OSError):  # there are notes of others, such as of the lines of a farm
+                (notes / "lock").unlink()
+                notes.rmdir()
 
 
 @contextmanager
@@ -64,7 +64,7 @@ def forgetting(out: str, shots: list[Shot]) -> Iterator[None]:
 
 def others_files(out: str, shots: Iterable[Shot]) -> Iterator[Problem]:
     """Clips that would be replaced, of which neither a record, which knows them as they are, nor the note of a killed
-    run says that a run wrote them.
+    run says that a run of the same list wrote them.
 
     Args:
         out: the folder of results.
@@ -76,10 +76,20 @@ def others_files(out: str, shots: Iterable[Shot]) -> Iterator[Problem]:
             continue
         for word in shot.paths("output"):
             path = word.text or ""
-            told = _of_others(shot, word.option, path) if os.path.isfile(path) else None
+            told = _of_another_list(shot, path) if os.path.exists(path) else None
+            if told is None and os.path.isfile(path):
+                told = _of_others(shot, word.option, path)
             if told is not None:
                 line = shot.lines.get(word.option, shot.line)
                 yield Problem(f"{word.option} must be {told}", shot.name, word.option, line)
+
+
+def _of_another_list(shot: Shot, path: str) -> str | None:
+    """What a message says of what was made for another list, where a shot of the same name is; None of the rest."""
+    record = read_shot_record(shot.record)
+    if record is None or not record.listed or record.listed.casefold() == shot.listed.casefold():
+        return None
+    return f"new, or a clip of {shot.listed}. Got: {path}, which {record.listed} has made"
 
 
 def _of_others(shot: Shot, option: str, path: str) -> str | None:

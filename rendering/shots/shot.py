@@ -30,6 +30,8 @@ class Shot:
         lines: of the list's file, for each option.
         on_gpu: whether it asks for a graphics card.
         frames: how many it has, as far as its options tell.
+        moving: pixels that move, as far as its masks tell.
+        listed: name of the list's file.
     """
 
     name: str
@@ -40,6 +42,8 @@ class Shot:
     lines: Mapping[str, int] = field(default_factory=dict)
     on_gpu: bool = False
     frames: int = 0
+    moving: int = 0
+    listed: str = ""
 
     def command(self, places: Mapping[str, str] | None = None) -> Sequence[str]:
         """The words as a command has them; see :meth:`Word.spelled`."""

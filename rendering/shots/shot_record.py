@@ -36,6 +36,7 @@ class ShotRecord:
         said: what ``animate`` has said of it.
         settings: its options.
         version: of PhysAnimator.
+        listed: name of the list's file that the shot is in.
     """
 
     name: str
@@ -46,6 +47,7 @@ class ShotRecord:
     said: tuple[str, ...] = ()
     settings: dict[str, Any] = field(default_factory=dict)
     version: str = __version__
+    listed: str = ""
 
 
 def written_by(
@@ -93,7 +95,7 @@ def read_shot_record(path: str) -> ShotRecord | None:
             return None
         files = tuple(WrittenFile(**each) for each in data.pop("files"))
         record = ShotRecord(files=files, said=tuple(map(str, data.pop("said"))), **data)
-        texts = (record.name, record.identity, record.machine, *(each.name for each in files))
+        texts = (record.name, record.identity, record.machine, record.listed, *(each.name for each in files))
         numbers = (record.seconds, *(each.size for each in files))
         right = all(isinstance(each, str) for each in texts) and all(isinstance(each, int | float) for each in numbers)
         return record if right else None

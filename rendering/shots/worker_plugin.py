@@ -7,12 +7,15 @@ from typing import Any
 
 from distributed import WorkerPlugin
 
-__all__ = ["LeavesInterruptions"]
+from ...physics.threads import chosen_threads, keep_to_threads
+
+__all__ = ["KeepsToItself"]
 
 
-class LeavesInterruptions(WorkerPlugin):
-    """Ctrl+C reaches all processes of a terminal: the first one hears it, and ends its workers."""
+class KeepsToItself(WorkerPlugin):
+    """Keeps to its own cores, and leaves Ctrl+C, which reaches all processes of a terminal, to the first one."""
 
     def setup(self, worker: Any) -> None:
-        """Ignore it here."""
+        """Do so from now on."""
         signal.signal(signal.SIGINT, signal.SIG_IGN)
+        keep_to_threads(chosen_threads() or 1)

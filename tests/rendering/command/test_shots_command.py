@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
@@ -14,13 +15,16 @@ from pathlib import Path
 from unittest.mock import ANY
 
 import cv2
+import numpy as np
 import pytest
 from command_status import status
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.threads import THREADS, thread_variables
 from physanimator.rendering.command import shot_task
 from physanimator.rendering.command.shot_list import check_shot, read_list
-from physanimator.rendering.shots import Animated, read_shot_record
+from physanimator.rendering.pictures import save_image
+from physanimator.rendering.shots import Animated, merged, read_shot_record
+from PIL import Image
 from shot_lists import contents, draw, litter, write_list
 
 Output = pytest.CaptureFixture[str]
@@ -135,6 +139,42 @@ def test_a_second_run_does_only_what_is_missing_or_changed(folder: Path, capsys:
     assert "0 done now, 4 done before" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("when", ["before", "meanwhile"])
+def test_a_picture_that_is_painted_on_during_the_run_is_never_taken_for_done(
+    folder: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch, when: str
+) -> None:
+    """Of a change before the shot begins the record knows; one while it is made is told, and it is made again."""
+    animate, first = shot_task.animate_shot, (folder / "girl.png").read_bytes()
+
+    def painting(words: list[str]) -> Animated:
+        if when == "before" and is_of(words, "one"):
+            paint()
+        ended = animate(words)
+        if when == "meanwhile" and is_of(words, "two"):
+            paint()
+        return ended
+
+    def is_of(words: list[str], name: str) -> bool:
+        return any(each.endswith(f"{name}.mp4") for each in words)
+
+    def paint() -> None:
+        save_image(folder / "girl.png", 255 - np.asarray(Image.open(folder / "girl.png")))
+
+    write_list(folder / "list.toml", ['name = "one"\nmask = "other.png"', 'name = "two"'])
+    (folder / "other.png").write_bytes((folder / "hair.png").read_bytes())
+    monkeypatch.setattr(shot_task, "animate_shot", painting)
+    assert status(*SHOTS) == 1
+    told = capsys.readouterr().err
+    changed = "one" if when == "before" else "two"
+    assert re.findall(r"^(\w+) +failed  what it reads was changed", told, re.MULTILINE) == [changed]
+    monkeypatch.setattr(shot_task, "animate_shot", animate)
+    (folder / "girl.png").write_bytes(first)
+    assert status(*SHOTS, "--dry-run") == 0
+    again = re.findall(r"^(\w+): to do again", capsys.readouterr().out, re.MULTILINE)
+    assert again == (["one", "two"] if when == "before" else ["two"])
+    assert status(*SHOTS) == 0
+
+
 @pytest.mark.parametrize("how", [(), ("--dry-run",), ("--write-commands", "lines.txt")])
 def test_what_others_have_put_there_is_not_replaced(folder: Path, capsys: Output, how: tuple[str, ...]) -> None:
     write_list(folder / "list.toml", ['name = "a"'])
@@ -144,6 +184,24 @@ def test_what_others_have_put_there_is_not_replaced(folder: Path, capsys: Output
     assert re.search(r"line 6, shot a: output must be new.* Got: .*a.mp4, which", capsys.readouterr().err)
     assert [path.name for path in (folder / "out").iterdir()] == ["a.mp4"]
     assert (folder / "out" / "a.mp4").read_text() == "mine"
+
+
+def test_clips_of_another_list_are_not_replaced(folder: Path, capsys: Output) -> None:
+    """Two episodes may have shots of the same name; those that are the same are done."""
+    frames = 'name = "d"\noutput = "{out}/d/"'
+    write_list(folder / "list.toml", ['name = "a"', 'name = "b"', frames])
+    assert status(*SHOTS) == 0
+    made = contents(folder / "out")
+    write_list(folder / "other.toml", ['name = "a"', 'name = "b"\nwind = 3', 'name = "c"', f"{frames}\nwind = 3"])
+    words = ("shots", "other.toml", *SHOTS[2:])
+    capsys.readouterr()
+    assert status(*words) == 2
+    told = capsys.readouterr().err
+    assert re.search(r"line 9, shot b: output must be new, or a clip of other.toml. Got: .*, which list.toml has", told)
+    assert re.search(r"shot d: output must be new, or a clip of other.toml. Got: .*/out/d/, which list.toml has", told)
+    assert contents(folder / "out") == made
+    assert status(*words, "--only", "a", "c") == 0
+    assert "1 done now, 1 done before" in capsys.readouterr().out
 
 
 def test_a_clip_whose_run_was_killed_before_its_record_is_made_again(folder: Path, capsys: Output) -> None:
@@ -198,6 +256,32 @@ def test_a_csv_file_has_a_row_for_each_shot(folder: Path, capsys: Output) -> Non
     settings = read_shot_record(str(folder / "out" / "a.mp4.shot.json")).settings  # type: ignore[union-attr]
     assert settings["pixel_art"] is True
     assert "wind" not in settings
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "sep=;\nName;Image;--mask;Wind Angle;;\na;girl.png;hair.png;20;;\n",
+        "sep=\t\r\nname\timage\tmask\twind-angle\r\na\tgirl.png\thair.png\t20\r\n",
+        'SEP=,\n"name","image","mask","wind_angle"\na,girl.png,hair.png,20\n',
+    ],
+)
+def test_csv_files_are_as_spreadsheets_write_them(folder: Path, text: str) -> None:
+    (folder / "list.csv").write_text(text, encoding="utf-8", newline="")
+    read = read_list(str(folder / "list.csv"), str(folder / "out"))
+    assert [str(each) for each in read.problems] == []
+    assert [(shot.name, shot.settings["wind_angle"]) for shot in read.shots] == [("a", 20)]
+
+
+def test_a_wrong_column_is_told_once(folder: Path) -> None:
+    rows = "".join(f"a{n},girl.png,hair.png,3,\n" for n in range(5))
+    told = problems(f"name,image,mask,wnid,\n{rows}b,girl.png,hair.png,,4\n", folder, "list.csv")
+    assert sum("wnid" in each for each in told) == 5  # before those that are the same are merged
+    read = read_list(str(folder / "list.csv"), str(folder / "out"))
+    assert [str(each) for each in merged(read.problems)] == [
+        "line 1: options must be those of animate, and name. Got: wnid; is wind meant?",
+        "line 7, shot b: every column must have a name. Got: 4 below none",
+    ]
 
 
 def test_all_errors_are_in_one_list_with_shot_option_and_line(folder: Path) -> None:
@@ -348,12 +432,50 @@ def test_nothing_more_is_begun_where_the_disk_is_full(
     assert len(re.findall(r"^[bc] +left +not begun: out/a.mp4: No space left", told, re.MULTILINE)) == 2
 
 
+@pytest.mark.parametrize("output", ["{out}/{name}.mp4", "{out}/{name}/"])
+def test_a_clip_without_room_for_its_record_does_not_stay(
+    folder: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch, output: str
+) -> None:
+    """It would be taken for somebody else's, and the same command could not make it again."""
+
+    def full(path: str, _: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), path)
+
+    write_list(folder / "list.toml", [f'name = "a"\noutput = "{output}"'])
+    with monkeypatch.context() as without_room:
+        without_room.setattr("physanimator.rendering.shots.job.write_shot_record", full)
+        assert status(*SHOTS) == 1
+    assert "No space left on device" in capsys.readouterr().err
+    assert not [path for path in (folder / "out").rglob("*") if path.is_file()]
+    assert status(*SHOTS) == 0
+    assert "1 done now" in capsys.readouterr().out
+
+
 def test_a_folder_that_cannot_be_written_is_refused_before_the_work(folder: Path, capsys: Output) -> None:
     write_list(folder / "list.toml", ['name = "a"\noutput = "hair.png/x.mp4"'])
     assert status("shots", "list.toml", "-o", "girl.png/out", "--workers", "0") == 2
     assert "--output" in capsys.readouterr().err
     assert status(*SHOTS) == 2
     assert "the folder for" in capsys.readouterr().err
+
+
+def test_names_and_folders_may_have_braces(folder: Path) -> None:
+    out = folder / "{name} of {out}"
+    write_list(folder / "list.toml", ['name = "a {out}"', 'name = "{name}"\noutput = "{out}/{name}-{out}.webm"'])
+    read = read_list("list.toml", str(out))
+    assert [each.text for shot in read.shots for each in shot.paths("output")] == [
+        str(out / "a {out}.mp4"),
+        f"{out}/{{name}}-{out}.webm",
+    ]
+
+
+def test_checks_tell_how_much_moves(folder: Path) -> None:
+    write_list(folder / "list.toml", ['name = "a"', 'name = "b"\nframes = 0'])
+    moving: dict[str, int] = {}
+    (folder / "out").mkdir()
+    shots = read_list("list.toml", "out").shots
+    assert [bool(check_shot(shot, moving)) for shot in shots] == [False, True]
+    assert moving == {"a": 11 * 35}  # pixels of the strip
 
 
 def test_some_shots_are_chosen_by_name(folder: Path, capsys: Output) -> None:

@@ -62,7 +62,9 @@ def workers_of(client: subprocess.Popen[str]) -> list[int]:
     """The processes in which a client's workers are."""
     import psutil
 
-    return [each.pid for each in psutil.Process(client.pid).children() if "--multiprocessing-fork" in each.cmdline()]
+    below = psutil.Process(client.pid).children(recursive=True)
+    spawned = [each.pid for each in below if "--multiprocessing-fork" in each.cmdline()]
+    return spawned or [each.pid for each in below if each.ppid() != client.pid]  # forked
 
 
 def begun(out: Path, name: str) -> bool:
@@ -85,6 +87,25 @@ def test_a_killed_workers_shot_runs_elsewhere_and_everything_is_done_once(folder
     assert sorted(ended) == ["long", *(f"s{n}" for n in range(6))]
     assert litter(folder / "out") == []
     assert contents(folder / "out")["long.mp4"] == animated_alone(folder, "--frames", "500")
+
+
+def test_a_shot_that_a_farm_gives_out_twice_is_done_once(folder: Path) -> None:
+    """Also at the same time, and beside a run that has the folder to itself and tidies it up before."""
+    write_list(folder / "list.toml", [f'name = "a"\n{LONG}'])
+    write_list(folder / "quick.toml", ['name = "b"'])
+    words = ("shots", "list.toml", "-o", "out", "--workers", "0")
+    first = begin(folder, *words)
+    until(lambda: begun(folder / "out", "a.0"))
+    second = begin(folder, *words)
+    quick = begin(folder, "shots", "quick.toml", "-o", "out", "--workers", "1")
+    told = []
+    for process in (first, second, quick):
+        said, _ = process.communicate(timeout=100)
+        assert process.returncode == 0, said
+        told.append(re.findall(r"(\w): done in ([\d.]+) s", said))
+    assert told[0] == told[1]  # the very seconds
+    assert sorted(contents(folder / "out")) == ["a.mp4", "b.mp4"]
+    assert litter(folder / "out") == []
 
 
 def test_files_are_shipped_and_a_killed_client_or_scheduler_leaves_only_whole_shots(

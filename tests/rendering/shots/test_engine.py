@@ -20,10 +20,13 @@ from physanimator.rendering.shots import (
     check_workers,
     cluster,
     command_lines,
+    longest_first,
     openjd_template,
 )
 from physanimator.rendering.shots.shipping import packed, perform_elsewhere, unpacked
 from physanimator.rendering.shots.table_lines import table_lines
+from physanimator.rendering.shots.waiting_shots import WaitingShots
+from PIL import Image
 
 
 def job(tmp_path: Path, *, on_gpu: bool = False) -> Job:
@@ -115,6 +118,34 @@ def test_workers_that_could_not_do_it_are_refused(
     with pytest.raises(InvalidInputError) as refused:
         check_workers(cluster, jobs, ship=ship)
     assert told in str(refused.value)
+
+
+def test_the_longest_shots_are_begun_first(tmp_path: Path) -> None:
+    """By frames, pixels and how many of them move; what is no picture is no reason to fail."""
+    for name, size in (("small", (8, 8)), ("large", (80, 80))):
+        Image.new("L", size).save(tmp_path / f"{name}.png")
+    (tmp_path / "odd.png").write_text("x")
+
+    def of(name: str, picture: str, frames: int, moving: int = 0) -> Job:
+        word = Word("", str(tmp_path / picture), "input", "image")
+        shot = Shot(name, (word,), {}, "", frames=frames, moving=moving)
+        return Job(shot, "", joined, all_in, "")
+
+    given = [of("a", "small.png", 10), of("b", "large.png", 10), of("c", "small.png", 10), of("d", "small.png", 20)]
+    given += [of("e", "odd.png", 10), of("f", "none.png", 10), of("g", "", 0)]
+    given += [of("h", "small.png", 1, moving=1000)]
+    assert "".join(each.shot.name for each in longest_first(given)) == "hdacbefg"  # those of one picture in a row
+
+
+def test_a_worker_goes_on_with_the_picture_that_it_knows() -> None:
+    def of(name: str, picture: str) -> Job:
+        shot = Shot(name, (Word("", picture, "input", "image"), Word("--scene", name, "input", "scene")), {}, "")
+        return Job(shot, "", joined, all_in, "")
+
+    waiting = WaitingShots([of("a", "x"), of("b", "y"), of("c", "x"), of("d", "x"), of("e", "y"), of("f", "z")])
+    told = "".join(waiting.next_for(worker).shot.name for worker in ("one", "two", "two", "two", "one", "three"))
+    assert told == "abefcd"  # the last one where most is left, though another worker knows it
+    assert not waiting
 
 
 def test_keys_have_lines() -> None:
