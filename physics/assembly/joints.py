@@ -25,7 +25,7 @@ __all__ = ["bending", "free_system", "joint_factors"]
 FloatArray = NDArray[np.float64]
 
 _BENDING = 0.8  # share of the mode's strain energy that counts as where it bends
-# Area that bends as a share of the area that moves. A strip held at one end has 0.7; parts of drawings had 0.16 to 1,
+# Area that bends as a share of the area that moves. A strip held at one end has 0.7; parts of drawings had 0.12 to 1,
 # and a lock on a neck of some pixels 0.02, on one of half its width 0.1. Any bound from 0.1 to 0.15 tells them apart.
 _HINGE = 0.11
 # What hangs on a joint with most of the free area is the part itself, such as a plant on its stalk, not a lock of it.
