@@ -27,7 +27,7 @@ FloatArray = NDArray[np.float64]
 _BENDING = 0.8  # share of the mode's strain energy that counts as where it bends
 # Area that bends as a share of the area that moves. A strip held at one end has 0.7; parts of drawings had 0.12 to 1,
 # and a lock on a neck of some pixels 0.02, on one of half its width 0.1. Any bound from 0.1 to 0.15 tells them apart.
-_HINGE = 0.11
+_HINGE = 0.125
 # What hangs on a joint with most of the free area is the part itself, such as a plant on its stalk, not a lock of it.
 _WHOLE = 0.5  # a strip held at one end moves 0.6 of its area
 # Motions that are looked at. Wind moves those that are so many times as fast as the slowest by a sixteenth as much.
