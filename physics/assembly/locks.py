@@ -1,11 +1,13 @@
-"""Locks of one part: the less of it moves, the faster it sways, as a short pendulum does.
+"""Locks of one part: the shorter one is, the faster it sways, so that it turns no farther than longer ones.
 
 How often a part sways is said for the whole of it. A short lock, or a tip that alone bends, goes as far as the whole
 would where it is no faster, and so turns over: an inner tip flips out from under the locks beside it. It is stiffened
-where it bends, until its frequency is f sqrt(length of the part / length of what moves).
+where it bends, until its frequency is f (length of the part / its length). Of an elastic strip it goes with the square.
 """
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,7 +25,7 @@ _BETWEEN = 0.75  # the part of a strip, held at one end, from where its first mo
 # A lock may be so many times too soft for its length: those of drawings that did not turn over were up to 1.2 times.
 _TOO_SOFT = 1.25
 _MOST_LOCKS, _MOST_ROUNDS = 8, 4
-_SLOWEST = 4.0  # times the frequency of the slowest, up to which locks can be too slow: of a sixteenth of the length
+_SLOWEST = 4.0  # times the frequency of the slowest; what sways faster hardly moves
 
 
 def lock_factors(
@@ -57,7 +59,7 @@ def lock_factors(
             slowest = squared if slowest is None else slowest
             moves = np.zeros((len(held), 2))
             moves[~held] = mode.reshape(-1, 2)
-            softness = slowest / squared * float(ways.max()) / _length(moves, ways)
+            softness = slowest / squared * (float(ways.max()) / _length(moves, ways)) ** 2
             if softness > _TOO_SOFT:
                 places = bending(rest, moves, mu, lam)
                 missing[places] = np.maximum(missing[places], softness)
@@ -68,11 +70,13 @@ def lock_factors(
 
 
 def _length(moves: FloatArray, ways: FloatArray) -> float:
-    """Length of what moves in a mode, along the way from what is held; that of a strip held at one end is its own.
+    """Length of the lock that moves in a mode; that of a strip held at one end is its own.
 
-    Where a single row of vertices is free, all moves.
+    It is the geometric mean of the length of what moves, which is all where a single row of vertices is free, and of
+    the way from what is held to its tip: a tip that ends among longer locks follows them.
     """
     far = np.linalg.norm(moves, axis=1)
     far /= far.max()
-    reach = float(ways[far > _MOVING].max() - ways[far > _STILL].min())
-    return reach / _BETWEEN or float(ways.max())
+    tip = float(ways[far > _MOVING].max())
+    moving = tip - float(ways[far > _STILL].min())
+    return math.sqrt(tip * (moving / _BETWEEN or tip))

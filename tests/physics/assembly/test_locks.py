@@ -57,13 +57,13 @@ def test_a_short_thin_lock_is_stiffened_until_it_sways_as_its_length_lets_expect
     factors = factors_of(mesh)
     before, after = frequencies(mesh, np.ones(len(factors))), frequencies(mesh, factors)
     assert before["short"] < before["long"]
-    assert after["short"] / before["short"] == pytest.approx(np.sqrt(300 / 140), rel=0.1)
+    assert after["short"] / before["short"] == pytest.approx(300 / 140, rel=0.1)
     assert after["long"] == pytest.approx(before["long"], rel=0.01)
     assert (mesh.vertices[mesh.triangles].mean(axis=1)[factors > 1, 0] < 100).all()
 
 
 @pytest.mark.parametrize(
-    "rectangles", [(LONG,), (LONG, (60, 40, 110, 340)), (LONG, (60, 40, 110, 180)), ((90, 40, 102, 300),)]
+    "rectangles", [(LONG,), (LONG, (60, 40, 110, 340)), (LONG, (50, 40, 120, 170)), ((90, 40, 102, 300),)]
 )
 def test_locks_that_are_as_stiff_as_their_length_lets_expect_stay_as_they_are(
     rectangles: tuple[tuple[int, int, int, int], ...],
