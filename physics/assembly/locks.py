@@ -22,8 +22,9 @@ FloatArray = NDArray[np.float64]
 
 _MOVING, _STILL = 0.5, 0.1  # shares of the farthest displacement: the lock's tip moves by more than the first
 _BETWEEN = 0.75  # the part of a strip, held at one end, from where its first mode moves by the second share to its tip
-# A lock may be so many times too soft for its length: those of drawings that did not turn over were up to 1.2 times.
-_TOO_SOFT = 1.25
+# A lock may be so many times too soft for its length: those of drawings that did not turn over were up to 1.6 times,
+# where a long one grows thin towards its tip; an inner tip that did was 2.2 times.
+_TOO_SOFT = 1.75
 _MOST_LOCKS, _MOST_ROUNDS = 8, 4
 _SLOWEST = 4.0  # times the frequency of the slowest; what sways faster hardly moves
 
