@@ -44,7 +44,8 @@ class SwayPart:
         body: number of the body.
         part: number of the part, as in ``TriangleMesh.components``.
         wanted: the sway frequency that its material and its length ask for [Hz].
-        achieved: how often it will sway [Hz]; less than wanted when the stiffness had to be bounded.
+        achieved: how often it will sway [Hz]; less than wanted when the stiffness had to be bounded. Short locks of it
+            may sway faster.
         youngs_modulus: the stiffness that follows, at the tip [density side^2 / s^2].
     """
 
@@ -83,6 +84,7 @@ def resolve_stiffness(
     The frequency is that of the body's longest part; shorter ones sway faster, as pendulums do, in proportion to
     1 / sqrt(length). Parts of which nothing is held, or everything, keep the material's own Young's modulus. Where a
     part sways, narrow joints are stiffened first; see :mod:`.joints`. Roots are stiffer than tips as the material says.
+    Locks that are too soft for their length are stiffened last, so that nothing else changes; see :mod:`.locks`.
 
     Args:
         body: the body.
