@@ -29,6 +29,9 @@ _TIP = 0.05  # how far a tip sticks out beyond the notches beside it, as a share
 # Share of the way from the root to the tips beside a slit that stays whole: slits in front hair open onto the face or
 # more hair, those in hair behind a head onto the backdrop, which shows through hair that should be full.
 _ROOT, _ROOT_BEHIND = 1 / 3, 0.6
+# A slit is at most so many times as long as the shorter of the tips beside it sticks out: a tip of which little more
+# than its point is seen would else come loose on all its length, and flap between the locks that it lies among.
+_LONGEST = 2.0
 _SHORTEST = 3  # edges of a slit at least
 _KEPT = 0.35  # of the least height of the triangles around a vertex that is moved onto a line
 _ASTRAY = 4.0  # how dear it is for a slit to leave its line by an edge's length
@@ -86,7 +89,8 @@ def _notches(mesh: TriangleMesh, ways: FloatArray, *, whole: float) -> tuple[Ind
         ends.extend(loop[tips % len(loop)])
         for one, other in pairwise(tips):
             notch = one + int(np.argmin(along[one:other]))
-            limit = whole * min(along[one], along[other])
+            shorter = min(along[one], along[other])
+            limit = max(whole * shorter, along[notch] - _LONGEST * (shorter - along[notch]))
             if along[notch] > limit:
                 found.append(loop[notch])
                 until.append(limit)

@@ -21,10 +21,11 @@ from ..material import (
     lumped_masses,
     rest_shape,
 )
-from ..mesh import TriangleMesh
+from ..mesh import TriangleMesh, ways_from
 from ..scene import Body
 from ..solver import SAFETY, TICK, frequency_limits, vertex_frequencies
 from .joints import free_system, joint_factors
+from .locks import lock_factors
 from .roots import root_factors
 
 __all__ = ["SWAY_SUBSTEPS", "SwayPart", "first_frequency", "resolve_stiffness"]
@@ -43,7 +44,8 @@ class SwayPart:
         body: number of the body.
         part: number of the part, as in ``TriangleMesh.components``.
         wanted: the sway frequency that its material and its length ask for [Hz].
-        achieved: how often it will sway [Hz]; less than wanted when the stiffness had to be bounded.
+        achieved: how often it will sway [Hz]; less than wanted when the stiffness had to be bounded. Short locks of it
+            may sway faster.
         youngs_modulus: the stiffness that follows, at the tip [density side^2 / s^2].
     """
 
@@ -82,6 +84,7 @@ def resolve_stiffness(
     The frequency is that of the body's longest part; shorter ones sway faster, as pendulums do, in proportion to
     1 / sqrt(length). Parts of which nothing is held, or everything, keep the material's own Young's modulus. Where a
     part sways, narrow joints are stiffened first; see :mod:`.joints`. Roots are stiffer than tips as the material says.
+    Locks that are too soft for their length are stiffened last, so that nothing else changes; see :mod:`.locks`.
 
     Args:
         body: the body.
@@ -96,26 +99,30 @@ def resolve_stiffness(
     modulus = np.full(len(mesh.triangles), float(material.youngs_modulus))
     if material.stiffness_scale is not None:
         modulus *= material.stiffness_scale
-    modulus *= root_factors(mesh, held if roots is None else roots, material.root_stiffness)
+    unpainted = root_factors(mesh, held if roots is None else roots, material.root_stiffness)
+    modulus *= unpainted
     report: list[SwayPart] = []
     if material.sway_frequency is None:
         return modulus, report
     rest, part_of_triangle = rest_shape(mesh), mesh.components[mesh.triangles[:, 0]]
-    lengths, densities = _lengths(mesh), material.densities(len(modulus))
+    lengths, densities, ways = _lengths(mesh), material.densities(len(modulus)), ways_from(mesh, held)
     for part in np.unique(part_of_triangle[held[mesh.triangles].any(axis=1)]):
         checkpoint()
         chosen = part_of_triangle == part
-        shape, held_here = _part_of(rest, chosen, held)
-        density = densities[chosen]
-        modulus[chosen] *= joint_factors(shape, material.poisson_ratio, density, held_here)
+        shape, vertices = _part_of(rest, chosen)
+        density, held_here = densities[chosen], held[vertices]
+        joints = joint_factors(shape, material.poisson_ratio, density, held_here)
+        modulus[chosen] *= joints
+        soft = unpainted[chosen] * joints
+        locks = lock_factors(shape, soft, material.poisson_ratio, density, held_here, ways[vertices])
         mu, lam = lame_parameters(modulus[chosen], material.poisson_ratio)
         natural = first_frequency(shape, mu, lam, density, held_here)
         if natural is None:
             continue
         wanted = material.sway_frequency * math.sqrt(lengths.max() / lengths[part])
         factor = (wanted / natural) ** 2
-        factor = min(factor, _most_stiffening(shape, mu, lam, density, held_here, wanted=factor))
-        modulus[chosen] *= factor
+        factor = min(factor, _most_stiffening(shape, mu * locks, lam * locks, density, held_here, wanted=factor))
+        modulus[chosen] *= factor * locks
         achieved = natural * math.sqrt(factor)
         stiffness = material.youngs_modulus * factor
         report.append(SwayPart(number, int(part), wanted, achieved, stiffness))
@@ -129,12 +136,10 @@ def _lengths(mesh: TriangleMesh) -> FloatArray:
     return np.array([np.hypot(*np.ptp(part, axis=0)) for part in parts])
 
 
-def _part_of(
-    rest: RestShape, chosen: NDArray[np.bool_], held: NDArray[np.bool_]
-) -> tuple[RestShape, NDArray[np.bool_]]:
-    """The chosen triangles as a shape of their own, and which of its vertices are held."""
+def _part_of(rest: RestShape, chosen: NDArray[np.bool_]) -> tuple[RestShape, NDArray[np.integer]]:
+    """The chosen triangles as a shape of their own, and which vertices it has."""
     vertices, triangles = np.unique(rest.triangles[chosen], return_inverse=True)
-    return RestShape(rest.positions[vertices], triangles.reshape(-1, 3).astype(np.int32)), held[vertices]
+    return RestShape(rest.positions[vertices], triangles.reshape(-1, 3).astype(np.int32)), vertices
 
 
 def _most_stiffening(

@@ -19,7 +19,7 @@ from .elasticity import (
     stress,
 )
 from .material import PRESETS, SCALES, Material, preset
-from .modes import highest_eigenvalue, lowest_eigenvalue, lowest_mode
+from .modes import highest_eigenvalue, lowest_eigenvalue, lowest_modes
 from .painting import mask_means, painted, painted_by_means
 
 __all__ = [
@@ -36,7 +36,7 @@ __all__ = [
     "highest_eigenvalue",
     "lame_parameters",
     "lowest_eigenvalue",
-    "lowest_mode",
+    "lowest_modes",
     "lumped_masses",
     "mask_means",
     "painted",

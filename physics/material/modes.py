@@ -12,7 +12,7 @@ from ..interruption import checkpoint
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-__all__ = ["highest_eigenvalue", "lowest_eigenvalue"]
+__all__ = ["highest_eigenvalue", "lowest_eigenvalue", "lowest_modes"]
 
 FloatArray = NDArray[np.float64]
 
@@ -40,20 +40,25 @@ def lowest_eigenvalue(stiffness: csr_array, masses: FloatArray) -> float | None:
     return float(found[0][np.argmax(found[0] > _RIGID * top)])
 
 
-def lowest_mode(stiffness: csr_array, masses: FloatArray) -> FloatArray | None:
-    """The displacements of the slowest vibration that deforms, of any length, shape [n]; None when it is not found.
+def lowest_modes(stiffness: csr_array, masses: FloatArray, *, most: int, within: float) -> FloatArray:
+    """The displacements of the slowest vibrations that deform, of any length, in rows, shape [m, n].
 
     Args:
         stiffness: K, symmetric and without negative eigenvalues, shape [n, n].
         masses: the diagonal of M, all above 0, shape [n].
+        most: how many at most; none where they cannot be found.
+        within: times as fast as the slowest of them, at most.
     """
     scaled = _mass_scaled(stiffness, masses)
     top = float(scaled.diagonal().max())
-    found = _eigenpairs(scaled, count=_RIGID_MODES + 1, sigma=-_SHIFT * top, which="LM", return_eigenvectors=True)
-    if found is None or found[0][-1] <= _RIGID * top:
-        return None
+    count = min(_RIGID_MODES + most, max(scaled.shape[0] - 1, 1))
+    found = _eigenpairs(scaled, count=count, sigma=-_SHIFT * top, which="LM", return_eigenvectors=True)
+    if found is None:
+        return np.empty((0, len(masses)))
     values, vectors = found
-    return vectors[:, int(np.argmax(values > _RIGID * top))] / np.sqrt(masses)
+    deforming = values > _RIGID * top
+    slow = deforming & (values <= within**2 * values[deforming].min(initial=np.inf))
+    return np.asarray((vectors[:, slow] / np.sqrt(masses)[:, None]).T[:most])
 
 
 def highest_eigenvalue(stiffness: csr_array, masses: FloatArray) -> float | None:

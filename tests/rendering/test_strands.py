@@ -17,9 +17,12 @@ HAIR, LINE, PAPER = (150, 90, 60), (50, 25, 20), (235, 240, 245)
 NOTCHES = ((170, 320), (230, 320))
 
 
-def hair(*, lines: bool = True, noise: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-    """A lock 180 px wide that ends in three tips, on paper, and its mask; lines run up from both notches."""
-    outline = np.array([(110, 40), (290, 40), (290, 330), (260, 390), *NOTCHES[::-1][:1], (200, 390), NOTCHES[0],
+def hair(*, lines: bool = True, noise: float = 0.0, inner: int = 390) -> tuple[np.ndarray, np.ndarray]:
+    """A lock 180 px wide that ends in three tips, on paper, and its mask; lines run up from both notches.
+
+    The tip in the middle ends in the row ``inner``.
+    """
+    outline = np.array([(110, 40), (290, 40), (290, 330), (260, 390), *NOTCHES[::-1][:1], (200, inner), NOTCHES[0],
                         (140, 390), (110, 330)])  # fmt: skip
     picture = np.full((420, 400, 3), PAPER, dtype=np.uint8)
     cv2.fillPoly(picture, [outline], HAIR, cv2.LINE_AA)
@@ -58,6 +61,15 @@ def test_slits_run_along_the_lines_and_end_before_the_root(noise: float) -> None
     assert after.mesh.components.max() == 0
     assert after.mesh.areas.min() > 0
     assert after.mesh.areas.sum() == pytest.approx(before.mesh.areas.sum())
+
+
+def test_beside_a_tip_that_hardly_sticks_out_slits_are_short() -> None:
+    """It would else flap on all its length between the locks that it lies among."""
+    before, after = split(*hair(inner=355))
+    for x, y in NOTCHES:
+        own = slit_edges(before, after)
+        own = own[np.abs(own[:, :, 0].mean(axis=1) - x) < 20]
+        assert y - 95 < own[:, :, 1].min() < y - 45
 
 
 @pytest.mark.parametrize("noise", [0.0, 6.0])
