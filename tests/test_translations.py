@@ -65,7 +65,8 @@ def test_every_text_is_there_and_no_other(language: str) -> None:
 
 def test_there_is_something_to_translate() -> None:
     nodes = schemas()
-    assert {"wind", "cut to its middle", "by name"} & set(page_texts(nodes)) == {"wind", "by name"}
+    shown = {"wind", "by name", "yes", "no"}
+    assert {*shown, "cut to its middle", "fp16", "512 x 320"} & set(page_texts(nodes)) == shown
     assert {"Undo", "repel", "Body {number}", "degrees"} <= set(editor_texts())
     render = read("en", "nodeDefs.json")["PhysAnimator_Render"]
     assert render["inputs"]["renderer_steps"]["tooltip"].startswith("sketch-guided SVD: ")

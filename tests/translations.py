@@ -117,7 +117,7 @@ def _collect(described: Mapping[str, Any], found: dict[str, None], *, brought: b
             if kind == _DYNAMIC:
                 found[choice["key"]] = None
                 _collect(choice["inputs"], found, brought=True)
-            elif re.search("[a-z]{3}", choice) and not (_OF_FILES.search(name) or _FILE.search(choice)):
+            elif re.search("[a-z]{3}|^[a-z]+$", choice) and not (_OF_FILES.search(name) or _FILE.search(choice)):
                 found[choice] = None
 
 
