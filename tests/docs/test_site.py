@@ -19,6 +19,7 @@ from physanimator.rendering.command.commands import command_parser
 
 ROOT = Path(__file__).resolve().parents[2]
 SITE = ROOT / "nodes" / "docs"
+HELP = ROOT / "nodes" / "web" / "docs"
 SCHEMAS = json.loads((ROOT / "tests" / "nodes" / "node_schemas.json").read_text(encoding="utf-8"))
 
 
@@ -151,3 +152,13 @@ def test_the_steps_for_a_picture_of_ones_own_connect(made: dict[str, str]) -> No
     for name, what in rows:
         inputs = SCHEMAS[name]["input"]
         assert set(re.findall(r"(?<!\*)\*(\w+)\*(?!\*)", what)) <= {*inputs["required"], *inputs.get("optional", {})}
+
+
+@pytest.mark.parametrize("folder", sorted({path.parent for path in HELP.rglob("*.md")}), ids=lambda path: path.name)
+def test_emphasis_in_help_pages_is_read_as_such(folder: Path) -> None:
+    """Asterisks beside a bracket and a letter of Chinese, Japanese or Korean stay what they are."""
+    reader = pytest.importorskip("markdown_it").MarkdownIt("commonmark").enable("table")
+    for path in folder.glob("*.md"):
+        inline = [token for token in reader.parse(path.read_text(encoding="utf-8")) if token.type == "inline"]
+        texts = [part.content for token in inline for part in token.children if part.type == "text"]
+        assert [text for text in texts if "*" in text.replace("L*a*b*", "")] == [], path
