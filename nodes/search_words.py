@@ -245,7 +245,7 @@ SEARCH_WORDS: Mapping[str, tuple[str, ...]] = {
 
 
 def findable(node: Any) -> Any:
-    """The node's class with its search words in its schema, or where a host's schemas take none, in what the page is told.
+    """The node's class with its search words in its schema, or in what an older host tells the page of it.
 
     Args:
         node: a V3 node.

@@ -14,7 +14,12 @@ _SHOWN = """
 
 @pytest.mark.parametrize(
     ("word", "name"),
-    [("wiggle", "Animate Illustration"), ("live2d", "Rig Point"), ("soft body", "Body"), ("cut out", "Segment by Points")],
+    [
+        ("wiggle", "Animate Illustration"),
+        ("live2d", "Rig Point"),
+        ("soft body", "Body"),
+        ("cut out", "Segment by Points"),
+    ],
 )
 def test_a_word_of_the_field_shows_the_node(page: Any, word: str, name: str) -> None:
     page.problems.clear()
