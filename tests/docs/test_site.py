@@ -12,7 +12,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import pytest
-from made_from import pages
+from made_from import pages, public_links
 from made_from.commands import pages_of
 from physanimator.physics.document import scene_schema
 from physanimator.rendering.command.commands import command_parser
@@ -125,6 +125,20 @@ def test_the_site_asks_nothing_of_the_network(built: Path) -> None:
     for path in built.rglob("*.html"):
         loaded = re.findall(r'<(?:script|img|link)[^>]+(?:src|href)="(https?:[^"]+)"', path.read_text(encoding="utf-8"))
         assert loaded == [], path
+
+
+def test_every_page_leads_to_the_repository_once_it_has_an_address(tmp_path: Path) -> None:
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    old = re.search(r'^Repository = "([^"]+)"', text, re.MULTILINE)
+    assert old is not None
+    path = tmp_path / "pyproject.toml"
+    path.write_text(text.replace(old[1], "https://repository.invalid/physanimator"), encoding="utf-8")
+    assert public_links(tmp_path) == []
+    path.write_text(text.replace(old[1], "https://code.example/someone/physanimator"), encoding="utf-8")
+    assert [link["url"] for link in public_links(tmp_path)] == [
+        "https://code.example/someone/physanimator",
+        "https://code.example/someone/physanimator/issues",
+    ]
 
 
 def test_pages_name_nodes_that_there_are() -> None:
