@@ -302,6 +302,14 @@ def test_the_play_bar_is_in_sight_however_narrow_the_node(page: Any, canvas: str
     )
     there = f"document.elementFromPoint(...{middle})?.closest('button')?.dataset.action"
     assert editor.ask(there) == "play", "nothing lies over it"
+    covered = (
+        "(({ left, right, top, bottom }) => [[left + 4, top + 4], [right - 4, bottom - 4], [left + 4, bottom - 4]]"
+        ".filter(([x, y]) => !document.elementFromPoint(x, y)?.closest('.physanimator-stage')))"
+        "(editor.stage.root.getBoundingClientRect())"
+    )
+    assert editor.ask(covered) == [], "the whole picture can be clicked on"
+    editor.press("new-part")
+    assert editor.ask("editor.part") == 2
     assert page.problems == []
 
 

@@ -231,6 +231,20 @@ def test_nothing_is_hidden_and_nothing_overhangs(editor: EditorPage, across: int
     assert editor.ask(f"{panel}.scrollWidth <= {panel}.clientWidth")
 
 
+@pytest.mark.parametrize("across", [250, 420, 810])
+def test_another_tool_leaves_the_picture_where_it_is(editor: EditorPage, across: int) -> None:
+    editor.ask(f"(node.setSize([{across}, 700]), app.canvas.setDirty(true, true), 0)")
+    editor.page.page.wait_for_timeout(600)
+    tools = editor.ask("[...editor.tools.keys()]")
+    high = []
+    for tool in tools:
+        editor.ask(f"editor.commands.choose('{tool}')")
+        editor.page.page.wait_for_timeout(120)
+        high.append(editor.ask("editor.stage.root.clientHeight"))
+    assert len(tools) > 5
+    assert len(set(high)) == 1
+
+
 def test_the_same_scene_in_another_spelling_is_not_simulated_again(editor: EditorPage) -> None:
     draw(editor)
     editor.run_node()

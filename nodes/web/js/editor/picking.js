@@ -45,7 +45,7 @@ const STYLE = `
 .physanimator-dialog .physanimator-parts-corner { grid-area: parts; justify-self: end; align-self: center; }
 .physanimator-editor[data-picks="true"] .physanimator-lanes { display: none; }
 .physanimator-frame[data-viewed="result"] .physanimator-bar :is(button, .physanimator-slider, .physanimator-readout) { visibility: hidden; }
-.physanimator-editor[data-picks="true"] { min-height: max(330px, var(--node-height, 0px) - 420px); }
+.physanimator-editor[data-picks="true"] { min-height: max(400px, var(--node-height, 0px) - 420px); }
 `;
 
 export class Picking {
