@@ -168,6 +168,14 @@ def test_the_metadata_is_what_the_registry_reads() -> None:
     assert environments <= ENVIRONMENTS, "one other than these makes the registry drop all of them"
 
 
+def test_nothing_runs_text_as_code() -> None:
+    """The registry's tool looks through all of the tree, and refuses what does."""
+    called = re.compile(r"(?<![\w.\"'`])(exec|eval)\(")
+    kept = [path for path in ROOT.rglob("*.py") if not {"node_modules", ".venv", "build"} & set(path.parts)]
+    assert len(kept) > 500
+    assert [path.name for path in kept if called.search(path.read_text(encoding="utf-8"))] == []
+
+
 @pytest.fixture(scope="module")
 def archive() -> set[str]:
     if not (ROOT / ".git").exists() or shutil.which("git") is None:
