@@ -157,6 +157,9 @@ def test_a_run_shows_its_frames_in_the_editor_and_a_click_goes_back(page: Any, c
     editor.wait(
         "!editor.picking.result.hidden && editor.picking.result.querySelector('video')?.readyState > 1", 120_000
     )
+    page.page.wait_for_timeout(500)
+    own = "[...document.querySelectorAll('[data-node-id] :is(.image-preview, .video-preview)')]"
+    assert page.run(f"() => {own}.filter((one) => one.checkVisibility()).length") == 0, "shown once is enough"
     transport = editor.selector(".physanimator-bar .physanimator-slider")
     assert not transport.is_visible(), "it plays the preview, which is not seen now"
     shown = editor.selector(".physanimator-result").bounding_box()

@@ -52,6 +52,7 @@ export class PartsStrip {
     this.listener = listener;
     this.presets = presets;
     this.shown = "";
+    this.current = 0;
     this.chips = element("span", { style: "display: contents" });
     const more = { type: "button", "data-action": "new-part", title: say("The next clicks pick another part, with a mask and a material of its own (or hold Shift while you click)"), onclick: () => listener.more() };
     const other = { type: "button", "data-action": "picture", title: say("Choose a picture from your computer, or drop or paste one here"), onclick: () => listener.picture() };
@@ -63,6 +64,7 @@ export class PartsStrip {
     const rows = [element("style", { textContent: STYLE }), this.chips, this.more];
     /** @type {HTMLElement} */
     this.root = element("div", { className: "physanimator-parts", role: "group", "aria-label": say("Parts") }, rows);
+    new ResizeObserver(() => this.#keepInSight()).observe(this.root);
     /** @type {HTMLElement} beside the tools */
     this.corner = element("div", { className: "physanimator-parts-corner" }, [this.view, ...(picture ? [element("button", other, [say("Picture…")])] : [])]);
   }
@@ -73,20 +75,17 @@ export class PartsStrip {
     if (shown === this.shown) return;
     this.shown = shown;
     this.chips.replaceChildren(...Array.from({ length: state.count }, (_, part) => this.#chip(part, state)));
-    this.#keepInSight(state.current);
+    this.current = state.current;
+    this.#keepInSight();
     this.more.disabled = !state.points[state.current];
     this.view.hidden = !state.result;
     this.picking.setAttribute("aria-pressed", String(!state.viewed));
     this.result.setAttribute("aria-pressed", String(state.viewed));
   }
 
-  /**
-   * Where the strip is too narrow for all parts, it shows that to which clicks add, and what follows it.
-   *
-   * @param {number} part
-   */
-  #keepInSight(part) {
-    const [first, here] = [0, part].map((number) => /** @type {HTMLElement | undefined} */ (this.chips.children[number]));
+  /** Where the strip is too narrow for all parts, it shows that to which clicks add, and what follows it. */
+  #keepInSight() {
+    const [first, here] = [0, this.current].map((number) => /** @type {HTMLElement | undefined} */ (this.chips.children[number]));
     if (first && here) this.root.scrollLeft = here.offsetLeft - first.offsetLeft;
   }
 
