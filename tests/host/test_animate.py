@@ -162,6 +162,7 @@ def test_a_run_shows_its_frames_in_the_editor_and_a_click_goes_back(page: Any, c
     assert page.run(f"() => {own}.filter((one) => one.checkVisibility()).length") == 0, "shown once is enough"
     transport = editor.selector(".physanimator-bar .physanimator-slider")
     assert not transport.is_visible(), "it plays the preview, which is not seen now"
+    assert editor.ask("editor.status.innerText").startswith("The frames of the last run")
     shown = editor.selector(".physanimator-result").bounding_box()
     page.page.mouse.click(shown["x"] + shown["width"] / 2, shown["y"] + shown["height"] / 2)
     assert editor.ask("editor.picking.result.hidden") is True

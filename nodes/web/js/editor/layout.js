@@ -60,13 +60,14 @@ export function layout(editor) {
 }
 
 /**
- * Where it is said what the tool does: as high as the longest of these texts needs, so that the picture stays where it is
+ * Where it is said what the tool does, or what else is seen: as high as the longest of these texts needs, so that the picture stays where it is
  * when another tool is chosen.
  *
  * @param {string[][]} groups  of the editor's actions
  */
 function saidOf(groups) {
-  const texts = groups.flat().filter((id) => ACTIONS[id].tool).map((id) => ACTIONS[id].title);
+  const tools = groups.flat().filter((id) => ACTIONS[id].tool).map((id) => ACTIONS[id].title);
+  const texts = [...tools, say("The frames of the last run")];
   return element("span", { className: "physanimator-said" }, [element("span"), ...texts.map((text) => element("span", { "aria-hidden": "true" }, [text]))]);
 }
 

@@ -165,6 +165,7 @@ export class Picking {
     if (this.viewed) film?.play?.()?.catch?.(() => null);
     else film?.pause?.();
     this.show();
+    this.editor.redraw();
   }
 
   // Cut and motion.
