@@ -55,10 +55,8 @@ def write_labels(nodes: dict[str, Any], locales: Path, words: Path) -> None:
 
 
 def _row(names: str, labels: dict[str, str], words: dict[str, str]) -> str:
-    if names.startswith("*"):
-        known = [words.get(names.strip("*"))]
-    else:
-        known = [labels.get(name) for name in names.split(", ")]
+    table = words if names.startswith("*") else labels
+    known = [table.get(name) for name in names.strip("*").split(", ")]
     shown = ", ".join(label for label in known if label)
     return f"| {names} ({shown}) |" if all(known) and shown != names.strip("*") else f"| {names} |"
 
