@@ -26,7 +26,7 @@ test("titles and descriptions differ, and are not file names", () => {
 });
 
 /** Called the same in every language. */
-const NAMES = /^(psd|svd|lvcd|sam|lama|gif|live2d|wan|vace|ttm|ltx|ic-lora|anisora|tooncrafter|time-to-move|(stable|differential) diffusion)$/;
+const NAMES = /^(psd|svd|lvcd|sam|lama|gif|live2d|wan|vace|ttm|ltx|ic-lora|anisora|tooncrafter|time-to-move|dual-clock|(stable|differential) diffusion)$/;
 
 test("tags are translated, or names", () => {
   const tags = new Set(TEMPLATES.flatMap((one) => one.tags));
