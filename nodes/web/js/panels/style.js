@@ -178,6 +178,9 @@ export const STYLE = `
   .physanimator-editor > .physanimator-frame .physanimator-group { display: contents; }
   .physanimator-editor > .physanimator-frame .physanimator-inspector { grid-template-columns: minmax(0, 1fr); }
   .physanimator-status { flex-wrap: wrap; }
+  .physanimator-editor > .physanimator-frame .physanimator-notes { inset: auto 4px 4px; }
+  .physanimator-editor > .physanimator-frame .physanimator-note { padding: 2px 6px; font-size: 12px; line-height: 1.25; }
+  .physanimator-editor > .physanimator-frame .physanimator-note button { height: 20px; margin-left: 6px; }
   .physanimator-lanes { --physanimator-names: 72px; }
   .physanimator-bar { flex-wrap: wrap; height: auto; contain: none; }
   .physanimator-slider { order: 1; flex: 1 0 100%; }
