@@ -12,6 +12,12 @@ _SHOWN = """
 """
 
 
+@pytest.fixture(scope="module", autouse=True)
+def fresh(page: Any) -> None:
+    """No dialog of other tests is in the way."""
+    page.reload()
+
+
 @pytest.mark.parametrize(
     ("word", "name"),
     [
