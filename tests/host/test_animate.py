@@ -317,6 +317,35 @@ def test_the_play_bar_is_in_sight_however_narrow_the_node(page: Any, canvas: str
     assert page.problems == []
 
 
+_OVERLAPS = """(() => {
+  const boxes = [...editor.dialog.querySelectorAll('button, .physanimator-part')]
+    .filter((one) => one.checkVisibility()).map((one) => [one, one.getBoundingClientRect()]);
+  const beside = (a, b) => a.right <= b.left + 1 || b.right <= a.left + 1;
+  const apart = (a, b) => beside(a, b) || a.bottom <= b.top + 1 || b.bottom <= a.top + 1;
+  return boxes.flatMap(([one, box], i) => boxes.slice(i + 1)
+    .filter(([other, more]) => !one.contains(other) && !other.contains(one) && !apart(box, more))
+    .map(([other]) => `${one.textContent} / ${other.textContent}`));
+})()"""
+
+
+@pytest.mark.parametrize("across", [390, 820])
+def test_nothing_overlaps_in_the_large_view_of_a_small_screen(page: Any, canvas: str, across: int) -> None:
+    editor = opened(page, canvas)
+    points = [{"x": x, "y": y, "part": part} for part, (x, y) in enumerate((HAIR, CAPE, (850, 480), (560, 400)))]
+    document = {"version": 2, "width": 1280, "height": 720, "query_points": points}
+    editor.ask(f"(node.widgets.find((one) => one.name === 'points').value = {json.dumps(json.dumps(document))}, 0)")
+    editor.wait("editor.document.query_points?.length === 4")
+    page.page.set_viewport_size({"width": across, "height": 780})
+    try:
+        editor.ask("(editor.commands.run('expand'), 0)")
+        page.page.wait_for_timeout(600)
+        assert editor.selector(".physanimator-part").count() == 4
+        assert editor.ask(_OVERLAPS) == []
+        editor.ask("(editor.commands.run('expand'), 0)")
+    finally:
+        page.page.set_viewport_size({"width": 1920, "height": 1080})
+
+
 def test_a_picker_without_a_picture_says_how_to_get_one(page: Any, canvas: str) -> None:
     page.problems.clear()
     EditorPage.choose_canvas(page, canvas)

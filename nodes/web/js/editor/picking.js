@@ -41,10 +41,10 @@ const STYLE = `
 [data-node-id]:has(.physanimator-editor[data-picks="true"]) :is(.image-preview, .video-preview) { display: none; }
 .physanimator-result > * { width: 100%; height: 100%; object-fit: contain; }
 .physanimator-editor[data-picks] .physanimator-dialog .physanimator-frame {
-  grid-template: "toolbar toolbar toolbar" auto "tools parts parts" auto "tools stage stage" minmax(0, 1fr) "tools status status" auto "timeline timeline timeline" auto / auto minmax(0, 1fr) 0;
+  grid-template: "toolbar toolbar toolbar" auto "tools parts corner" auto "tools stage stage" minmax(0, 1fr) "tools status status" auto "timeline timeline timeline" auto / auto minmax(0, 1fr) auto;
 }
 .physanimator-dialog .physanimator-parts { grid-area: parts; padding: 6px 8px; }
-.physanimator-dialog .physanimator-parts-corner { grid-area: parts; justify-self: end; align-self: center; }
+.physanimator-dialog .physanimator-parts-corner { grid-area: corner; align-self: start; padding: 6px 8px; }
 .physanimator-editor[data-picks="true"] .physanimator-lanes { display: none; }
 .physanimator-frame[data-viewed="result"] .physanimator-bar :is(button, .physanimator-slider, .physanimator-readout) { visibility: hidden; }
 .physanimator-editor[data-picks="true"] { min-height: 330px; }
