@@ -149,8 +149,8 @@ class AnimateIllustration(io.ComfyNode):
     @classmethod
     def validate_inputs(
         cls,
-        picture: str | None = None,
         points: str | None = None,
+        picture: str | None = None,
         background: dict[str, Any] | None = None,
         **others: Any,
     ) -> bool | str:

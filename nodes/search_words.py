@@ -245,7 +245,7 @@ SEARCH_WORDS: Mapping[str, tuple[str, ...]] = {
 
 
 def findable(node: Any) -> Any:
-    """The node's class with its search words in its schema, in hosts whose search takes them.
+    """The node's class with its search words in its schema, or in what an older host tells the page of it.
 
     Args:
         node: a V3 node.
@@ -253,14 +253,23 @@ def findable(node: Any) -> Any:
     if "_physanimator_findable" in vars(node):
         return node
     node._physanimator_findable = True
-    inner = vars(node)["define_schema"].__func__
+    schema_of, told_of = vars(node)["define_schema"].__func__, node.GET_NODE_INFO_V1.__func__
 
-    @wraps(inner)
+    @wraps(schema_of)
     def define_schema(cls: Any) -> Any:
-        schema = inner(cls)
+        schema = schema_of(cls)
         if hasattr(schema, "search_aliases"):  # host 0.8.0 does not know them
-            schema.search_aliases = list(dict.fromkeys(SEARCH_WORDS.get(schema.node_id, ())))
+            schema.search_aliases = _words(schema.node_id)
         return schema
 
-    node.define_schema = classmethod(define_schema)
+    @wraps(told_of)
+    def told(cls: Any) -> dict[str, Any]:
+        found: dict[str, Any] = told_of(cls)
+        return {"search_aliases": _words(found["name"]), **found}
+
+    node.define_schema, node.GET_NODE_INFO_V1 = classmethod(define_schema), classmethod(told)
     return node
+
+
+def _words(node_id: str) -> list[str]:
+    return list(dict.fromkeys(SEARCH_WORDS.get(node_id, ())))

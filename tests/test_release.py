@@ -126,6 +126,18 @@ def test_addresses_follow_from_the_repositorys() -> None:
         assert told[name] == told["Repository"] + ending
 
 
+def test_the_address_stands_nowhere_else() -> None:
+    address = _project()["project"]["urls"]["Repository"]
+    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z"], capture_output=True, check=False)
+    if listed.returncode:
+        pytest.skip("which files are the project's is known to git, and this is no checkout")
+    texts = [
+        name for name in listed.stdout.decode().split("\0") if name.endswith((".md", ".py", ".toml", ".yml", ".js"))
+    ]
+    holding = {name for name in texts if address in (ROOT / name).read_text(encoding="utf-8")}
+    assert holding - {"tests/test_release.py", "tests/docs/test_site.py"} == {"pyproject.toml"}
+
+
 def test_an_address_of_another_place_is_told(tree: Path) -> None:
     path = tree / "pyproject.toml"
     changed = re.sub(r'^Icon = ".*"', 'Icon = "https://code.example/icon.png"', path.read_text("utf-8"), flags=re.M)
@@ -154,6 +166,14 @@ def test_the_metadata_is_what_the_registry_reads() -> None:
     assert systems == ["Operating System :: OS Independent"]
     environments = {each.partition(" :: ")[2] for each in project["classifiers"] if each.startswith("Environment ::")}
     assert environments <= ENVIRONMENTS, "one other than these makes the registry drop all of them"
+
+
+def test_nothing_runs_text_as_code() -> None:
+    """The registry's tool looks through all of the tree, and refuses what does."""
+    called = re.compile(r"(?<![\w.\"'`])(exec|eval)\(")
+    kept = [path for path in ROOT.rglob("*.py") if not {"node_modules", ".venv", "build"} & set(path.parts)]
+    assert len(kept) > 500
+    assert [path.name for path in kept if called.search(path.read_text(encoding="utf-8"))] == []
 
 
 @pytest.fixture(scope="module")

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from help_labels import HELP, labelled, unlabelled
 from translations import (
     LANGUAGES,
     LOCALES,
@@ -21,7 +22,6 @@ from translations import (
     texts_in,
 )
 
-HELP = WORDS.parent / "docs"
 SCRIPTS_OF = {
     "ja": "\u3040-\u30ff\u4e00-\u9fff",
     "ko": "\uac00-\ud7a3",
@@ -65,7 +65,8 @@ def test_every_text_is_there_and_no_other(language: str) -> None:
 
 def test_there_is_something_to_translate() -> None:
     nodes = schemas()
-    assert {"wind", "cut to its middle", "by name"} & set(page_texts(nodes)) == {"wind", "by name"}
+    shown = {"wind", "by name", "yes", "no"}
+    assert {*shown, "cut to its middle", "fp16", "512 x 320"} & set(page_texts(nodes)) == shown
     assert {"Undo", "repel", "Body {number}", "degrees"} <= set(editor_texts())
     render = read("en", "nodeDefs.json")["PhysAnimator_Render"]
     assert render["inputs"]["renderer_steps"]["tooltip"].startswith("sketch-guided SVD: ")
@@ -119,6 +120,7 @@ def test_what_the_page_shows_is_said() -> None:
 def _alike(page: str, node_id: str) -> tuple[list[str], set[str], set[str]]:
     """What a help page has in every language: depths of headings, names of inputs and outputs, pictures and code."""
     described = schemas()[node_id]
+    page = unlabelled(page)
     own = {*described["input"].get("required", {}), *described["input"].get("optional", {}), *described["output_name"]}
     depths = [line.split(" ")[0] for line in page.splitlines() if line.startswith("#")]
     kept = re.findall(r"\]\(([^)]+)\)|`([^`\n]+)`", page)
@@ -132,6 +134,25 @@ def test_a_translated_help_page_has_all_that_the_english_one_has(path: Path) -> 
     assert _alike(translated, node_id) == _alike((HELP / f"{node_id}.md").read_text(encoding="utf-8"), node_id)
     titles = json.loads((LOCALES / path.stem / "nodeDefs.json").read_text(encoding="utf-8"))
     assert translated.splitlines()[0] == f"# {titles[node_id]['display_name']}"
+
+
+@pytest.mark.parametrize("path", sorted(HELP.glob("*/*.md")), ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_a_translated_help_page_has_the_words_on_the_node_beside_the_names(path: Path) -> None:
+    """Otherwise run tests/translations.py."""
+    node_id, page = path.parent.name, path.read_text(encoding="utf-8")
+    words = json.loads((WORDS / f"{path.stem}.json").read_text(encoding="utf-8"))
+    assert page == labelled(page, schemas()[node_id], read(path.stem, "nodeDefs.json")[node_id], words)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_translated_help_calls_nodes_as_the_page_does(language: str) -> None:
+    english, told = read("en", "nodeDefs.json"), read(language, "nodeDefs.json")
+    shown = {key: node["display_name"].removesuffix(" (PhysAnimator)") for key, node in english.items()}
+    other = {name for key, name in shown.items() if not told[key]["display_name"].startswith(name)}
+    assert len(other) > 30
+    for path in HELP.glob(f"*/{language}.md"):
+        bold = set(re.findall(r"\*\*([^*\n]+)\*\*", path.read_text(encoding="utf-8")))
+        assert bold & {*other, "Load Image", "Create Video", "Save Image"} == set(), path
 
 
 def test_help_that_is_translated_is_so_in_each_language_that_has_any() -> None:

@@ -4,7 +4,7 @@
 
 Writes ``locales/en`` anew from tests/nodes/node_schemas.json. A text that has not changed keeps its translations,
 wherever it stands now; what is not used any more goes. Texts without a translation are printed, as a JSON object to
-fill in and to hand back as FILE.
+fill in and to hand back as FILE. Help pages get the translated names beside the English ones.
 """
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
+
+from help_labels import write_labels
 
 __all__ = [
     "LANGUAGES",
@@ -117,7 +119,7 @@ def _collect(described: Mapping[str, Any], found: dict[str, None], *, brought: b
             if kind == _DYNAMIC:
                 found[choice["key"]] = None
                 _collect(choice["inputs"], found, brought=True)
-            elif re.search("[a-z]{3}", choice) and not (_OF_FILES.search(name) or _FILE.search(choice)):
+            elif re.search("[a-z]{3}|^[a-z]+$", choice) and not (_OF_FILES.search(name) or _FILE.search(choice)):
                 found[choice] = None
 
 
@@ -183,6 +185,7 @@ def main() -> None:
             _write(WORDS / f"{language}.json", {text: said(text) for text in editor_texts() | page_texts(nodes)})
         if missing:
             print(language, json.dumps(missing, indent=1, ensure_ascii=False))
+    write_labels(nodes, LOCALES, WORDS)
 
 
 if __name__ == "__main__":

@@ -33,7 +33,7 @@ _load_package("physanimator", ROOT)
 _load_package("made_from", HERE / "made_from")
 
 import physanimator  # noqa: E402
-from made_from import resolve_reexported, write_pages  # noqa: E402
+from made_from import public_links, resolve_reexported, write_pages  # noqa: E402
 
 project = "PhysAnimator"
 author = "The PhysAnimator developers"
@@ -64,6 +64,7 @@ html_title = f"PhysAnimator {release}"
 html_logo = html_favicon = "emblem/icon.png"
 html_static_path = ["static"]
 html_css_files = ["site.css"]
+html_theme_options = {"footer_icons": public_links(ROOT)}
 html_copy_source = False
 
 

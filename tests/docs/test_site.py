@@ -12,13 +12,14 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import pytest
-from made_from import pages
+from made_from import pages, public_links
 from made_from.commands import pages_of
 from physanimator.physics.document import scene_schema
 from physanimator.rendering.command.commands import command_parser
 
 ROOT = Path(__file__).resolve().parents[2]
 SITE = ROOT / "nodes" / "docs"
+HELP = ROOT / "nodes" / "web" / "docs"
 SCHEMAS = json.loads((ROOT / "tests" / "nodes" / "node_schemas.json").read_text(encoding="utf-8"))
 
 
@@ -126,6 +127,20 @@ def test_the_site_asks_nothing_of_the_network(built: Path) -> None:
         assert loaded == [], path
 
 
+def test_every_page_leads_to_the_repository_once_it_has_an_address(tmp_path: Path) -> None:
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    old = re.search(r'^Repository = "([^"]+)"', text, re.MULTILINE)
+    assert old is not None
+    path = tmp_path / "pyproject.toml"
+    path.write_text(text.replace(old[1], "https://repository.invalid/physanimator"), encoding="utf-8")
+    assert public_links(tmp_path) == []
+    path.write_text(text.replace(old[1], "https://code.example/someone/physanimator"), encoding="utf-8")
+    assert [link["url"] for link in public_links(tmp_path)] == [
+        "https://code.example/someone/physanimator",
+        "https://code.example/someone/physanimator/issues",
+    ]
+
+
 def test_pages_name_nodes_that_there_are() -> None:
     named = {
         name
@@ -151,3 +166,13 @@ def test_the_steps_for_a_picture_of_ones_own_connect(made: dict[str, str]) -> No
     for name, what in rows:
         inputs = SCHEMAS[name]["input"]
         assert set(re.findall(r"(?<!\*)\*(\w+)\*(?!\*)", what)) <= {*inputs["required"], *inputs.get("optional", {})}
+
+
+@pytest.mark.parametrize("folder", sorted({path.parent for path in HELP.rglob("*.md")}), ids=lambda path: path.name)
+def test_emphasis_in_help_pages_is_read_as_such(folder: Path) -> None:
+    """Asterisks beside a bracket and a letter of Chinese, Japanese or Korean stay what they are."""
+    reader = pytest.importorskip("markdown_it").MarkdownIt("commonmark").enable("table")
+    for path in folder.glob("*.md"):
+        inline = [token for token in reader.parse(path.read_text(encoding="utf-8")) if token.type == "inline"]
+        texts = [part.content for token in inline for part in token.children if part.type == "text"]
+        assert [text for text in texts if "*" in text.replace("L*a*b*", "")] == [], path

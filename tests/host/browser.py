@@ -22,8 +22,15 @@ _ARGUMENTS = [
     "--enable-unsafe-swiftshader",
 ]
 # What the frontends complain about by themselves: files that the host lacks, routes that are newer than the host, the
-# outside world; and a page file that fails, which they name in a second message.
-_HOST_NOISE = ("Failed to load resource", "[Jobs API]", "Fetch API cannot load", "Connecting to", "[vite:preloadError]")
+# outside world; a page file that fails, which they name in a second message; subgraphs that are left.
+_HOST_NOISE = (
+    "Failed to load resource",
+    "[Jobs API]",
+    "Fetch API cannot load",
+    "Connecting to",
+    "[vite:preloadError]",
+    "Attempted to cleanup event listeners",
+)
 _READY = "() => window.app?.graph && window.LiteGraph?.registered_node_types?.['PhysAnimator_Render']"
 
 

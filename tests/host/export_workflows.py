@@ -125,9 +125,10 @@ def _view(ui: dict[str, Any]) -> dict[str, Any]:
 
 
 def schemas(host: Host) -> dict[str, Any]:
-    """What the host tells about the nodes of this pack."""
+    """What the host tells about the nodes of this pack, without the words by which they are found."""
     info = host.get("/object_info")
-    return {name: info[name] for name in sorted(info) if name.startswith("PhysAnimator_")}
+    ours = {name: info[name] for name in sorted(info) if name.startswith("PhysAnimator_")}
+    return {name: {key: told for key, told in node.items() if key != "search_aliases"} for name, node in ours.items()}
 
 
 def _types(groups: tuple[Group, ...]) -> set[str]:

@@ -212,6 +212,12 @@ _BOXES = """(() => {
 })()"""
 
 
+_PANEL = """async (open) => {
+  const { setting } = app.extensionManager;
+  if (setting.get('Comfy.RightSidePanel.IsOpen') !== undefined) await setting.set('Comfy.RightSidePanel.IsOpen', open);
+}"""
+
+
 @pytest.mark.parametrize("across", [250, 330, 420, 560, 810])
 @pytest.mark.parametrize("down", [420, 700])
 def test_nothing_is_hidden_and_nothing_overhangs(editor: EditorPage, across: int, down: int) -> None:
@@ -229,6 +235,34 @@ def test_nothing_is_hidden_and_nothing_overhangs(editor: EditorPage, across: int
     assert editor.ask(scrolls), "what does not fit is reached by scrolling"
     panel = "editor.inspector.root"
     assert editor.ask(f"{panel}.scrollWidth <= {panel}.clientWidth")
+
+
+@pytest.mark.parametrize("across", [250, 420, 810])
+def test_another_tool_leaves_the_picture_where_it_is(editor: EditorPage, across: int) -> None:
+    editor.ask(f"(node.setSize([{across}, 700]), app.canvas.setDirty(true, true), 0)")
+    editor.page.page.wait_for_timeout(600)
+    tools = editor.ask("[...editor.tools.keys()]")
+    high = []
+    for tool in tools:
+        editor.ask(f"editor.commands.choose('{tool}')")
+        editor.page.page.wait_for_timeout(120)
+        high.append(editor.ask("editor.stage.root.clientHeight"))
+    assert len(tools) > 5
+    assert len(set(high)) == 1
+
+
+def test_the_host_s_side_panel_leaves_the_editor_as_wide_as_its_node(editor: EditorPage) -> None:
+    page = editor.page
+    page.run(_PANEL, True)
+    try:
+        page.run("([id]) => app.canvas.selectNode(app.graph.getNodeById(id))", [editor.node])
+        page.page.wait_for_timeout(1200)
+        editor.ask("(node.widgets.find((one) => one.name === 'physanimator_editor').width = 240, 0)")
+        page.page.wait_for_timeout(600)
+        assert max(editor.ask(_BOXES)[:2]) < 40, "beside the editor, left and right"
+        assert "physanimator_editor" not in page.run("() => document.body.innerText")
+    finally:
+        page.run(_PANEL, False)
 
 
 def test_the_same_scene_in_another_spelling_is_not_simulated_again(editor: EditorPage) -> None:

@@ -111,7 +111,10 @@ def test_points_from_a_list_stay_what_they_are_until_they_are_changed(host: Any,
     editor.ask(f"node.widgets.find((one) => one.name === 'points').value = {json.dumps(text)}")
     editor.wait(f"editor.text === {json.dumps(text)}")
     assert editor.ask("node.widgets.find((one) => one.name === 'points').value") == text
+    before = editor.place(50, 60)
     editor.press("select")
+    editor.wait("editor.status.innerText.startsWith('Select')")
+    assert editor.place(50, 60) == pytest.approx(before, abs=0.5), "the picture stays where it is"
     editor.drag((50, 60), (150, 160))
     document = json.loads(editor.ask("node.widgets.find((one) => one.name === 'points').value"))
     moved, kept = document["query_points"]

@@ -83,9 +83,10 @@ def test_a_search_for_the_packs_name_finds_them_all(page: Any, listed: Any) -> N
         page.page.mouse.move(1100, 700)
         page.page.mouse.wheel(0, 1500)
         page.page.wait_for_timeout(300)
-    page.page.keyboard.press("Escape")
+    problems = list(page.problems)
+    page.reload()  # in some frontends Escape empties the search and leaves the dialog where it is
     assert set(found) >= {each["name"] for each in group["templates"]}
     titles = {each["name"]: each["title"] for each in group["templates"]}
     assert all(title in found[name] for name, title in titles.items())
     assert len(pictures) > 3
-    assert page.problems == []
+    assert problems == []

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 
+import { TAGS } from "../../nodes/web/js/host/template_tags.js";
 import { folderOf, offered, presentTemplates, TEMPLATES } from "../../nodes/web/js/host/templates.js";
 
 const FOLDER = new URL("../../workflows/", import.meta.url);
@@ -22,6 +23,15 @@ test("titles and descriptions differ, and are not file names", () => {
     assert.equal(new Set(TEMPLATES.map((one) => one[key])).size, TEMPLATES.length);
     for (const one of TEMPLATES) assert.ok(!/_/.test(one[key]), one[key]);
   }
+});
+
+/** Called the same in every language. */
+const NAMES = /^(psd|svd|lvcd|sam|lama|gif|live2d|wan|vace|ttm|ltx|ic-lora|anisora|tooncrafter|time-to-move|dual-clock|(stable|differential) diffusion)$/;
+
+test("tags are translated, or names", () => {
+  const tags = new Set(TEMPLATES.flatMap((one) => one.tags));
+  assert.deepEqual([...tags].filter((tag) => !TAGS.includes(tag) && !NAMES.test(tag)), []);
+  assert.deepEqual(TAGS.filter((tag) => !tags.has(tag)), []);
 });
 
 test("what a workflow needs is in it", () => {

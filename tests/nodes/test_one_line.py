@@ -84,3 +84,20 @@ def test_of_two_nodes_each_has_its_own_line(standin: Any) -> None:
     right = given | {"path": "[[0, 0], [9, 9]]"}
     assert refused(standin, "EnergyStroke", right, {"other": wrong}) == []
     assert len(refused(standin, "EnergyStroke", right | {"start": float("nan")}, {"other": wrong})) <= 2
+
+
+def test_what_was_not_clicked_is_said_of_the_points(standin: Any) -> None:
+    for node, more in (("AnimateIllustration", {}), ("SegmentByPoints", {"image": ["other", 0]})):
+        given = usual(SCHEMAS[f"PhysAnimator_{node}"]["input"]) | {"points": ""} | more
+        said = refused(standin, node, given, {"other": ours("ExampleIllustration")})
+        assert [line.partition(" - ")[0] for line in said] == ["points"]
+        assert "click on what shall move" in said[0]
+
+
+def test_a_picture_that_is_not_there_is_said_of_the_picture(standin: Any) -> None:
+    given = usual(SCHEMAS["PhysAnimator_AnimateIllustration"]["input"]) | {
+        "points": "[[10, 10, 1]]",
+        "picture": "gone.png",
+    }
+    said = refused(standin, "AnimateIllustration", given)
+    assert all(line.startswith("picture - ") for line in said)

@@ -33,11 +33,6 @@ def test_a_word_of_the_field_finds_a_node(schemas: list[Any], word: str) -> None
     assert [each for each in told if word in each]
 
 
-@pytest.mark.parametrize("word", ["hair", "cloth", "jelly", "wind", "physics"])
-def test_names_or_descriptions_say_the_main_words_for_hosts_without_search_words(schemas: list[Any], word: str) -> None:
-    assert [each for each in schemas if word in f"{each.display_name} {each.description}".lower()]
-
-
 def test_names_that_other_packs_have_too_say_whose_they_are(schemas: list[Any]) -> None:
     common = ("Mask to Mesh", "Material", "Body", "Scene", "Render", "Simulate", "Wind", "Contact", "Load Layers")
     names = {schema.display_name for schema in schemas}
@@ -50,15 +45,23 @@ class _Node:
     def define_schema(cls) -> Any:
         return SimpleNamespace(node_id="PhysAnimator_Wind", search_aliases=[])
 
+    @classmethod
+    def GET_NODE_INFO_V1(cls) -> dict[str, Any]:
+        return {"name": "PhysAnimator_Wind", **vars(cls.define_schema())}
+
 
 class _NodeOfAnOlderHost:
     @classmethod
     def define_schema(cls) -> Any:
         return SimpleNamespace(node_id="PhysAnimator_Wind")
 
+    GET_NODE_INFO_V1 = _Node.__dict__["GET_NODE_INFO_V1"]
 
-def test_a_host_that_takes_words_gets_them_and_an_older_one_is_left_as_it_is() -> None:
+
+def test_a_host_that_takes_words_gets_them_and_the_page_of_an_older_one_is_told() -> None:
     told = findable(findable(_Node)).define_schema().search_aliases
     assert set(told) == set(SEARCH_WORDS["PhysAnimator_Wind"])
     assert len(set(told)) == len(told)
+    assert _Node.GET_NODE_INFO_V1()["search_aliases"] == told
     assert vars(findable(_NodeOfAnOlderHost).define_schema()) == {"node_id": "PhysAnimator_Wind"}
+    assert _NodeOfAnOlderHost.GET_NODE_INFO_V1()["search_aliases"] == told

@@ -10,10 +10,11 @@ from .cross_references import resolve_reexported
 from .library_pages import library_pages
 from .node_pages import node_pages
 from .own_picture import own_picture
+from .public_links import public_links
 from .readme_parts import readme_pages
 from .scene_page import scene_page
 
-__all__ = ["pages", "resolve_reexported", "write_pages"]
+__all__ = ["pages", "public_links", "resolve_reexported", "write_pages"]
 
 
 def pages(root: Path) -> dict[str, str]:

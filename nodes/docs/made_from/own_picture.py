@@ -27,8 +27,9 @@ def own_picture(root: Path) -> str:
     parts = []
     if _ONE_NODE in schemas:
         parts.append(
-            f"Put down one node, [{schemas[_ONE_NODE]['display_name']}](made/nodes/{_ONE_NODE}.md). Drop your picture"
-            " on its canvas, click on what shall move, choose what that is made of, and press *Run*.\n\n"
+            "Double-click on the empty canvas, type *animate illustration* and press Enter: one node,"
+            f" [{schemas[_ONE_NODE]['display_name']}](made/nodes/{_ONE_NODE}.md). Drop your picture on it, click on"
+            " what shall move, choose what that is made of, and press *Run*.\n\n"
             "To change each step by itself, or where other nodes make the mask, put these one after the other:\n"
         )
     else:

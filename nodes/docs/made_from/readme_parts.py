@@ -1,4 +1,4 @@
-"""Pages that stand in the repository already: the README's speed and limits, and what differs from the paper."""
+"""Pages that stand in the repository already: the README's speed and limits, what differs from the paper, changes."""
 
 from __future__ import annotations
 
@@ -7,18 +7,17 @@ from pathlib import Path
 
 __all__ = ["readme_pages"]
 
-_PAGES = {"workflows/differences_from_the_paper.md": "differences.md"}
+_PAGES = {"workflows/differences_from_the_paper.md": "differences.md", "CHANGELOG.md": "changes.md"}
 """Files of the repository that are pages of the site, from ``made/``."""
 
 
 def readme_pages(root: Path) -> dict[str, str]:
-    """Pages by their places: ``speed.md``, ``limits.md`` and ``differences.md``."""
+    """Pages by their places: ``speed.md``, ``limits.md``, ``differences.md`` and ``changes.md``."""
     readme = (root / "README.md").read_text(encoding="utf-8")
-    differences = (root / "workflows" / "differences_from_the_paper.md").read_text(encoding="utf-8")
     return {
         "speed.md": _page(_section(readme, "Speed")),
         "limits.md": _page(_section(readme, "Limits")),
-        "differences.md": _page(differences),
+        **{place: _page((root / path).read_text(encoding="utf-8")) for path, place in _PAGES.items()},
     }
 
 

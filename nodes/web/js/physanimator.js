@@ -8,6 +8,7 @@ import { animatedPicture, picksOfAnimation, picksOfSegmentation, segmentedPictur
 import { attachLayers } from "./host/attach_layers.js";
 import { POINTS, SCENE } from "./host/formats.js";
 import { translateWidgets } from "./host/labels.js";
+import { searchByWords } from "./host/search.js";
 import { presentTemplates } from "./host/templates.js";
 import { attachUpload } from "./host/upload.js";
 import { say } from "./host/words.js";
@@ -26,6 +27,7 @@ app.registerExtension({
   name: "PhysAnimator.Editor",
   setup() {
     showAdvice(app, api);
+    searchByWords(app);
   },
   /**
    * @param {any} nodeType

@@ -370,8 +370,9 @@ export class Editor {
   #showStatus() {
     const { width, height } = this.document;
     const zoom = Math.round(this.stage.view.scale * 100);
-    const said = [ACTIONS[this.tool.id].title, `${zoom} % · ${width} × ${height} px`];
-    [...this.status.children].forEach((part, i) => part.textContent !== said[i] && (part.textContent = said[i]));
+    const said = [this.picking?.viewed ? say("The frames of the last run") : ACTIONS[this.tool.id].title, `${zoom} % · ${width} × ${height} px`];
+    const parts = [this.status.firstElementChild?.firstElementChild, this.status.lastElementChild];
+    parts.forEach((part, i) => part && part.textContent !== said[i] && (part.textContent = said[i]));
   }
 
   /** Let the host hear of the last change at once, if it has not yet. */

@@ -10,7 +10,7 @@ import { Inspector } from "../panels/inspector.js";
 import { LayerList } from "../panels/layer_list.js";
 import { STYLE } from "../panels/style.js";
 import { Timeline } from "../panels/timeline.js";
-import { Toolbar } from "../panels/toolbar.js";
+import { ACTIONS, Toolbar } from "../panels/toolbar.js";
 import { Stage } from "../stage/stage.js";
 
 /** @param {Editor} editor */
@@ -20,7 +20,7 @@ export function layout(editor) {
   const place = element("div", { className: "physanimator-stage" });
   const stage = stageIn(editor, place);
   /** @type {HTMLElement} */
-  const status = element("div", { className: "physanimator-status" }, [element("span"), element("span")]);
+  const status = element("div", { className: "physanimator-status" }, [saidOf(groups), element("span")]);
   place.append(editor.notes.root);
   const inspector = new Inspector({
     change: (reference, changes, key) => editor.change(reference, changes, key),
@@ -57,6 +57,18 @@ export function layout(editor) {
   /** @type {HTMLElement} */
   const root = element("div", { className: "physanimator-editor", "data-capture-wheel": "true" }, [style, frame, dialog]);
   return { toolbar, stage, inspector, layerList, timeline, status, frame, dialog, root };
+}
+
+/**
+ * Where it is said what the tool does, or what else is seen: as high as the longest of these texts needs, so that the picture stays where it is
+ * when another tool is chosen.
+ *
+ * @param {string[][]} groups  of the editor's actions
+ */
+function saidOf(groups) {
+  const tools = groups.flat().filter((id) => ACTIONS[id].tool).map((id) => ACTIONS[id].title);
+  const texts = [...tools, say("The frames of the last run")];
+  return element("span", { className: "physanimator-said" }, [element("span"), ...texts.map((text) => element("span", { "aria-hidden": "true" }, [text]))]);
 }
 
 /**

@@ -37,15 +37,18 @@ const LONG = 250;
 const STYLE = `
 .physanimator-result { position: absolute; inset: 0; display: flex; align-items: center; justify-content: center; background: var(--physanimator-field); }
 .physanimator-result[hidden] { display: none; }
+/* Older Vue canvases show a node's output below it whatever it says, and take films for pictures. */
+[data-node-id]:has(.physanimator-editor[data-picks="true"]) :is(.image-preview, .video-preview) { display: none; }
 .physanimator-result > * { width: 100%; height: 100%; object-fit: contain; }
 .physanimator-editor[data-picks] .physanimator-dialog .physanimator-frame {
-  grid-template: "toolbar toolbar toolbar" auto "tools parts parts" auto "tools stage stage" minmax(0, 1fr) "tools status status" auto "timeline timeline timeline" auto / auto minmax(0, 1fr) 0;
+  grid-template: "toolbar toolbar toolbar" auto "tools parts corner" auto "tools stage stage" minmax(0, 1fr) "tools status status" auto "timeline timeline timeline" auto / auto minmax(0, 1fr) auto;
 }
 .physanimator-dialog .physanimator-parts { grid-area: parts; padding: 6px 8px; }
-.physanimator-dialog .physanimator-parts-corner { grid-area: parts; justify-self: end; align-self: center; }
+.physanimator-dialog .physanimator-parts-corner { grid-area: corner; align-self: start; padding: 6px 8px; }
 .physanimator-editor[data-picks="true"] .physanimator-lanes { display: none; }
 .physanimator-frame[data-viewed="result"] .physanimator-bar :is(button, .physanimator-slider, .physanimator-readout) { visibility: hidden; }
-.physanimator-editor[data-picks="true"] { min-height: max(330px, var(--node-height, 0px) - 420px); }
+.physanimator-editor[data-picks="true"] { min-height: 330px; }
+[data-node-id] .physanimator-editor[data-picks="true"] { min-height: max(400px, var(--node-height, 0px) - 420px); }
 `;
 
 export class Picking {
@@ -162,6 +165,7 @@ export class Picking {
     if (this.viewed) film?.play?.()?.catch?.(() => null);
     else film?.pause?.();
     this.show();
+    this.editor.redraw();
   }
 
   // Cut and motion.

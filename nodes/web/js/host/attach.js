@@ -18,9 +18,11 @@ import { Editor } from "../editor/editor.js";
 import { shareGestures } from "./gestures.js";
 import { executionId, runNode } from "./queueing.js";
 import { upstreamPicture } from "./upstream.js";
-import { chain, hide, tell } from "./widgets.js";
+import { chain, embed, hide, tell } from "./widgets.js";
 
+/** Heights in which a narrow editor has all in sight, without and with parts to pick and a bar to play them [px]. */
 const SHORTEST = 300;
+const SHORTEST_PICKING = 400;
 /** After this time a new node is on the canvas [ms]. */
 const SETTLED = 150;
 /** Time from one look at the graph to the next [ms]. */
@@ -54,13 +56,7 @@ export function attachEditor(app, api, node, kind) {
     },
   });
   hide(value);
-  const widget = node.addDOMWidget("physanimator_editor", "physanimator_editor", editor.root, {
-    serialize: false,
-    hideOnZoom: false,
-    getMinHeight: () => SHORTEST,
-  });
-  // A widget that is only shown must not be saved: it would shift the values of all that come after it.
-  widget.serialize = false;
+  embed(node, "physanimator_editor", editor.root, kind.picks && kind.moves ? SHORTEST_PICKING : SHORTEST);
   shareGestures(app, node, editor.root);
   follow(app, api, node, value, editor, kind);
   grow(node, kind.size, editor.root);

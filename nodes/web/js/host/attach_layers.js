@@ -12,7 +12,7 @@ import { isAsRun, withMoves, withPlace, withPreset } from "../scene/layers.js";
 import { LAYERS } from "./attach.js";
 import { isConnected } from "./links.js";
 import { executionId, runNode } from "./queueing.js";
-import { chain, hide, tell } from "./widgets.js";
+import { chain, embed, hide, tell } from "./widgets.js";
 import { say } from "./words.js";
 
 /** Time from one look at the graph to the next [ms]. */
@@ -37,8 +37,7 @@ export function attachLayers(app, api, node, input) {
   if (!value) return null;
   const list = new NodeLayers(app, node, value);
   hide(value);
-  const widget = node.addDOMWidget("physanimator_layers", "physanimator_layers", list.root, { serialize: false, hideOnZoom: false, getMinHeight: () => SHORTEST });
-  widget.serialize = false;
+  embed(node, "physanimator_layers", list.root, SHORTEST);
   let opened = false;
   chain(node, "onConfigure", () => (opened = true));
   queueMicrotask(() => opened || node.setSize?.([Math.max(node.size[0], SIZE[0]), Math.max(node.size[1], SIZE[1])]));

@@ -10,6 +10,7 @@
  * @property {string[]} [needs]  types of nodes that not every host has
  */
 
+import { TAGS } from "./template_tags.js";
 import { say } from "./words.js";
 
 const PACK = "PhysAnimator";
@@ -92,7 +93,7 @@ export function offered(found, types) {
 function groupOf(folder, templates) {
   const described = templates.map(({ needs: _, tags, ...rest }, place) => ({
     ...rest,
-    tags: [PACK, ...tags],
+    tags: [PACK, ...tags.map((tag) => (TAGS.includes(tag) ? say(tag) : tag))],
     mediaType: "image",
     mediaSubtype: "webp",
     // A search sorts by use: among themselves they keep their order.

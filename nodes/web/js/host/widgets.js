@@ -8,6 +8,23 @@ export function hide(value) {
 }
 
 /**
+ * Put a part of the page into a node: as wide as the node, neither saved nor shown once more in the host's side panel.
+ *
+ * @param {any} node
+ * @param {string} name
+ * @param {HTMLElement} root
+ * @param {number} shortest  [px]
+ */
+export function embed(node, name, root, shortest) {
+  const widget = node.addDOMWidget(name, name, root, { serialize: false, hideOnZoom: false, hideInPanel: true, getMinHeight: () => shortest });
+  // A widget that is only shown must not be saved: it would shift the values of all that come after it.
+  widget.serialize = false;
+  // Side panels that show every widget write their own width here, which would be its width in the node, too.
+  Object.defineProperty(widget, "width", { configurable: true, get: () => undefined, set: () => {} });
+  return widget;
+}
+
+/**
  * Tell the host that a value has changed, so that it can be undone.
  *
  * @param {any} app

@@ -24,7 +24,7 @@ import { element } from "./elements.js";
 
 const STYLE = `
 .physanimator-parts { display: flex; flex-wrap: wrap; align-items: center; gap: 4px; flex: 1 0 100%; padding: 3px 4px 1px; border-top: 1px solid var(--physanimator-rim); }
-.physanimator-part { display: inline-flex; align-items: center; height: 26px; border: 1px solid var(--physanimator-rim); border-radius: 13px; overflow: hidden; }
+.physanimator-part { display: inline-flex; flex: none; align-items: center; height: 26px; border: 1px solid var(--physanimator-rim); border-radius: 13px; overflow: hidden; }
 .physanimator-part[data-current="true"] { border-color: var(--physanimator-part); box-shadow: 0 0 0 1px var(--physanimator-part); background: var(--physanimator-field); }
 .physanimator-editor .physanimator-part button { height: 24px; border-radius: 0; white-space: nowrap; }
 .physanimator-part .physanimator-part-name::before { content: ""; width: 10px; height: 10px; margin: 0 6px 0 3px; border-radius: 50%; background: var(--physanimator-part); }
@@ -32,11 +32,15 @@ const STYLE = `
 .physanimator-editor .physanimator-part select { width: auto; max-width: 92px; height: 22px; border: 0; background: transparent; appearance: auto; cursor: pointer; }
 .physanimator-editor .physanimator-part select option { color: var(--physanimator-text); background: var(--physanimator-back); }
 .physanimator-editor .physanimator-parts > button { border: 1px solid var(--physanimator-rim); border-radius: 13px; padding: 0 10px; white-space: nowrap; }
+@container (max-width: 379px) {
+  .physanimator-editor > .physanimator-frame .physanimator-parts { flex-wrap: nowrap; flex: 1 1 100%; min-width: 0; overflow-x: auto; scrollbar-width: none; }
+  .physanimator-editor > .physanimator-frame .physanimator-parts > button { flex: none; }
+}
 .physanimator-parts-corner { display: flex; align-items: center; gap: 6px; margin-left: auto; padding: 0 4px; }
 .physanimator-editor .physanimator-parts-corner > button { border: 1px solid var(--physanimator-rim); padding: 0 10px; white-space: nowrap; }
 .physanimator-view { display: inline-flex; border: 1px solid var(--physanimator-rim); border-radius: 6px; overflow: hidden; }
 .physanimator-view[hidden] { display: none; }
-.physanimator-editor .physanimator-view button { border-radius: 0; padding: 0 8px; white-space: nowrap; }
+.physanimator-editor .physanimator-view button { height: 24px; border-radius: 0; padding: 0 8px; white-space: nowrap; }
 `;
 
 export class PartsStrip {
@@ -48,6 +52,7 @@ export class PartsStrip {
     this.listener = listener;
     this.presets = presets;
     this.shown = "";
+    this.current = 0;
     this.chips = element("span", { style: "display: contents" });
     const more = { type: "button", "data-action": "new-part", title: say("The next clicks pick another part, with a mask and a material of its own (or hold Shift while you click)"), onclick: () => listener.more() };
     const other = { type: "button", "data-action": "picture", title: say("Choose a picture from your computer, or drop or paste one here"), onclick: () => listener.picture() };
@@ -59,6 +64,7 @@ export class PartsStrip {
     const rows = [element("style", { textContent: STYLE }), this.chips, this.more];
     /** @type {HTMLElement} */
     this.root = element("div", { className: "physanimator-parts", role: "group", "aria-label": say("Parts") }, rows);
+    new ResizeObserver(() => this.#keepInSight()).observe(this.root);
     /** @type {HTMLElement} beside the tools */
     this.corner = element("div", { className: "physanimator-parts-corner" }, [this.view, ...(picture ? [element("button", other, [say("Picture…")])] : [])]);
   }
@@ -69,10 +75,18 @@ export class PartsStrip {
     if (shown === this.shown) return;
     this.shown = shown;
     this.chips.replaceChildren(...Array.from({ length: state.count }, (_, part) => this.#chip(part, state)));
+    this.current = state.current;
+    this.#keepInSight();
     this.more.disabled = !state.points[state.current];
     this.view.hidden = !state.result;
     this.picking.setAttribute("aria-pressed", String(!state.viewed));
     this.result.setAttribute("aria-pressed", String(state.viewed));
+  }
+
+  /** Where the strip is too narrow for all parts, it shows that to which clicks add, and what follows it. */
+  #keepInSight() {
+    const [first, here] = [0, this.current].map((number) => /** @type {HTMLElement | undefined} */ (this.chips.children[number]));
+    if (first && here) this.root.scrollLeft = here.offsetLeft - first.offsetLeft;
   }
 
   /**

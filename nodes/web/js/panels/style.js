@@ -128,6 +128,9 @@ export const STYLE = `
 .physanimator-status > * { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
 .physanimator-status > :first-child { white-space: normal; }
 .physanimator-status > :last-child { flex: none; }
+.physanimator-said { display: grid; }
+.physanimator-said > * { grid-area: 1 / 1; }
+.physanimator-said > [aria-hidden] { visibility: hidden; }
 .physanimator-empty { padding: 6px 2px; color: var(--physanimator-dim); }
 .physanimator-dialog .physanimator-frame {
   color: var(--physanimator-text); font-size: 14px; grid-template: "toolbar toolbar toolbar" auto "tools stage inspector" minmax(0, 1fr) "tools status inspector" auto "timeline timeline timeline" auto / auto minmax(0, 1fr) 264px;
@@ -172,8 +175,12 @@ export const STYLE = `
   .physanimator-heading, .physanimator-section, .physanimator-table, .physanimator-field[data-field="region"] { grid-column: 1 / -1; }
 }
 @container (max-width: 379px) {
+  .physanimator-editor > .physanimator-frame .physanimator-group { display: contents; }
   .physanimator-editor > .physanimator-frame .physanimator-inspector { grid-template-columns: minmax(0, 1fr); }
   .physanimator-status { flex-wrap: wrap; }
+  .physanimator-editor > .physanimator-frame .physanimator-notes { inset: auto 4px 4px; }
+  .physanimator-editor > .physanimator-frame .physanimator-note { padding: 2px 6px; font-size: 12px; line-height: 1.25; }
+  .physanimator-editor > .physanimator-frame .physanimator-note button { height: 20px; margin-left: 6px; }
   .physanimator-lanes { --physanimator-names: 72px; }
   .physanimator-bar { flex-wrap: wrap; height: auto; contain: none; }
   .physanimator-slider { order: 1; flex: 1 0 100%; }

@@ -57,7 +57,7 @@ const MOTIONS = words("pinned", "path", "wave", "rotation", "swing", "squash", "
 const RIG_POINT = [
   { path: "motion.type", title: say("Motion"), kind: "choice", default: "pinned", choices: MOTIONS, hint: say("How the region moves: held, led along a path, swinging to and fro, turned or squashed.") },
   number("region.radius", say("Radius"), "px", { default: 20, min: 0.1, max: LARGEST, step: 1, hint: say("What is this near to the position is taken along."), schema: "circle.radius" }),
-  number("falloff", say("Falloff"), "px", { default: 0, min: 0, max: LARGEST, step: 1, hint: say("How far beyond the region its pull fades out. 0: everything outside moves freely."), schema: "rig_point.falloff" }),
+  number("falloff", say("Falloff width"), "px", { default: 0, min: 0, max: LARGEST, step: 1, hint: say("How far beyond the region its pull fades out. 0: everything outside moves freely."), schema: "rig_point.falloff" }),
   { path: "body", title: say("Body"), kind: "integer", optional: true, min: 0, max: 99, step: 1, hint: say("Number of the only body that it acts on, from 0. Empty: every body."), schema: "rig_point.body" },
 ];
 
