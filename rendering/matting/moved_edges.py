@@ -14,7 +14,7 @@ from .mask_edges import CROSS, SQUARE, edge_strength, grown, mean_near
 from .mask_forms import MaskEdge, edge_of, from_edge
 from .matte import is_outlined
 from .outline_colour import coloured_outline
-from .strand_ends import strand_ends
+from .strand_ends import narrow_strands, strand_ends
 
 __all__ = [
     "LEAST_STEP",
@@ -179,8 +179,8 @@ def _closed(added: Mask, shape: Mask, strength: FloatImage) -> Mask:
 
 def _with_strands(image: FloatImage, shape: Mask, mask: FloatImage, sigma: float) -> Mask:
     """The shape with the strands that the mask has lost; a strand of several colours is found piece by piece."""
-    off = taken_off_of(shape, mask > _HALF)  # with strands each find would allow a wider one
-    without = shape
+    given = mask > _HALF
+    off = taken_off_of(shape, given)  # with strands each find would allow a wider one
     for _ in range(_PIECES):
         strands = lost_strands(image, shape, mask, taken_off=off, sigma=sigma)
         if not strands.any():
@@ -193,8 +193,9 @@ def _with_strands(image: FloatImage, shape: Mask, mask: FloatImage, sigma: float
         joined[window] = np.where(near[window], edged | strands[window], joined[window])
         shape = joined
     if off:
-        shape = shape | strand_ends(image, shape, shape & ~without)
-    return shape | _outline_of_strands(image, shape, shape & ~without)
+        # Nearer to the mask its edge has been looked for already.
+        shape = shape | strand_ends(image, shape, shape & ~grown(given, disc(int(REACH))))
+    return shape | _outline_of_strands(image, shape, narrow_strands(shape, shape & ~given))
 
 
 def _outline_of_strands(image: FloatImage, shape: Mask, strands: Mask) -> Mask:

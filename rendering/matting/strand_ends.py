@@ -10,7 +10,7 @@ from .drawn_lines import LUMINANCE, OUTLINE_REACH, WIDEST_LINE, disc, lines
 from .like_regions import like_regions
 from .mask_edges import SQUARE, grown
 
-__all__ = ["strand_ends"]
+__all__ = ["narrow_strands", "strand_ends"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -35,7 +35,7 @@ def strand_ends(image: FloatImage, shape: Mask, strands: Mask) -> Mask:
         Pixels of lines beyond ``shape``, shape [h, w].
     """
     light, found = image[..., :3] @ LUMINANCE, np.zeros_like(shape)
-    narrow = _long(strands & ~(cv2.morphologyEx(shape.astype(np.uint8), cv2.MORPH_OPEN, disc(WIDEST_LINE)) > 0))
+    narrow = narrow_strands(shape, strands)
     for lightness in (light, 1 - light):
         labels = like_regions(image, narrow | (lines(lightness) & ~shape), step=_STEP)
         goes_on = np.zeros(int(labels.max()) + 1, dtype=bool)
@@ -45,8 +45,9 @@ def strand_ends(image: FloatImage, shape: Mask, strands: Mask) -> Mask:
     return found
 
 
-def _long(strands: Mask) -> Mask:
-    """Without pieces that are hardly longer than they are wide."""
+def narrow_strands(shape: Mask, beyond: Mask) -> Mask:
+    """What of ``beyond`` lies where a shape is narrow, in pieces much longer than they are wide, shape [h, w]."""
+    strands = beyond & ~(cv2.morphologyEx(shape.astype(np.uint8), cv2.MORPH_OPEN, disc(WIDEST_LINE)) > 0)
     _, labels, boxes, _ = cv2.connectedComponentsWithStats(strands.astype(np.uint8), connectivity=8)
     depth, width = cv2.distanceTransform(strands.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5), np.zeros(len(boxes))
     np.maximum.at(width, labels[strands], 2 * depth[strands])
