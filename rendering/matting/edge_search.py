@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ...physics.beside import side_by_side
 from ..pictures import nearest_pixels
+from .like_regions import like_regions
 from .mask_edges import SQUARE
 from .random_walk import chance_of_core
 
@@ -38,6 +39,8 @@ _AT_ONCE = 8192
 _OUTLINE, _STRANGE = 0.07, 0.02
 # From this on, colours deny that a pixel is the other side's.
 _DENIED = 2 / 3
+# Colours of neighbours that differ by less go on in one another.
+_STEP = 0.1
 # So far beyond the band seeds are asked by those farther off [px].
 _BEHIND = 20
 # Distance from the mask's edge, as a share of the reach, at which the mask itself is e : 1 sure; and its weight.
@@ -63,7 +66,12 @@ def found_shape(image: FloatImage, mask: FloatImage, reach: FloatImage) -> tuple
     likely = np.full(mask.shape, _HALF, dtype=np.float32)
     if not (core.any() and outside.any() and band.any()):
         return inside, likely
-    likely[band] = _likely(image, band, *_telling(image, core, outside, (depth - reach, away - reach)))
+    telling = _telling(image, core, outside, (depth - reach, away - reach))
+    likely[band] = _likely(image, band, *telling)
+    further = _going_on(image, (core | band) & (likely > _DENIED) | core, outside & ~telling[1])
+    if further.any():
+        likely[further] = _likely(image, further, *telling)
+        band |= further
     way = np.clip((depth - away)[band] / (_UNSURE * reach[band]), -20, 20)
     odds = likely[band] / (1 - likely[band]) * np.exp(_WEIGHT * way)
     shape = inside.copy()
@@ -107,6 +115,20 @@ def _telling(image: FloatImage, core: Mask, outside: Mask, beyond: tuple[FloatIm
     likely[asked] = _likely(image, asked, *far)
     telling = core & ~(near[0] & (likely <= 1 - _DENIED)), outside & ~(near[1] & (likely >= _DENIED))
     return telling if telling[0].any() and telling[1].any() else (core, outside)
+
+
+def _going_on(image: FloatImage, part: Mask, denied: Mask) -> Mask:
+    """What the part's colours go on in beyond the band without an edge between, shape [h, w].
+
+    Where a mask cuts off the end of a part by more than the reach, as a lasso does with tips, the picture shows no edge
+    at the band's end, and what lies beyond is not outside for sure.
+    """
+    free = part | denied
+    labels = like_regions(image, free, step=_STEP)
+    kept = np.zeros(int(labels.max()) + 1, dtype=bool)
+    kept[labels[part]] = True
+    kept[0] = False
+    return denied & kept[labels]
 
 
 def _likely(image: FloatImage, asked: Mask, core: Mask, outside: Mask) -> FloatImage:

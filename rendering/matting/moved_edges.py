@@ -7,12 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..pictures import nearest_pixels, window_around
-from .drawn_lines import with_ink
+from .drawn_lines import OUTLINE_REACH, disc, with_ink
 from .edge_search import found_shape
 from .lost_strands import lost_lines, lost_strands, taken_off_of
 from .mask_edges import CROSS, SQUARE, edge_strength, grown, mean_near
 from .mask_forms import MaskEdge, edge_of, from_edge
 from .matte import is_outlined
+from .outline_colour import coloured_outline
+from .strand_ends import narrow_strands, strand_ends
 
 __all__ = [
     "LEAST_STEP",
@@ -177,7 +179,8 @@ def _closed(added: Mask, shape: Mask, strength: FloatImage) -> Mask:
 
 def _with_strands(image: FloatImage, shape: Mask, mask: FloatImage, sigma: float) -> Mask:
     """The shape with the strands that the mask has lost; a strand of several colours is found piece by piece."""
-    off = taken_off_of(shape, mask > _HALF)  # with strands each find would allow a wider one
+    given = mask > _HALF
+    off = taken_off_of(shape, given)  # with strands each find would allow a wider one
     for _ in range(_PIECES):
         strands = lost_strands(image, shape, mask, taken_off=off, sigma=sigma)
         if not strands.any():
@@ -189,7 +192,20 @@ def _with_strands(image: FloatImage, shape: Mask, mask: FloatImage, sigma: float
         joined = shape | strands
         joined[window] = np.where(near[window], edged | strands[window], joined[window])
         shape = joined
-    return shape
+    if off:
+        # Nearer to the mask its edge has been looked for already.
+        shape = shape | strand_ends(image, shape, shape & ~grown(given, disc(int(REACH))))
+    return shape | _outline_of_strands(image, shape, narrow_strands(shape, shape & ~given))
+
+
+def _outline_of_strands(image: FloatImage, shape: Mask, strands: Mask) -> Mask:
+    """The outline along strands in front of what is as dark, shape [h, w]."""
+    outline = np.zeros_like(shape)
+    if strands.any():
+        window = window_around(strands, margin=_MARGIN)
+        near = grown(strands[window], disc(OUTLINE_REACH))
+        outline[window] = coloured_outline(image[window], shape[window], reach=OUTLINE_REACH) & near
+    return outline
 
 
 def _hanging(opacity: FloatImage, shape: Mask) -> Mask:

@@ -83,7 +83,7 @@ def regular_mask(image: FloatImage, mask: FloatImage) -> FloatImage:
         window = window_around(mask > FAINT, margin=margin)
         found = _REGULAR(image[window], mask[window])
         # A strand may go on beyond what has been looked at.
-        if found.shape == mask.shape or not _meets_border(found, mask[window]):
+        if not (_added(mask, window, found) & _on_rim(window, mask.shape)).any():
             break
         margin *= 2
     regular = mask.copy()
@@ -98,10 +98,19 @@ def _empty(image: FloatImage) -> Mask:
     return ~grown(image[..., 3] > FAINT, SQUARE)
 
 
-def _meets_border(found: FloatImage, mask: FloatImage) -> bool:
-    """Whether something that the mask did not have has been found to go on to the border."""
-    added = (found > _HALF) & (mask <= _HALF)
-    return bool(added[0].any() or added[-1].any() or added[:, 0].any() or added[:, -1].any())
+def _added(mask: FloatImage, window: tuple[slice, slice], found: FloatImage) -> Mask:
+    """What has been found in a window that the mask did not have, shape of the window."""
+    return np.asarray((found > _HALF) & (mask[window] <= _HALF))
+
+
+def _on_rim(window: tuple[slice, slice], size: tuple[int, ...]) -> Mask:
+    """Where a window ends within the picture, shape of the window."""
+    rows, columns = window
+    rim = np.zeros((rows.stop - rows.start, columns.stop - columns.start), dtype=bool)
+    rim[0], rim[-1] = rows.start > 0, rows.stop < size[0]
+    rim[:, 0] |= columns.start > 0
+    rim[:, -1] |= columns.stop < size[1]
+    return rim
 
 
 def _regular(image: FloatImage, mask: FloatImage) -> FloatImage:
