@@ -66,6 +66,11 @@ class FlatRegions:
     flat: IntImage
 
     @property
+    def apart(self) -> Mask:
+        """Where nothing is seen but flat areas, shape [h, w]."""
+        return (self.number > 0) & ~((self.second == 0) & (self.aside < 1))
+
+    @property
     def flat_share(self) -> FloatImage:
         """How much of each pixel is flat, shape [h, w]."""
         share = np.clip(np.float32(0.5) + self.aside / 2, 0.5, 1)
@@ -105,7 +110,7 @@ def flat_regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> Fl
 
 
 def _ending(picture: FloatImage, hole: Mask, flat: Mask, labels: IntImage) -> IntImage:
-    """New numbers: those areas keep one that end at edges, not where colours begin to change faster; the others get 0."""
+    """New numbers: 0 for areas that end where colours begin to change faster, and not at edges."""
     square = np.ones((_EDGE,) * 2, np.uint8)
     away = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     near = (away > _EDGE / 2) & (away < _AROUND)
@@ -155,23 +160,21 @@ def _continued(labels: IntImage, hole: Mask, rim: Mask, count: int) -> tuple[Int
 
 def _elected(labels: IntImage, rim: Mask, count: int) -> IntImage:
     """The label with the largest sum of distance^-power over its part of the rim, shape [h, w]."""
-    from scipy.signal import fftconvolve
+    from scipy import fft
 
-    size = -(-labels.shape[1] // _SCALE), -(-labels.shape[0] // _SCALE)
-    votes = [
-        cv2.resize((rim & (labels == k)).astype(np.float32), size, interpolation=cv2.INTER_AREA) for k in range(count)
-    ]
-    y, x = np.ogrid[1 - size[1] : size[1], 1 - size[0] : size[0]]
-    kernel = (y**2 + x**2 + 0.25) ** (-_POWER / 2)
-    most = np.full(labels.shape, -np.inf, dtype=np.float32)
+    height, width = (-(-length // _SCALE) for length in labels.shape)
+    size = [fft.next_fast_len(2 * length, real=True) for length in (height, width)]
+    y, x = (np.minimum(np.arange(length), length - np.arange(length)).astype(np.float64) for length in size)
+    kernel = fft.rfft2((y[:, None] ** 2 + x**2 + 0.25) ** (-_POWER / 2))
     best = np.zeros(labels.shape, dtype=np.int32)
-    for k, own in enumerate(votes):
-        total = fftconvolve(own.astype(np.float64), kernel, mode="same")
-        large = cv2.resize(
-            np.log(np.maximum(total, 1e-12)).astype(np.float32), labels.shape[::-1], interpolation=cv2.INTER_CUBIC
-        )
-        best = np.where(large > most, np.int32(k), best)
-        most = np.maximum(large, most)
+    most = np.full(labels.shape, -np.inf, dtype=np.float32)
+    for k in np.unique(labels[rim]):
+        votes = cv2.resize((rim & (labels == k)).astype(np.float32), (width, height), interpolation=cv2.INTER_AREA)
+        total = fft.irfft2(fft.rfft2(votes.astype(np.float64), size) * kernel, size)[:height, :width]
+        support = np.log(np.maximum(total, 1e-12)).astype(np.float32)
+        support = cv2.resize(support, labels.shape[::-1], interpolation=cv2.INTER_LINEAR)
+        wins = support > most
+        best[wins], most = k, np.maximum(support, most)
     return best
 
 
@@ -180,7 +183,7 @@ def _rim(hole: Mask) -> Mask:
 
 
 def _borders(labels: IntImage, count: int) -> tuple[IntImage, IntImage, FloatImage]:
-    """For each pixel the area that has most of what is around, the one with the next most, and how far its border is."""
+    """Which area has most of what is around each pixel, which the next most, and how far their border is."""
     most, next_most = np.full((2, *labels.shape), -1, dtype=np.float32)
     first, second = np.zeros((2, *labels.shape), dtype=np.int32)
     for k in range(count):

@@ -104,7 +104,7 @@ def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
     if regions is None:
         smooth = smooth_fill(plain, unknown, continued=lines)
     else:
-        smooth = smooth_fill(plain, unknown, continued=lines, apart=regions.number > 0)
+        smooth = smooth_fill(plain, unknown, continued=lines, apart=regions.apart)
         smooth, contrast = paint_regions(lined, smooth, unknown, regions)
     # Fine scales take long in a large hole, and most of it stays hidden.
     finest = max(0, int(np.ceil(np.log2(inside.sum() / _MATCHED_PIXELS) / 2)))

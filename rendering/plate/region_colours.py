@@ -63,7 +63,7 @@ def paint_regions(
 
 
 def _continued(picture: FloatImage, source: Mask, wanted: Mask) -> FloatImage:
-    """The wanted colours of one area, shape [h, w, 3]: between its own ones, and a plane's beyond them if they are one."""
+    """One area's colours, shape [h, w, 3]: between its own ones, and as a plane if they are one."""
     away = cv2.distanceTransform((~wanted).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     trend, lowest, highest = _trend(picture, source, source & (away < _NEAR))
     between = _between(picture - trend, source)

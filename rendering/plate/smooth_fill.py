@@ -74,7 +74,8 @@ def smooth_fill(
         picture: RGB, shape [h, w, 3].
         hole: where colours are to be found, shape [h, w].
         continued: outside the hole, lines that have been drawn on through it, shape [h, w]; they do give colours.
-        apart: known colours that are continued otherwise, shape [h, w]: none are taken from there if there are others.
+        apart: what is continued otherwise, shape [h, w]: known colours are not taken from there if there are others,
+            and in the hole none are needed.
 
     Returns:
         RGB, shape [h, w, 3]; unchanged outside the hole.
@@ -84,9 +85,14 @@ def smooth_fill(
     bowl = trend if curved else np.float32(0)
     with Beside(lambda: _harmonic(picture - bowl, hole) + bowl) as solving:
         sources = ~hole & ~_ink(picture, ~hole if continued is None else ~hole & ~continued)
-        if apart is not None and (sources & ~apart & _beside(hole)).sum() >= _FEWEST:
-            sources &= ~apart
-        near = spread_sides(picture - trend, sources, hole, power=_FILL_POWER) + trend
+        wanted = hole
+        if apart is not None:
+            wanted = hole & ~apart
+            if (sources & ~apart & _beside(wanted)).sum() >= _FEWEST:
+                sources &= ~apart
+        near = picture
+        if wanted.any():
+            near = spread_sides(picture - trend, sources, wanted, power=_FILL_POWER) + trend
     deep, near = solving.result(), np.where(hole[..., None], near, picture)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.minimum(depth / np.float32(_DEPTH), 1)[..., None]
