@@ -43,6 +43,11 @@ _DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (7, 7))
 # Deeper than this the rim is seen at this scale [px], and counts by distance to this power.
 _SCALE = 4
 _POWER = 4.0
+# The mean lead over about so far around [px] with which a border is sure, and that at which it says nothing: where many
+# small pieces of two areas touch the hole, as of a checked cloth, neither leads anywhere.
+_LEAD_AROUND = 12.0
+_MAJORITY = 0.45
+_LEAST_MAJORITY = 0.15
 # Borders grow unsure over this depth [px].
 _DEEP = 80.0
 
@@ -92,7 +97,7 @@ def flat_regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> Fl
         lines: where lines have been continued through the hole, shape [h, w]: borders follow them.
 
     Returns:
-        The areas; None where none that is flat touches the hole, or nothing else.
+        The areas; None where none that is flat touches the hole.
     """
     seeds = _seeds(picture, hole, flat, lines)
     if seeds is None:
@@ -101,10 +106,10 @@ def flat_regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> Fl
     ending = _ending(picture, hole, flat, labels)
     seeds, labels = np.where(seeds > 0, ending[seeds], seeds), ending[labels]
     rim, count = _rim(hole), int(seeds.max()) + 1
-    if np.ptp(labels[rim]) == 0:
+    if not labels[rim].any():
         return None
-    wide = rim & ~_thin(seeds, count)[labels]
-    labels, sure = _continued(labels, hole, wide if wide.any() else rim, count)
+    wide = rim & _wide(seeds, labels, hole, count)
+    labels, sure = _continued(labels, hole, wide if wide.any() else rim)
     number, second, aside = _borders(labels, count)
     return FlatRegions(number, second, aside, sure, np.maximum(seeds, 0) * flat)
 
@@ -114,7 +119,9 @@ def _ending(picture: FloatImage, hole: Mask, flat: Mask, labels: IntImage) -> In
     square = np.ones((_EDGE,) * 2, np.uint8)
     away = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     near = (away > _EDGE / 2) & (away < _AROUND)
-    edge = (cv2.dilate(picture, square) - cv2.erode(picture, square)).max(axis=2) > _STEP
+    steep = (cv2.dilate(picture, square) - cv2.erode(picture, square)).max(axis=2) > _STEP
+    # Borders lie in the middle of lines, edges at their sides.
+    edge = cv2.dilate(steep.astype(np.uint8), np.ones((int(_LINE),) * 2, np.uint8))
     count = int(labels.max()) + 1
     length, edges = np.zeros(count), np.zeros(count)
     for one, other in ((np.s_[:, 1:], np.s_[:, :-1]), (np.s_[1:], np.s_[:-1])):
@@ -138,44 +145,53 @@ def _texture(labels: IntImage, flat: Mask, near: Mask, count: int) -> Mask:
     return found
 
 
-def _thin(seeds: IntImage, count: int) -> Mask:
-    """Which areas are nowhere wider than lines and the light along edges: they run along the hole and not behind it."""
-    wide = np.zeros(count, dtype=bool)
-    wide[0] = True
+def _wide(seeds: IntImage, labels: IntImage, hole: Mask, count: int) -> Mask:
+    """Where areas are wider than lines and the light along edges, which run along a hole and not on behind it."""
+    areas = np.zeros(count, dtype=bool)
     for k in range(1, count):
-        wide[k] = cv2.erode((seeds == k).astype(np.uint8), _DISC, borderValue=1).any()
-    return ~wide
+        areas[k] = cv2.erode((seeds == k).astype(np.uint8), _DISC).any()
+    rest = cv2.morphologyEx(((labels == 0) & ~hole).astype(np.uint8), cv2.MORPH_OPEN, _DISC)
+    return areas[labels] | ((labels == 0) & (cv2.dilate(rest, np.ones((5, 5), np.uint8)) > 0))
 
 
-def _continued(labels: IntImage, hole: Mask, rim: Mask, count: int) -> tuple[IntImage, FloatImage]:
+def _continued(labels: IntImage, hole: Mask, rim: Mask) -> tuple[IntImage, FloatImage]:
     """Labels from the hole's rim continued into it, and how sure they are, shape [h, w].
 
     Beside the rim the nearest label counts, and deeper the one that has most of the rim around, by distance.
     """
     nearest = nearest_of(rim)[1]
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    deep = np.where(depth < _SCALE, labels.ravel()[nearest], _elected(labels, rim, count))
-    return np.where(hole, deep, labels), np.exp(-((depth / np.float32(_DEEP)) ** 2))
+    elected, majority = _elected(labels, rim)
+    deep = depth >= _SCALE
+    continued = np.where(deep, elected, labels.ravel()[nearest])
+    agreed = np.clip((majority - _LEAST_MAJORITY) / (_MAJORITY - _LEAST_MAJORITY), 0, 1)
+    sure = np.where(deep, agreed, 1) * np.exp(-((depth / np.float32(_DEEP)) ** 2))
+    return np.where(hole, continued, labels), sure
 
 
-def _elected(labels: IntImage, rim: Mask, count: int) -> IntImage:
-    """The label with the largest sum of distance^-power over its part of the rim, shape [h, w]."""
+def _elected(labels: IntImage, rim: Mask) -> tuple[IntImage, FloatImage]:
+    """The label with the largest sum of distance^-power over its part of the rim, and its lead around, shape [h, w].
+
+    The lead is over all others together, as a share of all, from 0.
+    """
     from scipy import fft
 
     height, width = (-(-length // _SCALE) for length in labels.shape)
     size = [fft.next_fast_len(2 * length, real=True) for length in (height, width)]
     y, x = (np.minimum(np.arange(length), length - np.arange(length)).astype(np.float64) for length in size)
     kernel = fft.rfft2((y[:, None] ** 2 + x**2 + 0.25) ** (-_POWER / 2))
+    total, largest = np.zeros((2, height, width))
     best = np.zeros(labels.shape, dtype=np.int32)
     most = np.full(labels.shape, -np.inf, dtype=np.float32)
     for k in np.unique(labels[rim]):
-        votes = cv2.resize((rim & (labels == k)).astype(np.float32), (width, height), interpolation=cv2.INTER_AREA)
-        total = fft.irfft2(fft.rfft2(votes.astype(np.float64), size) * kernel, size)[:height, :width]
-        support = np.log(np.maximum(total, 1e-12)).astype(np.float32)
-        support = cv2.resize(support, labels.shape[::-1], interpolation=cv2.INTER_LINEAR)
+        own = cv2.resize((rim & (labels == k)).astype(np.float32), (width, height), interpolation=cv2.INTER_AREA)
+        votes = np.maximum(fft.irfft2(fft.rfft2(own.astype(np.float64), size) * kernel, size)[:height, :width], 1e-12)
+        total, largest = total + votes, np.maximum(largest, votes)
+        support = cv2.resize(np.log(votes).astype(np.float32), labels.shape[::-1], interpolation=cv2.INTER_LINEAR)
         wins = support > most
         best[wins], most = k, np.maximum(support, most)
-    return best
+    lead = cv2.GaussianBlur(np.maximum(2 * largest / total - 1, 0).astype(np.float32), (0, 0), _LEAD_AROUND / _SCALE)
+    return best, cv2.resize(lead, labels.shape[::-1], interpolation=cv2.INTER_LINEAR)
 
 
 def _rim(hole: Mask) -> Mask:

@@ -98,13 +98,13 @@ def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
     lined, lines = continue_lines(around, inside)
     checkpoint()
     flat = flat_surroundings(lined, inside & ~lines)
-    plain = np.where(lines[..., None], lined, flat.plain)
+    unlined = np.where(lines[..., None], lined, flat.plain)
     unknown = inside & ~lines
     regions = flat_regions(lined, unknown, flat.flat, lines)
     if regions is None:
-        smooth = smooth_fill(plain, unknown, continued=lines)
+        smooth = smooth_fill(unlined, unknown, continued=lines)
     else:
-        smooth = smooth_fill(plain, unknown, continued=lines, apart=regions.apart)
+        smooth = smooth_fill(unlined, unknown, continued=lines, apart=regions.apart)
         smooth, contrast = paint_regions(lined, smooth, unknown, regions)
     # Fine scales take long in a large hole, and most of it stays hidden.
     finest = max(0, int(np.ceil(np.log2(inside.sum() / _MATCHED_PIXELS) / 2)))
