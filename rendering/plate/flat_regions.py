@@ -43,11 +43,6 @@ _DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (7, 7))
 # Deeper than this the rim is seen at this scale [px], and counts by distance to this power.
 _SCALE = 4
 _POWER = 4.0
-# The mean lead over about so far around [px] with which a border is sure, and that at which it says nothing: where many
-# small pieces of two areas touch the hole, as of a checked cloth, neither leads anywhere.
-_LEAD_AROUND = 12.0
-_MAJORITY = 0.45
-_LEAST_MAJORITY = 0.15
 # Borders grow unsure over this depth [px].
 _DEEP = 80.0
 
@@ -161,37 +156,28 @@ def _continued(labels: IntImage, hole: Mask, rim: Mask) -> tuple[IntImage, Float
     """
     nearest = nearest_of(rim)[1]
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    elected, majority = _elected(labels, rim)
-    deep = depth >= _SCALE
-    continued = np.where(deep, elected, labels.ravel()[nearest])
-    agreed = np.clip((majority - _LEAST_MAJORITY) / (_MAJORITY - _LEAST_MAJORITY), 0, 1)
-    sure = np.where(deep, agreed, 1) * np.exp(-((depth / np.float32(_DEEP)) ** 2))
+    continued = np.where(depth < _SCALE, labels.ravel()[nearest], _elected(labels, rim))
+    sure = np.exp(-((depth / np.float32(_DEEP)) ** 2))
     return np.where(hole, continued, labels), sure
 
 
-def _elected(labels: IntImage, rim: Mask) -> tuple[IntImage, FloatImage]:
-    """The label with the largest sum of distance^-power over its part of the rim, and its lead around, shape [h, w].
-
-    The lead is over all others together, as a share of all, from 0.
-    """
+def _elected(labels: IntImage, rim: Mask) -> IntImage:
+    """The label with the largest sum of distance^-power over its part of the rim, shape [h, w]."""
     from scipy import fft
 
     height, width = (-(-length // _SCALE) for length in labels.shape)
     size = [fft.next_fast_len(2 * length, real=True) for length in (height, width)]
     y, x = (np.minimum(np.arange(length), length - np.arange(length)).astype(np.float64) for length in size)
     kernel = fft.rfft2((y[:, None] ** 2 + x**2 + 0.25) ** (-_POWER / 2))
-    total, largest = np.zeros((2, height, width))
     best = np.zeros(labels.shape, dtype=np.int32)
     most = np.full(labels.shape, -np.inf, dtype=np.float32)
     for k in np.unique(labels[rim]):
         own = cv2.resize((rim & (labels == k)).astype(np.float32), (width, height), interpolation=cv2.INTER_AREA)
         votes = np.maximum(fft.irfft2(fft.rfft2(own.astype(np.float64), size) * kernel, size)[:height, :width], 1e-12)
-        total, largest = total + votes, np.maximum(largest, votes)
         support = cv2.resize(np.log(votes).astype(np.float32), labels.shape[::-1], interpolation=cv2.INTER_LINEAR)
         wins = support > most
         best[wins], most = k, np.maximum(support, most)
-    lead = cv2.GaussianBlur(np.maximum(2 * largest / total - 1, 0).astype(np.float32), (0, 0), _LEAD_AROUND / _SCALE)
-    return best, cv2.resize(lead, labels.shape[::-1], interpolation=cv2.INTER_LINEAR)
+    return best
 
 
 def _rim(hole: Mask) -> Mask:
