@@ -40,6 +40,7 @@ _PLAIN = 0.65
 _MANY = 6
 # Areas in which this fits nowhere are thin [px].
 _DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (7, 7))
+_NEARLY = 0.02
 # Deeper than this the rim is seen at this scale [px], and counts by distance to this power.
 _SCALE = 4
 _POWER = 4.0
@@ -100,12 +101,12 @@ def flat_regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> Fl
     labels = seeds.ravel()[nearest_of(seeds >= 0)[1]]
     ending = _ending(picture, hole, flat, labels)
     seeds, labels = np.where(seeds > 0, ending[seeds], seeds), ending[labels]
-    rim, count = _rim(hole), int(seeds.max()) + 1
+    rim = _rim(hole)
     if not labels[rim].any():
         return None
-    wide = rim & _wide(seeds, labels, hole, count)
+    wide = rim & _wide(picture, seeds, labels, hole)
     labels, sure = _continued(labels, hole, wide if wide.any() else rim)
-    number, second, aside = _borders(labels, count)
+    number, second, aside = _borders(labels, int(seeds.max()) + 1)
     return FlatRegions(number, second, aside, sure, np.maximum(seeds, 0) * flat)
 
 
@@ -140,11 +141,21 @@ def _texture(labels: IntImage, flat: Mask, near: Mask, count: int) -> Mask:
     return found
 
 
-def _wide(seeds: IntImage, labels: IntImage, hole: Mask, count: int) -> Mask:
-    """Where areas are wider than lines and the light along edges, which run along a hole and not on behind it."""
-    areas = np.zeros(count, dtype=bool)
-    for k in range(1, count):
-        areas[k] = cv2.erode((seeds == k).astype(np.uint8), _DISC).any()
+def _wide(picture: FloatImage, seeds: IntImage, labels: IntImage, hole: Mask) -> Mask:
+    """Where areas are wider than lines and the light along edges, which run along a hole and not on behind it.
+
+    A narrow area in the colours of a wide one is a glimpse of that.
+    """
+    areas = np.zeros(int(seeds.max()) + 1, dtype=bool)
+    own = [seeds == k for k in range(len(areas))]
+    for k in range(1, len(areas)):
+        areas[k] = cv2.erode(own[k].astype(np.uint8), _DISC).any()
+    narrow = [k for k in range(1, len(areas)) if not areas[k] and own[k].any()]
+    if narrow:
+        ranges = [(picture[own[k]].min(axis=0), picture[own[k]].max(axis=0)) for k in np.flatnonzero(areas)]
+        for k in narrow:
+            mean = picture[own[k]].mean(axis=0)
+            areas[k] = any((mean > low - _NEARLY).all() and (mean < high + _NEARLY).all() for low, high in ranges)
     rest = cv2.morphologyEx(((labels == 0) & ~hole).astype(np.uint8), cv2.MORPH_OPEN, _DISC)
     return areas[labels] | ((labels == 0) & (cv2.dilate(rest, np.ones((5, 5), np.uint8)) > 0))
 
