@@ -8,9 +8,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["FlatSurroundings", "flat_surroundings"]
+__all__ = ["FlatSurroundings", "flat_surroundings", "nearest_of"]
 
 FloatImage = NDArray[np.float32]
+IntImage = NDArray[np.int32]
 Mask = NDArray[np.bool_]
 
 # A pixel is flat where its surroundings deviate by no more than this many times the picture's noise, plus one level.
@@ -35,11 +36,13 @@ class FlatSurroundings:
     Attributes:
         share: how much of what is nearest is flat, 0..1, shape [h, w]; 0 in photographs and brushwork.
         plain: the picture with lines beside flat areas painted over by the nearest of them, RGB, shape [h, w, 3].
+        flat: what is flat itself, shape [h, w].
         noise: deviation of what is flat, in 0 to 1.
     """
 
     share: FloatImage
     plain: FloatImage
+    flat: Mask
     noise: float
 
     @property
@@ -57,29 +60,41 @@ def flat_surroundings(picture: FloatImage, hole: Mask) -> FlatSurroundings:
     """
     known = cv2.erode((~hole).astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     if not known.any():
-        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, 0.0)
+        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, np.zeros(hole.shape, bool), 0.0)
     squares = picture * picture
     deviation = _deviation(picture, squares, 3)
     noise = float(np.quantile(deviation[known], _QUIET))
     most = _DEVIATIONS * noise + _LEVEL
-    even = (_deviation(picture, squares, _WIDE) <= most).astype(np.uint8)
-    flat = _large(known & (deviation <= most) & (cv2.dilate(even, np.ones((_WIDE, _WIDE), np.uint8)) > 0))
+    smooth = known & (deviation <= most + _LEVEL)
+    if not smooth.any():
+        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, smooth, noise)
+    # Squares that reach into the hole see there what is beside it.
+    continued = np.where(hole[..., None], picture.reshape(-1, 3)[nearest_of(smooth)[1]], picture)
+    even = (_unevenness(continued, _WIDE) <= most).astype(np.uint8)
+    flat = _large(smooth & (cv2.dilate(even, np.ones((_WIDE, _WIDE), np.uint8)) > 0))
     if not flat.any():
-        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, noise)
-    away, nearest = cv2.distanceTransformWithLabels(
-        (~flat).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
-    )
+        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, flat, noise)
+    away, nearest = nearest_of(flat)
     beside = ~hole & ~flat & (away <= _LINE)
-    colours = np.zeros((int(nearest.max()) + 1, 3), dtype=np.float32)
-    weight = cv2.blur(flat.astype(np.float32), (3, 3))[flat]
-    colours[nearest[flat]] = cv2.blur(picture * flat[..., None], (3, 3))[flat] / weight[:, None]
+    weight = np.maximum(cv2.blur(flat.astype(np.float32), (3, 3)), np.float32(1e-6))
+    colours = cv2.blur(picture * flat[..., None], (3, 3)) / weight[..., None]
     plain = picture.copy()
-    plain[beside] = colours[nearest[beside]]
+    plain[beside] = colours.reshape(-1, 3)[nearest[beside]]
     share = _carried((flat | (beside & known)).astype(np.float32), known, hole)
     plain -= picture
     plain *= share[..., None]
     plain += picture
-    return FlatSurroundings(share, plain, noise)
+    return FlatSurroundings(share, plain, flat, noise)
+
+
+def nearest_of(mask: Mask) -> tuple[FloatImage, IntImage]:
+    """How far the nearest pixel of a mask is [px], and which one it is (row by row), shape [h, w]."""
+    away, labels = cv2.distanceTransformWithLabels(
+        (~mask).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    at = np.zeros(int(labels.max()) + 1, dtype=np.int32)
+    at[labels[mask]] = np.flatnonzero(mask)
+    return away, at[labels]
 
 
 def _deviation(picture: FloatImage, squares: FloatImage, side: int) -> FloatImage:
@@ -87,7 +102,28 @@ def _deviation(picture: FloatImage, squares: FloatImage, side: int) -> FloatImag
     mean, variance = cv2.blur(picture, (side, side)), cv2.blur(squares, (side, side))
     mean *= mean
     variance -= mean
-    red, green, blue = cv2.split(variance)
+    return _root_of_largest(variance)
+
+
+def _unevenness(picture: FloatImage, side: int) -> FloatImage:
+    """Deviation in such a square from colours that change evenly across it, shape [h, w]."""
+    at = np.arange(side, dtype=np.float32) - side // 2
+    spread = float((at**2).mean())
+    mean, rest = cv2.blur(picture, (side, side)), cv2.blur(picture * picture, (side, side))
+    mean *= mean
+    rest -= mean
+    ramp, level = at / side, np.full(side, 1 / side, dtype=np.float32)
+    for across, down in ((ramp, level), (level, ramp)):
+        slope = cv2.sepFilter2D(picture, -1, across, down)
+        slope *= slope
+        slope /= spread
+        rest -= slope
+    return _root_of_largest(rest)
+
+
+def _root_of_largest(squares: FloatImage) -> FloatImage:
+    """Root of the largest of three channels, shape [h, w]."""
+    red, green, blue = cv2.split(squares)
     return np.sqrt(np.maximum(np.maximum(np.maximum(red, green), blue), 0))
 
 
@@ -103,9 +139,5 @@ def _carried(flat: FloatImage, known: Mask, hole: Mask) -> FloatImage:
     weight = cv2.GaussianBlur(known.astype(np.float32), (0, 0), _AROUND)
     share = cv2.GaussianBlur(flat, (0, 0), _AROUND) / np.maximum(weight, np.float32(1e-6))
     share, known = np.clip(2 * share - 1, 0, 1), ~hole
-    _, nearest = cv2.distanceTransformWithLabels(
-        (~known).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
-    )
-    values = np.zeros(int(nearest.max()) + 1, dtype=np.float32)
-    values[nearest[known]] = share[known]
-    return np.asarray(np.clip(cv2.GaussianBlur(values[nearest], (0, 0), _AROUND / 2), 0, 1), dtype=np.float32)
+    nearest = nearest_of(known)[1]
+    return np.asarray(np.clip(cv2.GaussianBlur(share.ravel()[nearest], (0, 0), _AROUND / 2), 0, 1), dtype=np.float32)

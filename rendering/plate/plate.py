@@ -14,9 +14,13 @@ from ...physics.interruption import checkpoint
 from ...physics.mesh import coverage_of, fitted
 from ..matting import regular_mask, with_outline
 from ..pictures import as_dtype, as_float, as_picture, window_around
+from .border_outlines import draw_outlines
+from .flat_regions import flat_regions
 from .flatness import flat_surroundings
+from .ink import ink_lines
 from .line_continuation import continue_lines
 from .patch_synthesis import continue_texture
+from .region_colours import paint_regions
 from .smooth_fill import smooth_fill
 
 __all__ = ["clean_plate", "fill_hole"]
@@ -30,8 +34,6 @@ _FAINT = 0.02
 # the hole, patches are less and less likely to be the right ones: their share fades with this depth [px].
 _TEXTURE = 0.6
 _TEXTURE_DEPTH = 40.0
-# Among flat areas without grain patches only blur borders: they are left out where nearly all around is flat.
-_PLAIN = 8
 # Colours, lines and patches come from within this of the hole [px].
 _CONTEXT = 120
 # Patches are matched down to the scale at which a hole has no more pixels than this.
@@ -96,16 +98,26 @@ def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
     lined, lines = continue_lines(around, inside)
     checkpoint()
     flat = flat_surroundings(lined, inside & ~lines)
-    plain = np.where(lines[..., None], lined, flat.plain)
-    smooth = smooth_fill(plain, inside & ~lines, continued=lines, flat=flat.share)
+    unlined = np.where(lines[..., None], lined, flat.plain)
+    unknown = inside & ~lines
+    regions = flat_regions(lined, unknown, flat.flat, lines)
+    if regions is None:
+        smooth = smooth_fill(unlined, unknown, continued=lines)
+    else:
+        smooth = smooth_fill(unlined, unknown, continued=lines, apart=regions.apart)
+        smooth, contrast = paint_regions(lined, smooth, unknown, regions)
     # Fine scales take long in a large hole, and most of it stays hidden.
     finest = max(0, int(np.ceil(np.log2(inside.sum() / _MATCHED_PIXELS) / 2)))
     scales = tuple(range(max(3, finest + 2), finest - 1, -1))
     textured = continue_texture(around, inside, smooth, matched=scales)
     depth = cv2.distanceTransform(inside.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.float32(_TEXTURE) * np.exp(-depth / np.float32(_TEXTURE_DEPTH))
-    share *= 1 - flat.cleanness * flat.share**_PLAIN
+    if regions is not None:
+        share *= 1 - np.float32(flat.cleanness) * regions.flat_share
     share[lines] = 0  # patches from elsewhere would break them up
+    blended = np.where(inside[..., None], smooth + share[..., None] * (textured - smooth), around)
+    if regions is not None:
+        blended = draw_outlines(lined, blended, unknown, regions, contrast, ink_lines(lined, ~unknown, flat.noise))
     filled = picture.copy()
-    filled[window] = np.where(inside[..., None], smooth + share[..., None] * (textured - smooth), around)
+    filled[window] = blended
     return filled

@@ -60,7 +60,7 @@ _MEAN_OF_FOUR = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]], dtype=np.float32) / 
 
 
 def smooth_fill(
-    picture: FloatImage, hole: Mask, *, continued: Mask | None = None, flat: FloatImage | None = None
+    picture: FloatImage, hole: Mask, *, continued: Mask | None = None, apart: Mask | None = None
 ) -> FloatImage:
     """Fill a hole smoothly: near its edge with the colours there, deep inside harmonically.
 
@@ -74,7 +74,8 @@ def smooth_fill(
         picture: RGB, shape [h, w, 3].
         hole: where colours are to be found, shape [h, w].
         continued: outside the hole, lines that have been drawn on through it, shape [h, w]; they do give colours.
-        flat: how much of what is around is flat, 0..1, shape [h, w]: there colours do not blend over a distance.
+        apart: what is continued otherwise, shape [h, w]: known colours are not taken from there if there are others,
+            and in the hole none are needed.
 
     Returns:
         RGB, shape [h, w, 3]; unchanged outside the hole.
@@ -84,15 +85,20 @@ def smooth_fill(
     bowl = trend if curved else np.float32(0)
     with Beside(lambda: _harmonic(picture - bowl, hole) + bowl) as solving:
         sources = ~hole & ~_ink(picture, ~hole if continued is None else ~hole & ~continued)
-        near = spread_sides(picture - trend, sources, hole, power=_FILL_POWER, flat=flat) + trend
+        wanted = hole
+        if apart is not None:
+            wanted = hole & ~apart
+            if (sources & ~apart & _beside(wanted)).sum() >= _FEWEST:
+                sources &= ~apart
+        near = picture
+        if wanted.any():
+            near = spread_sides(picture - trend, sources, wanted, power=_FILL_POWER) + trend
     deep, near = solving.result(), np.where(hole[..., None], near, picture)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.minimum(depth / np.float32(_DEPTH), 1)[..., None]
     # Where it is far from what is beside, colours of another side shine through.
-    if flat is not None:
-        share = share * (1 - flat[..., None])
-    apart = np.sqrt(over_channels((deep - near) ** 2))
-    share = share * np.exp(-((apart / np.float32(_AGREEMENT)) ** 2))[..., None]
+    differing = np.sqrt(over_channels((deep - near) ** 2))
+    share = share * np.exp(-((differing / np.float32(_AGREEMENT)) ** 2))[..., None]
     known = picture[~hole]
     if not len(known):
         return picture
@@ -101,6 +107,10 @@ def smooth_fill(
     beyond = np.float32(_BEYOND) * (highest - lowest)
     filled = np.clip(near + share * (deep - near), np.maximum(lowest - beyond, 0), np.minimum(highest + beyond, 1))
     return np.where(hole[..., None], filled, picture)
+
+
+def _beside(hole: Mask) -> Mask:
+    return cv2.dilate(hole.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
 
 
 def _ink(picture: FloatImage, known: Mask) -> Mask:

@@ -1,0 +1,243 @@
+"""Flat areas of drawn art continued into a hole: each as far as no other is nearer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from .flatness import nearest_of
+
+__all__ = ["FlatRegions", "flat_regions"]
+
+FloatImage = NDArray[np.float32]
+IntImage = NDArray[np.int32]
+Mask = NDArray[np.bool_]
+
+# What is farther than this from every flat area is not flat; nearer are lines and the soft edges beside them [px].
+_LINE = 5.0
+# An area touches the hole along so much, at least; what lies this near to the hole touches it [px].
+_CONTACT = 8
+_TOUCH = 8.0
+_MOST_REGIONS = 48
+# Borders are rounded over this [px]; where little is known of them they blur over this.
+_ROUNDED = 3.0
+_UNSURE = 20.0
+# Areas whose colours differ by less are one; a line that is continued through the hole has an area's colours at its
+# sides if they differ by less than the second.
+_ALIKE = 0.06
+_BESIDE = 0.2
+# Areas end at edges along this share of their border, as far as it is within so many pixels of the hole: there colours
+# change by more than this within so many [px].
+_MOSTLY = 0.5
+_AROUND = 32.0
+_STEP = 0.08
+_EDGE = 5
+# What is flat for less than this share, in more parts than these, is texture.
+_PLAIN = 0.65
+_MANY = 6
+# Areas in which this fits nowhere are thin [px].
+_DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (7, 7))
+_NEARLY = 0.02
+# Deeper than this the rim is seen at this scale [px], and counts by distance to this power.
+_SCALE = 4
+_POWER = 4.0
+# Borders grow unsure over this depth [px].
+_DEEP = 80.0
+
+
+@dataclass(frozen=True, eq=False)
+class FlatRegions:
+    """Which flat area is nearest to each pixel of a hole.
+
+    Attributes:
+        number: of the area, from 1; 0 is what is not flat, shape [h, w].
+        second: the area beyond the nearest border, shape [h, w].
+        aside: how far that border is [px], shape [h, w].
+        sure: how sure the borders are, 0..1, shape [h, w].
+        flat: where the areas themselves are, their numbers, shape [h, w]; 0 elsewhere.
+    """
+
+    number: IntImage
+    second: IntImage
+    aside: FloatImage
+    sure: FloatImage
+    flat: IntImage
+
+    @property
+    def apart(self) -> Mask:
+        """Where nothing is seen but flat areas, shape [h, w]."""
+        return (self.number > 0) & ~((self.second == 0) & (self.aside < 1))
+
+    @property
+    def flat_share(self) -> FloatImage:
+        """How much of each pixel is flat, shape [h, w]."""
+        share = np.clip(np.float32(0.5) + self.aside / 2, 0.5, 1)
+        return np.where(self.number > 0, share, 0) + np.where(self.second > 0, 1 - share, 0).astype(np.float32)
+
+    @property
+    def count(self) -> int:
+        """How many areas there are, what is not flat among them."""
+        return int(self.flat.max()) + 1
+
+
+def flat_regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> FlatRegions | None:
+    """Continue the numbers of flat areas into a hole.
+
+    Args:
+        picture: RGB in 0 to 1, shape [h, w, 3].
+        hole: true where colours are unknown, shape [h, w].
+        flat: where what is known is flat, shape [h, w].
+        lines: where lines have been continued through the hole, shape [h, w]: borders follow them.
+
+    Returns:
+        The areas; None where none that is flat touches the hole.
+    """
+    seeds = _seeds(picture, hole, flat, lines)
+    if seeds is None:
+        return None
+    labels = seeds.ravel()[nearest_of(seeds >= 0)[1]]
+    ending = _ending(picture, hole, flat, labels)
+    seeds, labels = np.where(seeds > 0, ending[seeds], seeds), ending[labels]
+    rim = _rim(hole)
+    if not labels[rim].any():
+        return None
+    wide = rim & _wide(picture, seeds, labels, hole)
+    labels, sure = _continued(labels, hole, wide if wide.any() else rim)
+    number, second, aside = _borders(labels, int(seeds.max()) + 1)
+    return FlatRegions(number, second, aside, sure, np.maximum(seeds, 0) * flat)
+
+
+def _ending(picture: FloatImage, hole: Mask, flat: Mask, labels: IntImage) -> IntImage:
+    """New numbers: 0 for areas that end where colours begin to change faster, and not at edges."""
+    square = np.ones((_EDGE,) * 2, np.uint8)
+    away = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    near = (away > _EDGE / 2) & (away < _AROUND)
+    steep = (cv2.dilate(picture, square) - cv2.erode(picture, square)).max(axis=2) > _STEP
+    # Borders lie in the middle of lines, edges at their sides.
+    edge = cv2.dilate(steep.astype(np.uint8), np.ones((int(_LINE),) * 2, np.uint8))
+    count = int(labels.max()) + 1
+    length, edges = np.zeros(count), np.zeros(count)
+    for one, other in ((np.s_[:, 1:], np.s_[:, :-1]), (np.s_[1:], np.s_[:-1])):
+        border = near[one] & (labels[one] != labels[other])
+        for side in (one, other):
+            length += np.bincount(labels[side][border], minlength=count)
+            edges += np.bincount(labels[side][border], weights=edge[one][border], minlength=count)
+    kept = (edges >= _MOSTLY * length) & (np.arange(count) > 0) & ~_texture(labels, flat, near, count)
+    numbers = np.zeros(count, dtype=np.int32)
+    numbers[kept] = np.arange(1, kept.sum() + 1)
+    return numbers
+
+
+def _texture(labels: IntImage, flat: Mask, near: Mask, count: int) -> Mask:
+    """Which areas are many small ones of one colour, with as much between them: bricks are no flat wall."""
+    size = np.bincount(labels[near], minlength=count)
+    even = np.bincount(labels[near], weights=flat[near], minlength=count)
+    found = np.zeros(count, dtype=bool)
+    for k in np.flatnonzero(even < _PLAIN * size):
+        found[k] = cv2.connectedComponents((flat & near & (labels == k)).astype(np.uint8))[0] > _MANY
+    return found
+
+
+def _wide(picture: FloatImage, seeds: IntImage, labels: IntImage, hole: Mask) -> Mask:
+    """Where areas are wider than lines and the light along edges, which run along a hole and not on behind it.
+
+    A narrow area in the colours of a wide one is a glimpse of that.
+    """
+    areas = np.zeros(int(seeds.max()) + 1, dtype=bool)
+    own = [seeds == k for k in range(len(areas))]
+    for k in range(1, len(areas)):
+        areas[k] = cv2.erode(own[k].astype(np.uint8), _DISC).any()
+    narrow = [k for k in range(1, len(areas)) if not areas[k] and own[k].any()]
+    if narrow:
+        ranges = [(picture[own[k]].min(axis=0), picture[own[k]].max(axis=0)) for k in np.flatnonzero(areas)]
+        for k in narrow:
+            mean = picture[own[k]].mean(axis=0)
+            areas[k] = any((mean > low - _NEARLY).all() and (mean < high + _NEARLY).all() for low, high in ranges)
+    rest = cv2.morphologyEx(((labels == 0) & ~hole).astype(np.uint8), cv2.MORPH_OPEN, _DISC)
+    return areas[labels] | ((labels == 0) & (cv2.dilate(rest, np.ones((5, 5), np.uint8)) > 0))
+
+
+def _continued(labels: IntImage, hole: Mask, rim: Mask) -> tuple[IntImage, FloatImage]:
+    """Labels from the hole's rim continued into it, and how sure they are, shape [h, w].
+
+    Beside the rim the nearest label counts, and deeper the one that has most of the rim around, by distance.
+    """
+    nearest = nearest_of(rim)[1]
+    depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    continued = np.where(depth < _SCALE, labels.ravel()[nearest], _elected(labels, rim))
+    sure = np.exp(-((depth / np.float32(_DEEP)) ** 2))
+    return np.where(hole, continued, labels), sure
+
+
+def _elected(labels: IntImage, rim: Mask) -> IntImage:
+    """The label with the largest sum of distance^-power over its part of the rim, shape [h, w]."""
+    from scipy import fft
+
+    height, width = (-(-length // _SCALE) for length in labels.shape)
+    size = [fft.next_fast_len(2 * length, real=True) for length in (height, width)]
+    y, x = (np.minimum(np.arange(length), length - np.arange(length)).astype(np.float64) for length in size)
+    kernel = fft.rfft2((y[:, None] ** 2 + x**2 + 0.25) ** (-_POWER / 2))
+    best = np.zeros(labels.shape, dtype=np.int32)
+    most = np.full(labels.shape, -np.inf, dtype=np.float32)
+    for k in np.unique(labels[rim]):
+        own = cv2.resize((rim & (labels == k)).astype(np.float32), (width, height), interpolation=cv2.INTER_AREA)
+        votes = np.maximum(fft.irfft2(fft.rfft2(own.astype(np.float64), size) * kernel, size)[:height, :width], 1e-12)
+        support = cv2.resize(np.log(votes).astype(np.float32), labels.shape[::-1], interpolation=cv2.INTER_LINEAR)
+        wins = support > most
+        best[wins], most = k, np.maximum(support, most)
+    return best
+
+
+def _rim(hole: Mask) -> Mask:
+    return ~hole & (cv2.dilate(hole.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
+
+
+def _borders(labels: IntImage, count: int) -> tuple[IntImage, IntImage, FloatImage]:
+    """Which area has most of what is around each pixel, which the next most, and how far their border is."""
+    most, next_most = np.full((2, *labels.shape), -1, dtype=np.float32)
+    first, second = np.zeros((2, *labels.shape), dtype=np.int32)
+    for k in range(count):
+        share = cv2.GaussianBlur((labels == k).astype(np.float32), (0, 0), _ROUNDED)
+        wins, follows = share > most, share > next_most
+        second = np.where(wins, first, np.where(follows, k, second))
+        next_most = np.maximum(np.minimum(most, share), next_most)
+        first, most = np.where(wins, k, first), np.maximum(most, share)
+    # Of a straight border the difference rises from zero by this much a pixel.
+    slope = np.float32(2 / (_ROUNDED * np.sqrt(2 * np.pi)))
+    return first.astype(np.int32), second.astype(np.int32), (most - next_most) / slope
+
+
+def _seeds(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> IntImage | None:
+    """Numbers of the areas where they are known, 0 what is not flat, and -1 what is not known."""
+    if not flat.any():
+        return None
+    away, nearest = nearest_of(flat)
+    count, parts = cv2.connectedComponents(flat.astype(np.uint8), connectivity=4)
+    contact = np.bincount(parts.ravel()[nearest][_rim(hole | lines) & (away <= _TOUCH)], minlength=count)
+    chosen = np.argsort(-contact, kind="stable")[:_MOST_REGIONS]
+    chosen = chosen[contact[chosen] >= _CONTACT]
+    if not len(chosen):
+        return None
+    near = away <= 2 * _TOUCH
+    colours = np.stack([picture[near & (parts == part)].mean(axis=0) for part in chosen])
+    merged = _merged(colours)
+    numbers = np.zeros(count, dtype=np.int32)
+    numbers[chosen] = merged + 1
+    seeds = np.where(hole | lines | ((away > 0) & (away <= _LINE)), -1, numbers[parts])
+    if lines.any():
+        apart = np.linalg.norm(picture[lines][:, None] - colours, axis=2)
+        seeds[lines] = np.where(apart.min(axis=1) < _BESIDE, merged[apart.argmin(axis=1)] + 1, -1)
+    return seeds.astype(np.int32)
+
+
+def _merged(colours: FloatImage) -> IntImage:
+    """Numbers of areas, from 0: those of like colours have one number."""
+    numbers = np.arange(len(colours))
+    for k, colour in enumerate(colours):
+        alike = np.flatnonzero(np.linalg.norm(colours[:k] - colour, axis=1) < _ALIKE)
+        if len(alike):
+            numbers[k] = numbers[alike[0]]
+    return np.unique(numbers, return_inverse=True)[1].astype(np.int32)
