@@ -88,7 +88,8 @@ def _shots(options: argparse.Namespace) -> None:
             begin_fork_server(f"{__package__}.shot_imports")  # it imports while the shots are checked
         to_do = shots if for_farms else [each.shot for each in jobs]
         moving: dict[str, int] = {}
-        _refuse(options, [*problems, *others_files(options.output, to_do), *_wrong(to_do, moving)])
+        lists = os.path.dirname(options.list)
+        _refuse(options, [*problems, *others_files(options.output, to_do, lists=lists), *_wrong(to_do, moving)])
         if for_farms:
             _write_for_farms(options, shots)
         elif options.dry_run:

@@ -62,13 +62,14 @@ def forgetting(out: str, shots: list[Shot]) -> Iterator[None]:
             notes.rmdir()
 
 
-def others_files(out: str, shots: Iterable[Shot]) -> Iterator[Problem]:
+def others_files(out: str, shots: Iterable[Shot], *, lists: str) -> Iterator[Problem]:
     """Clips that would be replaced, of which neither a record, which knows them as they are, nor the note of a killed
     run says that a run of the same list wrote them.
 
     Args:
         out: the folder of results.
         shots: that are to be done.
+        lists: the folder of their list. One that has left it, such as by another name, makes room for this.
     """
     notes = Path(out, NOTES)
     for shot in shots:
@@ -76,7 +77,7 @@ def others_files(out: str, shots: Iterable[Shot]) -> Iterator[Problem]:
             continue
         for word in shot.paths("output"):
             path = word.text or ""
-            told = _of_another_list(shot, path) if os.path.exists(path) else None
+            told = _of_another_list(shot, path, lists) if os.path.exists(path) else None
             if told is None and os.path.isfile(path):
                 told = _of_others(shot, word.option, path)
             if told is not None:
@@ -84,10 +85,12 @@ def others_files(out: str, shots: Iterable[Shot]) -> Iterator[Problem]:
                 yield Problem(f"{word.option} must be {told}", shot.name, word.option, line)
 
 
-def _of_another_list(shot: Shot, path: str) -> str | None:
+def _of_another_list(shot: Shot, path: str, lists: str) -> str | None:
     """What a message says of what was made for another list, where a shot of the same name is; None of the rest."""
     record = read_shot_record(shot.record)
     if record is None or not record.listed or record.listed.casefold() == shot.listed.casefold():
+        return None
+    if not os.path.exists(os.path.join(lists, record.listed)):
         return None
     return f"new, or a clip of {shot.listed}. Got: {path}, which {record.listed} has made"
 

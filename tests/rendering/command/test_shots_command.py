@@ -204,6 +204,16 @@ def test_clips_of_another_list_are_not_replaced(folder: Path, capsys: Output) ->
     assert "1 done now, 1 done before" in capsys.readouterr().out
 
 
+def test_a_list_may_get_another_name(folder: Path, capsys: Output) -> None:
+    write_list(folder / "list.toml", ['name = "a"', 'name = "b"'])
+    assert status(*SHOTS) == 0
+    (folder / "list.toml").unlink()
+    write_list(folder / "second take.toml", ['name = "a"', 'name = "b"\nwind = 3'])
+    capsys.readouterr()
+    assert status("shots", "second take.toml", *SHOTS[2:]) == 0
+    assert "1 done now, 1 done before" in capsys.readouterr().out
+
+
 def test_a_clip_whose_run_was_killed_before_its_record_is_made_again(folder: Path, capsys: Output) -> None:
     write_list(folder / "list.toml", ['name = "a"'])
     assert status(*SHOTS) == 0
