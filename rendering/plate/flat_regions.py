@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pictures import window_around
 from .flatness import nearest_of
 
 __all__ = ["FlatRegions", "flat_regions"]
@@ -29,6 +31,8 @@ _UNSURE = 20.0
 # sides if they differ by less than the second.
 _ALIKE = 0.06
 _BESIDE = 0.2
+# Areas are looked for within this of the hole [px].
+_MARGIN = 48
 # Areas end at edges along this share of their border, as far as it is within so many pixels of the hole: there colours
 # change by more than this within so many [px].
 _MOSTLY = 0.5
@@ -95,6 +99,27 @@ def flat_regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> Fl
     Returns:
         The areas; None where none that is flat touches the hole.
     """
+    window = window_around(hole | lines, margin=_MARGIN)
+    near = _regions(picture[window], hole[window], flat[window], lines[window])
+    if near is None:
+        return None
+    return FlatRegions(
+        _placed(near.number, window, hole.shape, 0),
+        _placed(near.second, window, hole.shape, 0),
+        _placed(near.aside, window, hole.shape, np.inf),
+        _placed(near.sure, window, hole.shape, 1),
+        _placed(near.flat, window, hole.shape, 0),
+    )
+
+
+def _placed(part: NDArray[Any], window: tuple[slice, slice], shape: tuple[int, ...], elsewhere: float) -> NDArray[Any]:
+    whole = np.full(shape, elsewhere, dtype=part.dtype)
+    whole[window] = part
+    return whole
+
+
+def _regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> FlatRegions | None:
+    """The same, within a window."""
     seeds = _seeds(picture, hole, flat, lines)
     if seeds is None:
         return None
