@@ -25,7 +25,7 @@ _PLAIN = 0.65
 _MANY = 6
 # Areas in which this fits nowhere are thin [px].
 _DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (7, 7))
-# A narrow area is a glimpse of a wide one if its mean colour is in the range of that one, or off it by no more than this.
+# A narrow area is a glimpse of a wide one if its mean colour is within the range of that one, and this beyond it.
 _NEARLY = 0.02
 
 
