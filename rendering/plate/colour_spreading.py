@@ -31,9 +31,6 @@ _ALIKE = 0.2
 # falls off over this distance from the edge [px]: deep in a hole the border's place is a guess, and a blend errs less.
 _SHARPNESS = 3.0
 _REACH = 50.0
-# Among flat areas it rises with that distance: weights of two sides change the less from pixel to pixel the deeper they
-# meet, and so the border is one to two pixels wide everywhere.
-_SHARP_EDGE = 0.5
 
 
 def spread_colours(picture: FloatImage, known: Mask, wanted: Mask, *, power: float = 4.0) -> FloatImage:
@@ -48,24 +45,20 @@ def spread_colours(picture: FloatImage, known: Mask, wanted: Mask, *, power: flo
     Returns:
         The picture with the wanted colours, shape [h, w, 3]; unchanged where no colour is known.
     """
-    return _spread(picture, known, wanted, power, None)
+    return _spread(picture, known, wanted, power, sides=False)
 
 
-def spread_sides(
-    picture: FloatImage, known: Mask, wanted: Mask, *, power: float = 4.0, flat: FloatImage | None = None
-) -> FloatImage:
+def spread_sides(picture: FloatImage, known: Mask, wanted: Mask, *, power: float = 4.0) -> FloatImage:
     """The same, but where different colours meet from two sides, one gives way to the other along a sharp border.
 
-    Between a dress and the sky behind it, their mean is a fog that belongs to neither. The more of what is around is
-    ``flat``, 0..1, shape [h, w], the sharper the border is, however deep in the hole.
+    Between a dress and the sky behind it, their mean is a fog that belongs to neither.
     """
-    sharp = np.zeros(wanted.shape, dtype=np.float32) if flat is None else flat
-    return _spread(picture, known, wanted, power, sharp)
+    return _spread(picture, known, wanted, power, sides=True)
 
 
-def _spread(picture: FloatImage, known: Mask, wanted: Mask, power: float, flat: FloatImage | None) -> FloatImage:
+def _spread(picture: FloatImage, known: Mask, wanted: Mask, power: float, *, sides: bool) -> FloatImage:
     if wanted.size > _LARGEST_WINDOW:
-        return _spread_at_half_size(picture, known, wanted, power, flat)
+        return _spread_at_half_size(picture, known, wanted, power, sides=sides)
     edge = known & (cv2.dilate(wanted.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
     if not edge.any():
         edge = known
@@ -73,21 +66,19 @@ def _spread(picture: FloatImage, known: Mask, wanted: Mask, power: float, flat: 
         return picture
     window = window_around(edge | wanted, margin=0)
     filled = picture.copy()
-    near = None if flat is None else flat[window]
-    filled[wanted] = _from_edge(picture[window], edge[window], wanted[window], power, near)
+    filled[wanted] = _from_edge(picture[window], edge[window], wanted[window], power, sides=sides)
     return filled
 
 
-def _from_edge(picture: FloatImage, edge: Mask, wanted: Mask, power: float, flat: FloatImage | None) -> FloatArray:
+def _from_edge(picture: FloatImage, edge: Mask, wanted: Mask, power: float, *, sides: bool) -> FloatArray:
     """The wanted colours from those along an edge, shape [n, 3]."""
-    groups = _groups(picture, edge) if flat is not None else np.zeros(int(edge.sum()), dtype=np.int32)
-    values = picture if flat is None else np.dstack([picture, flat])
-    weights, sums = _by_distance(values, edge, wanted, groups, power)
-    shares, colours = weights, sums[:, :3]
-    if len(weights) > 1 and flat is not None:
+    groups = _groups(picture, edge) if sides else np.zeros(int(edge.sum()), dtype=np.int32)
+    weights, colours = _by_distance(picture, edge, wanted, groups, power)
+    shares = weights
+    if len(weights) > 1:
         depth = cv2.distanceTransform((~edge).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)[wanted]
         means = np.stack([picture[edge][groups == k].mean(axis=0) for k in range(len(weights))])
-        shares = _competing(weights, means, depth, sums[:, 3] / weights)
+        shares = _competing(weights, means, depth)
     return np.asarray(np.einsum("kn,kcn->nc", shares / (shares.sum(axis=0) * weights), colours))
 
 
@@ -161,35 +152,28 @@ def _by_distance(
     return weights, sums
 
 
-def _competing(weights: FloatArray, means: FloatImage, depth: FloatImage, flat: FloatArray) -> FloatArray:
+def _competing(weights: FloatArray, means: FloatImage, depth: FloatImage) -> FloatArray:
     """The weights of groups sharpened, so that the one with the most support wins, shape [k, n].
 
     Args:
         weights: of each group at each pixel, shape [k, n].
         means: mean colour of each group, shape [k, 3]; groups of like colours support each other.
         depth: distance from the edge [px], shape [n].
-        flat: how flat what is near of each group is, shape [k, n]: the border of what is flat is sharp, whatever lies
-            beyond it.
     """
     apart = np.linalg.norm(means[:, None] - means[None], axis=-1)
     shares = weights / weights.sum(axis=0)
     support = np.tensordot(np.exp(-((apart / _ALIKE) ** 2)), shares, axes=1)
-    drawn = (flat * np.minimum(2 * shares, 1)).max(axis=0)
-    sharpness = _SHARPNESS * np.exp(-((depth / _REACH) ** 2)) + _SHARP_EDGE * drawn * depth
+    sharpness = _SHARPNESS * np.exp(-((depth / _REACH) ** 2))
     # Powers of small numbers vanish: only the proportion counts.
     return np.asarray(shares * (support / support.max(axis=0)) ** sharpness)
 
 
-def _spread_at_half_size(
-    picture: FloatImage, known: Mask, wanted: Mask, power: float, flat: FloatImage | None
-) -> FloatImage:
+def _spread_at_half_size(picture: FloatImage, known: Mask, wanted: Mask, power: float, *, sides: bool) -> FloatImage:
     size = (wanted.shape[1] + 1) // 2, (wanted.shape[0] + 1) // 2
     weight = cv2.resize(known.astype(np.float32), size, interpolation=cv2.INTER_AREA)
     total = cv2.resize(picture * known[..., None], size, interpolation=cv2.INTER_AREA)
     some = cv2.resize(wanted.astype(np.float32), size, interpolation=cv2.INTER_AREA) > 0
     small = total / np.maximum(weight, 1e-6)[..., None]
-    if flat is not None:
-        flat = cv2.resize(flat, size, interpolation=cv2.INTER_AREA)
-    small = _spread(small, (weight > 0.5) & ~some, some, power, flat)
+    small = _spread(small, (weight > 0.5) & ~some, some, power, sides=sides)
     large = cv2.resize(small, wanted.shape[::-1], interpolation=cv2.INTER_LINEAR)
     return np.where(wanted[..., None], large, picture)
