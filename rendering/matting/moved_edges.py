@@ -132,12 +132,15 @@ def with_all_strands(image: FloatImage, shape: Mask, mask: FloatImage, *, sigma:
     """
     if image.shape[2] > 3:
         shape = shape | _hanging(image[..., 3], shape)
-    whole = _with_strands(image, shape, mask, sigma)
+    middle, spread = displacement(image, shape, mask > _HALF)
+    # At least three of four clear edges lie outside of the mask.
+    smaller = middle >= 1 and middle > spread / 2
+    # With strands each find would allow a wider one.
+    off = taken_off_of(shape, mask > _HALF) if smaller else 0
+    whole = _with_strands(image, shape, mask, off, sigma)
     if sigma:
         whole = whole | lost_lines(image, whole, mask, (mask > _HALF) | (whole & ~shape), sigma=sigma)
-    middle, spread = displacement(image, shape, mask > _HALF)
-    # At least three of four clear edges lie outside of the mask. An outline along most of it is found by the matting.
-    smaller = middle >= 1 and middle > spread / 2
+    # An outline along most of it is found by the matting.
     return with_ink(image, whole) if smaller and not is_outlined(image[..., :3], whole) else whole
 
 
@@ -177,10 +180,9 @@ def _closed(added: Mask, shape: Mask, strength: FloatImage) -> Mask:
     return added & far & (strength < LEAST_STEP)
 
 
-def _with_strands(image: FloatImage, shape: Mask, mask: FloatImage, sigma: float) -> Mask:
+def _with_strands(image: FloatImage, shape: Mask, mask: FloatImage, off: int, sigma: float) -> Mask:
     """The shape with the strands that the mask has lost; a strand of several colours is found piece by piece."""
     given = mask > _HALF
-    off = taken_off_of(shape, given)  # with strands each find would allow a wider one
     for _ in range(_PIECES):
         strands = lost_strands(image, shape, mask, taken_off=off, sigma=sigma)
         if not strands.any():

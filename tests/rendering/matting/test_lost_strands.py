@@ -146,6 +146,14 @@ def test_a_mask_that_is_not_too_small_ends_where_it_ends() -> None:
     assert not found[:, 128:].any()
 
 
+def test_a_mask_that_is_wrong_both_ways_has_not_been_shrunk() -> None:
+    """As a lasso is, too tight at more of its edge than too wide: whoever drew it left the strand out."""
+    whole, disc = outlined(body()), np.ones((9, 9), np.uint8)
+    mask = np.where(np.arange(WIDTH) < 60, cv2.dilate((whole > 0.5).astype(np.float32), disc), shrunk(whole))
+    found = regular(laid(sky(), stroked(STRAND, 4, body()), RED), mask)
+    assert not found[:, 128:].any()
+
+
 def test_what_no_outline_runs_along_is_not_taken() -> None:
     """A wire of the part's colour, behind a gap in its outline."""
     picture = laid(sky(), body(), RED)
