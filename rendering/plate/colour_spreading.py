@@ -16,8 +16,10 @@ FloatImage = NDArray[np.float32]
 FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-# Larger windows are filled at half their size, which is a quarter of the work [px^2].
-_LARGEST_WINDOW = 600_000
+# Larger windows are filled at half their size, which is a quarter of the work: colours change slowly in a hole as large
+# as that. Against known pictures behind drawn holes it errs as little, at 600 000 as well [px^2].
+_LARGEST_WINDOW = 150_000
+_HALF = 0.5
 
 # Half and twice of the following, measured as in smooth_fill, change the mean error by a fortieth at most.
 
@@ -174,6 +176,8 @@ def _spread_at_half_size(picture: FloatImage, known: Mask, wanted: Mask, power: 
     total = cv2.resize(picture * known[..., None], size, interpolation=cv2.INTER_AREA)
     some = cv2.resize(wanted.astype(np.float32), size, interpolation=cv2.INTER_AREA) > 0
     small = total / np.maximum(weight, 1e-6)[..., None]
-    small = _spread(small, (weight > 0.5) & ~some, some, power, sides=sides)
+    # What is half known counts: else all colours would be taken from a pixel or two behind the edge.
+    known = weight >= _HALF
+    small = _spread(small, known, some & ~known, power, sides=sides)
     large = cv2.resize(small, wanted.shape[::-1], interpolation=cv2.INTER_LINEAR)
     return np.where(wanted[..., None], large, picture)

@@ -8,6 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from .wide_means import wide_mean
+
 __all__ = ["FlatSurroundings", "flat_surroundings", "nearest_of"]
 
 FloatImage = NDArray[np.float32]
@@ -136,8 +138,8 @@ def _large(flat: Mask) -> Mask:
 
 def _carried(flat: FloatImage, known: Mask, hole: Mask) -> FloatImage:
     """By how much what is flat outweighs what is not, carried on into what is not known, shape [h, w]."""
-    weight = cv2.GaussianBlur(known.astype(np.float32), (0, 0), _AROUND)
-    share = cv2.GaussianBlur(flat, (0, 0), _AROUND) / np.maximum(weight, np.float32(1e-6))
+    weight = wide_mean(known.astype(np.float32), _AROUND)
+    share = wide_mean(flat, _AROUND) / np.maximum(weight, np.float32(1e-6))
     share, known = np.clip(2 * share - 1, 0, 1), ~hole
     nearest = nearest_of(known)[1]
     return np.asarray(np.clip(cv2.GaussianBlur(share.ravel()[nearest], (0, 0), _AROUND / 2), 0, 1), dtype=np.float32)

@@ -26,8 +26,9 @@ __all__ = ["continue_texture"]
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
-# Matching and voting alternate so often at each scale.
-_ROUNDS = 6
+# Matching and voting alternate so often at full size, and once more at each coarser scale: what a finer one takes over
+# is found already, and one round there costs four times as much.
+_ROUNDS = 3
 _LEAST_WEIGHT = 1e-12
 # Fewer pixels than this are not worth a thread.
 _PIECE = 4096
@@ -61,16 +62,16 @@ def continue_texture(
             finds = finds.doubled(level.hole.shape)
             current = _voted(level, current, finds)
         if scale in matched and level.hole.any() and usable_sources(level.hole).any():
-            current, finds = _matched(level, current, finds, random)
+            current, finds = _matched(level, current, finds, random, rounds=_ROUNDS + scale)
     return current if finds is not None else filled
 
 
 def _matched(
-    level: Level, current: FloatImage, finds: Finds | None, random: np.random.Generator
+    level: Level, current: FloatImage, finds: Finds | None, random: np.random.Generator, *, rounds: int
 ) -> tuple[FloatImage, Finds]:
     """Alternate between matching patches and voting for colours."""
     search = PatchSearch(level, finds, random)
-    for _ in range(_ROUNDS):
+    for _ in range(rounds):
         checkpoint()
         found = search.round(current)
         current = _voted(level, current, found)

@@ -10,6 +10,7 @@ from ...physics.beside import Beside
 from ..pictures import window_around
 from .channels import over_channels
 from .colour_spreading import spread_sides
+from .wide_means import wide_mean
 
 __all__ = ["smooth_fill"]
 
@@ -121,7 +122,7 @@ def _ink(picture: FloatImage, known: Mask) -> Mask:
     dark = known & (closed - lightness > _INK)
     if not dark.any():
         return dark
-    crowd, some = (cv2.GaussianBlur(each.astype(np.float32), (0, 0), _AROUND) for each in (dark, known))
+    crowd, some = (wide_mean(each.astype(np.float32), _AROUND) for each in (dark, known))
     dark &= crowd < _MOST_INK * np.maximum(some, np.float32(1e-3))
     return cv2.dilate(dark.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
 
