@@ -85,7 +85,7 @@ def open_edges(image: NDArray[Any], mask: NDArray[Any], *, elsewhere: Mask | Non
         >>> mask = np.zeros((100, 100), np.float32)
         >>> mask[20:80, 20:50] = 1
         >>> [edge.points.mean(axis=0).round().tolist() for edge in open_edges(picture, mask)]
-        [[49.0, 50.0]]
+        [[50.0, 50.0]]
     """
     shown = shown_part(image, mask)
     planes, inside, scale = _looked_at(image, shown)

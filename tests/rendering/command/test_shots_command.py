@@ -593,20 +593,24 @@ def test_a_shot_whose_workers_are_killed_thrice_is_given_up(folder: Path, capsys
 
 
 def test_what_another_run_is_writing_stays(folder: Path, capsys: Output) -> None:
-    """As where a farm gives a task out twice."""
+    """As where a farm gives a task out twice: the second waits until the first has ended."""
     fcntl = pytest.importorskip("fcntl")
     write_list(folder / "list.toml", ['name = "a"'])
     notes = folder / "out" / ".shots"
     notes.mkdir(parents=True)
-    half = folder / "out" / ".1half.mp4"
+    half, seen = folder / "out" / ".1half.mp4", []
     half.touch()
     with (notes / "a.0").open("w+b") as note:
         note.write(f"{half}\0".encode())
         note.flush()
         fcntl.flock(note, fcntl.LOCK_EX)
+
+        def end() -> None:
+            seen.extend([half.exists(), (folder / "out" / "a.mp4").exists()])
+            fcntl.flock(note, fcntl.LOCK_UN)
+
+        threading.Timer(1.0, end).start()
         assert status(*SHOTS) == 0
-        assert "1 done now" in capsys.readouterr().out
-        assert half.exists()
-    (folder / "out" / "a.mp4").unlink()
-    assert status(*SHOTS) == 0
+    assert "1 done now" in capsys.readouterr().out
+    assert seen == [True, False]
     assert not half.exists()  # whoever wrote it is gone
