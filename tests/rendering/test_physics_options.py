@@ -133,8 +133,7 @@ def test_command_takes_them_and_names_them(tmp_path: Path, capsys: pytest.Captur
     assert (document["time_step"], document["strokes_as"], document["sag"]) == (0.001, "force", True)
     assert status(*begin, "--scene", said, "--spacing", "10") == 0
     assert status(*begin, "--mu", "3000", "--lambda", "0", "--time-step", "0.001") == 2
-    message = capsys.readouterr().err
-    assert "physanimator: --time-step must be at most 0.000" in message
-    assert message.count("\n") == 1
+    (message,) = [line for line in capsys.readouterr().err.splitlines() if "warning:" not in line]
+    assert message.startswith("physanimator: --time-step must be at most 0.000")
     assert get_args(StrokesAs) == STROKES_AS
     assert Scene.__dataclass_fields__["strokes_as"].default == STROKES_AS[0]
