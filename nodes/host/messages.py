@@ -33,7 +33,7 @@ def tell_user(node: Any, sentences: Iterable[str]) -> dict[str, list[str]]:
         return {}
     title = node.define_schema().display_name  # GET_SCHEMA would write to the class, which is locked by now
     for sentence in told:
-        logging.warning("PhysAnimator, %s: %s", title, sentence)
+        logging.warning("PhysAnimator, %s: %s", title.removesuffix(" (PhysAnimator)"), sentence)
     send_to_page(EVENT, {"title": title, "sentences": told})
     return {"advice": told}
 
