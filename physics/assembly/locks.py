@@ -25,6 +25,7 @@ _BETWEEN = 0.75  # the part of a strip, held at one end, from where its first mo
 # A lock may be so many times too soft for its length: those of drawings that did not turn over were up to 1.6 times,
 # where a long one grows thin towards its tip; an inner tip that did was 2.2 times.
 _TOO_SOFT = 1.75
+_RISE = 4  # power of what is beyond, with which the stiffening comes in
 _MOST_LOCKS, _MOST_ROUNDS = 8, 4
 _SLOWEST = 4.0  # times the frequency of the slowest; what sways faster hardly moves
 
@@ -63,7 +64,8 @@ def lock_factors(
             softness = slowest / squared * (float(ways.max()) / _length(moves, ways)) ** 2
             if softness > _TOO_SOFT:
                 places = bending(rest, moves, mu, lam)
-                missing[places] = np.maximum(missing[places], softness)
+                # Not at once, so that a little longer or coarser a lock does not move quite differently.
+                missing[places] = np.maximum(missing[places], min(softness, (softness / _TOO_SOFT) ** _RISE))
         if (missing == 1).all():
             break
         factors *= missing
