@@ -323,6 +323,15 @@ def test_pulled_vertices_stay_near_their_goal(falloff: float, young: float, ampl
     assert np.abs(got - got[0]).max() < 20 * abs(amplitude) + 1
 
 
+@pytest.mark.parametrize("period", [0.0546875, 0.05])
+def test_a_body_that_is_pulled_in_resonance_swings_no_farther_after_a_while(period: float) -> None:
+    """What drag and damping take is what the rig point gives."""
+    got = moved(RigPoint(PLACE, TOP, Wave(1, period), falloff=0), frames=48, material=Material(youngs_modulus=10**3.25))
+    reach = np.abs(got - got[0]).max(axis=(1, 2))
+    assert 6 < reach[:16].max() < 30
+    assert reach[16:].max() < 1.05 * reach[:16].max()
+
+
 @pytest.mark.parametrize(
     ("build", "name"),
     [
