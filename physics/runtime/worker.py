@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import PhysAnimatorError
+from ..threads import ALGEBRA
 from .worker_pipe import receive, send
 
 __all__ = ["TaichiWorker"]
@@ -203,6 +204,7 @@ def _start() -> subprocess.Popen[bytes]:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
+            env={**os.environ, ALGEBRA: os.environ.get(ALGEBRA, "1")},
             creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
         )
     except OSError as error:

@@ -19,6 +19,7 @@ import pytest
 from command_status import status
 from physanimator.physics.errors import InvalidInputError
 from physanimator.physics.material import PRESETS
+from physanimator.physics.threads import ALGEBRA
 from physanimator.rendering.command import EXAMPLE
 from physanimator.rendering.pictures import load_image, save_image
 from PIL import Image
@@ -355,6 +356,21 @@ def test_help_names_every_preset_and_loads_nothing(capsys: Output) -> None:
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"
+
+
+@pytest.mark.parametrize(("told", "used"), [({}, "1"), ({ALGEBRA: "3"}, "3")])
+def test_linear_algebra_has_one_thread_unless_told_otherwise(told: dict[str, str], used: str) -> None:
+    script = (
+        "import os, runpy, sys\n"
+        f"runpy.run_path({str(ROOT / 'tests' / 'conftest.py')!r})\n"
+        "from physanimator.rendering.command import main\n"
+        "late = 'numpy' in sys.modules\n"
+        "main(['animate', 'nothing.png', '--mask', 'nothing.png', '--output', 'a.gif'])\n"
+        f"print(late, 'numpy' in sys.modules, os.environ[{ALGEBRA!r}])\n"
+    )
+    environment = {name: value for name, value in os.environ.items() if name != ALGEBRA} | told
+    done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["False", "True", used]
 
 
 def test_demo(folder: Path) -> None:
