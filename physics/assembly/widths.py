@@ -39,5 +39,5 @@ def local_widths(mesh: TriangleMesh) -> FloatArray:
 
 
 def _distances(shape: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """Distance of each cell from the nearest one that is zero, all beyond the canvas being so, shape [h, w]."""
-    return np.asarray(cv2.distanceTransform(shape, cv2.DIST_L2, cv2.DIST_MASK_PRECISE), dtype=np.float32)
+    """Distance of each cell from the nearest one that is zero within 2 %, shape [h, w]."""
+    return np.asarray(cv2.distanceTransform(shape, cv2.DIST_L2, cv2.DIST_MASK_5), dtype=np.float32)

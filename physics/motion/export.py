@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import html
 import json
 from typing import Any
-from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,6 +83,8 @@ def motion_to_svg(motion: Motion, *, background: str | None = None) -> str:
         motion: what to show.
         background: address of a picture behind the meshes (a file's name or a ``data:`` address); None for none.
     """
+    from xml.sax.saxutils import quoteattr  # which loads a client for the web
+
     size = f'width="{motion.width}" height="{motion.height}"'
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {motion.width} {motion.height}">',
@@ -103,7 +105,7 @@ def _group(motion: Motion, number: int) -> list[str]:
     outline = _path(
         trails(mesh.boundary_edges), positions, motion, 'fill-opacity="0.25" fill-rule="evenodd" stroke-width="20"'
     )
-    name = escape(body.name or f"part {number + 1}")
+    name = html.escape(body.name or f"part {number + 1}", quote=False)
     return [f'<g transform="scale({1 / _FINENESS:g})" {look}>', f"<title>{name}</title>", edges, outline, "</g>"]
 
 

@@ -15,7 +15,7 @@ from ..pictures import as_dtype, is_transparent, straight
 from .hidden_areas import HiddenArea
 from .layer import Layer
 from .laying import lay_over
-from .pixel_boxes import around, shared, within
+from .pixel_boxes import around, bands_of, shared, within
 from .still_layers import StillLayer
 
 if TYPE_CHECKING:
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 __all__ = ["Drawn", "covered", "cut_out", "interleaved", "laid", "over_plate", "part_of", "placed"]
 
 FloatImage = NDArray[np.float32]
+
+# A frame is put together in bands of so many rows: what is laid over what then stays in the processor's cache.
+_BAND = 96
 
 
 class Drawn(NamedTuple):
@@ -79,8 +82,8 @@ def over_plate(drawn: Sequence[Drawn], plate: NDArray[Any], planes: FloatImage, 
         planes: what is behind all layers, in 0 to 1, four of them premultiplied, shape [c, region].
         region: the part of the picture that the planes show.
     """
-    frame, box = plate.copy(), around([each.box for each in drawn if each.moving])
-    if box.width and box.height:
+    frame = plate.copy()
+    for box in bands_of([each.box for each in drawn if each.moving], _BAND):
         behind = part_of(planes, within(box, region)).copy()
         for each, texture, part in _within_box(drawn, box, behind):
             lay_over(part, texture, each.blend)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from ...physics.mesh import PixelBox
 
-__all__ = ["around", "shared", "within"]
+__all__ = ["around", "bands_of", "shared", "within"]
 
 
 def around(boxes: Sequence[PixelBox]) -> PixelBox:
@@ -19,6 +19,15 @@ def around(boxes: Sequence[PixelBox]) -> PixelBox:
         max(box.right for box in boxes),
         max(box.bottom for box in boxes),
     )
+
+
+def bands_of(boxes: Sequence[PixelBox], rows: int) -> Iterator[PixelBox]:
+    """Boxes of so many rows, from top to bottom, that hold all of these, each as wide as what is in it."""
+    whole = around(boxes)
+    for top in range(whole.top, whole.bottom, rows):
+        band = PixelBox(whole.left, top, whole.right, min(top + rows, whole.bottom))
+        parts = [shared(box, band) for box in boxes]
+        yield around([part for part in parts if part.width > 0 and part.height > 0])
 
 
 def shared(one: PixelBox, other: PixelBox) -> PixelBox:

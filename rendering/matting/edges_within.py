@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..pictures import as_uint8, is_transparent, over
+from ..pictures import as_uint8, is_transparent, over, window_around
 from .part_meshes import shown_part
 
 __all__ = ["OpenEdge", "open_edges"]
@@ -36,6 +36,7 @@ _SAME = 8.0  # elsewhere, colours that differ by less are the same, in texture t
 _DARK = 60.0  # in what is darker neither line nor edge would show [8-bit Lab]
 # Stretches shorter than this are an accident, and interruptions up to the second do not end one [px].
 _SHORTEST, _GAP = 14, 3
+_MARGIN = _WIDE + 8  # nothing beyond this counts, and there is room for the edge to be smoothed [px]
 _ALONG = 2  # colours are averaged over so many pixels to both sides along the edge
 
 
@@ -88,36 +89,39 @@ def open_edges(image: NDArray[Any], mask: NDArray[Any], *, elsewhere: Mask | Non
         [[50.0, 50.0]]
     """
     shown = shown_part(image, mask)
-    planes, inside, scale = _looked_at(image, shown)
+    planes, inside, window, scale = _looked_at(image, shown)
     depth = _depth(inside)
     found = _outline_of(inside, depth)
     if found is None:
         return []
     is_open = _is_open(planes, depth, found)
     if elsewhere is not None:
-        covers = cv2.resize(elsewhere.astype(np.uint8), inside.shape[::-1], interpolation=cv2.INTER_NEAREST)
-        near = cv2.dilate(covers, np.ones((2 * _NEAR + 1,) * 2, np.uint8)) > 0
+        covers = _resized(elsewhere.astype(np.uint8), scale, cv2.INTER_NEAREST)
+        near = cv2.dilate(covers[window], np.ones((2 * _NEAR + 1,) * 2, np.uint8)) > 0
         is_open &= ~near[found.cells[:, 1], found.cells[:, 0]]
-    edges = []
+    edges, corner = [], np.array([window[1].start, window[0].start])
     for start, stop in found.ends:
         for chosen in _stretches(is_open[start:stop]):
-            points = (found.cells[start + chosen] + 0.5) / scale
+            points = (found.cells[start + chosen] + corner + 0.5) / scale
             edges.append(OpenEdge(points.astype(np.float32), len(chosen) / scale))
     return sorted(edges, key=lambda edge: -edge.length)
 
 
-def _looked_at(image: NDArray[Any], shown: Floats) -> tuple[Floats, Mask, float]:
-    """Lab and opacity of the picture, and the part, at the size in which they are looked at, and that size."""
-    height, width = shown.shape
-    scale = min(1.0, _LARGEST / max(height, width))
-    pixels = as_uint8(over(image))
-    if is_transparent(image):
-        pixels = np.dstack([pixels, as_uint8(image)[..., 3]])
-    if scale < 1:
-        size = max(1, round(width * scale)), max(1, round(height * scale))
-        pixels, shown = (cv2.resize(each, size, interpolation=cv2.INTER_AREA) for each in (pixels, shown))
-    lab = cv2.cvtColor(np.ascontiguousarray(pixels[..., :3]), cv2.COLOR_RGB2Lab)
-    return np.dstack([lab, pixels[..., 3:]]).astype(np.float32), shown > 0.5, scale
+def _looked_at(image: NDArray[Any], shown: Floats) -> tuple[Floats, Mask, tuple[slice, slice], float]:
+    """Lab and opacity of the picture, and the part, around the part, where that is, and the size that both have."""
+    scale = min(1.0, _LARGEST / max(shown.shape))
+    inside = _resized(shown, scale) > 0.5
+    window = window_around(inside, margin=_MARGIN)
+    pixels = _resized(as_uint8(over(image)), scale)[window]
+    lab = cv2.cvtColor(np.ascontiguousarray(pixels), cv2.COLOR_RGB2Lab)
+    opacity = [_resized(as_uint8(image)[..., 3], scale)[window]] if is_transparent(image) else []
+    return np.dstack([lab, *opacity]).astype(np.float32), inside[window], window, scale
+
+
+def _resized(picture: NDArray[Any], scale: float, how: int = cv2.INTER_AREA) -> NDArray[Any]:
+    height, width = picture.shape[:2]
+    size = max(1, round(width * scale)), max(1, round(height * scale))
+    return picture if scale == 1 else cv2.resize(picture, size, interpolation=how)
 
 
 def _outline_of(inside: Mask, depth: Floats) -> _Outline | None:

@@ -69,13 +69,12 @@ def reading(path: StrPath, name: str) -> Iterator[Image.Image]:
     """
     from PIL import Image, UnidentifiedImageError
 
-    Image.init()
     check_regular(path, name)
     try:
         # Pillow warns of large pictures below our own limit, and of damage that it can read past.
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            with Image.open(path, formats=[each for each in _FORMATS if each in Image.OPEN]) as picture:
+            with _opened(path) as picture:
                 check_size(path, picture.size, name)
                 yield picture
     except PhysAnimatorError:
@@ -92,6 +91,23 @@ def reading(path: StrPath, name: str) -> Iterator[Image.Image]:
         raise InvalidInputError(f"{name} must be a readable file. Got: {path}: {error.strerror}") from None
     except Exception as error:  # a damaged file makes Pillow's readers raise nearly anything
         raise InvalidInputError(f"{name} {path} cannot be read: {_reason(error)}") from error
+
+
+def _opened(path: StrPath) -> Image.Image:
+    """A picture file; Pillow's readers of rarer formats, which take a while to load, are asked where usual ones fail.
+
+    Raises:
+        UnidentifiedImageError: it is none of these.
+    """
+    from PIL import Image, UnidentifiedImageError
+
+    Image.preinit()
+    usual = [each for each in _FORMATS if each in Image.OPEN]
+    try:
+        return Image.open(path, formats=usual)
+    except UnidentifiedImageError:
+        Image.init()
+        return Image.open(path, formats=[each for each in _FORMATS if each in Image.OPEN and each not in usual])
 
 
 def first_of_several(picture: Image.Image, called: str) -> tuple[str, ...]:
