@@ -15,16 +15,23 @@ def run_animate(options: argparse.Namespace) -> None:
     Raises:
         InvalidInputError: an option or a file is unusable.
     """
-    image, inputs = checked_inputs(options)
+    image, inputs = checked_inputs(options, begin=True)
     animate_and_write(options, image, **inputs)
 
 
-def checked_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
+def checked_inputs(options: argparse.Namespace, *, begin: bool = False) -> tuple[Any, dict[str, Any]]:
     """The illustration and what moves how, after every check that needs no simulation.
+
+    Args:
+        options: of the command.
+        begin: start the process in which will be simulated as soon as the options are known to go together: it reads
+            its kernels while this one reads pictures.
 
     Raises:
         InvalidInputError: see above.
     """
+    from ...physics.simulation import begin_aside
+    from ..artwork import is_artwork_file
     from .inputs import check_inputs, check_taken, read_inputs
     from .networks import check_networks_used
     from .outputs import check_layers, check_outputs, check_sizes
@@ -32,6 +39,8 @@ def checked_inputs(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
     check_inputs(options)
     check_outputs(options)
     check_networks_used(options)
+    if begin and not (options.pixel_art or is_artwork_file(options.image)):
+        begin_aside()
     image, inputs = read_inputs(options)
     check_taken(options, image)
     check_layers(options, image)

@@ -373,6 +373,20 @@ def test_linear_algebra_has_one_thread_unless_told_otherwise(told: dict[str, str
     assert done.stdout.split() == ["False", "True", used]
 
 
+def test_the_simulation_begins_before_pictures_are_read_and_after_options(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun: list[bool] = []
+    monkeypatch.setattr("physanimator.physics.simulation.begin_aside", lambda: begun.append(True))
+    (folder / "girl.png").write_bytes(b"no picture")
+    assert status("animate", "girl.png", "--output", "girl.mp4") == 2
+    assert not begun
+    assert status("animate", "girl.png", "--mask", "hair.png", "--pixel-art", "--output", "girl.mp4") == 2
+    assert not begun
+    assert status("animate", "girl.png", "--mask", "hair.png", "--output", "girl.mp4") == 2
+    assert begun
+
+
 def test_demo(folder: Path) -> None:
     assert status("demo", "--frames", "3", "--output", "demo.mp4", "--quiet") == 0
     with av.open("demo.mp4") as container:
