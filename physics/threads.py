@@ -7,15 +7,12 @@ threads that share a core wait for each other. Results never depend on the numbe
 from __future__ import annotations
 
 import os
-import sys
 
 from .errors import require
 
 __all__ = [
-    "ALGEBRA",
     "THREADS",
     "allowed_threads",
-    "calm_algebra",
     "chosen_threads",
     "keep_to_threads",
     "thread_variables",
@@ -25,11 +22,8 @@ __all__ = [
 THREADS = "PHYSANIMATOR_THREADS"
 """Environment variable that says how many; processes that this one starts inherit it."""
 
-ALGEBRA = "OPENBLAS_NUM_THREADS"
-"""Environment variable that says how many NumPy and SciPy use for linear algebra."""
-
 _MOST = 1024
-_LIBRARIES = ("OPENCV_FOR_THREADS_NUM", "OMP_NUM_THREADS", "MKL_NUM_THREADS", ALGEBRA)
+_LIBRARIES = ("OPENCV_FOR_THREADS_NUM", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS")
 
 
 def allowed_threads() -> int:
@@ -76,14 +70,3 @@ def keep_to_threads(threads: int) -> None:
     import cv2  # which reads them
 
     cv2.setNumThreads(threads)
-
-
-def calm_algebra() -> None:
-    """Let NumPy and SciPy use one thread for linear algebra, unless they are loaded or told otherwise.
-
-    Ours is sparse, and the cores have other work beside it. Threads for products of vectors of a few thousand numbers
-    only wait for each other, and keep the cores busy meanwhile. Only for a process of our own: they are told by an
-    environment variable, which they read when they are loaded, and which processes that this one starts inherit.
-    """
-    if "numpy" not in sys.modules:
-        os.environ.setdefault(ALGEBRA, "1")

@@ -15,6 +15,7 @@ from ..physics.beside import side_by_side
 from ..physics.document import LayerMasks, order_of_layers
 from ..physics.errors import InvalidInputError
 from ..physics.interruption import checkpoint
+from ..physics.linear_algebra import on_one_thread
 from ..physics.material import Material, preset
 from ..physics.mesh import TriangleMesh, coverage_of, fitted, mesh_from_mask
 from ..physics.motion import Motion
@@ -142,6 +143,7 @@ class Parts:
         return replace(self, meshes=tuple(meshes))
 
 
+@on_one_thread
 def parts_of_picture(
     image: Image,
     masks: Sequence[Mask],

@@ -22,6 +22,7 @@ from ..physics.checks import require_kind
 from ..physics.document import LayerMasks, check_document
 from ..physics.errors import InvalidInputError, require
 from ..physics.limits import DEFAULT_MINUTES
+from ..physics.linear_algebra import on_one_thread
 from ..physics.process_end import working
 from ..physics.scene import Attachment, Collider, Contact, Scene
 from ..physics.simulation import begin_aside, simulate, simulated_beside
@@ -211,6 +212,7 @@ def _check_kinds(**given: object) -> None:
             require_kind(name, value, kind, f"given as {kind.__name__}({_SUCH.get(name, '...')})")
 
 
+@on_one_thread
 def _simulated(
     parts: Parts, scene: Scene, timing: Timing, max_minutes: float, watch: Watch, seconds: dict[str, float]
 ) -> tuple[Motion, LayeredRenderer | PixelArtRenderer]:
@@ -243,6 +245,7 @@ def _simulated(
             return motion, renderer.showing(motion)  # type: ignore[union-attr]
 
 
+@on_one_thread
 def _simulated_and_saved(
     parts: Parts,
     scene: Scene,

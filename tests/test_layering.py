@@ -139,7 +139,8 @@ MAY_IMPORT = {
 NOT_INSIDE = {"physics": {"PIL", "av"} | HOST | NEURAL, "rendering": HOST, "nodes": set(), "": HOST}
 """Packages that no room of a house may import."""
 
-HEAVY = {"PIL", "av", "dask", "distributed", "jsonschema", "psd_tools", "pythoncdt", "scipy", "taichi", "tqdm"} | NEURAL
+HEAVY = {"PIL", "av", "dask", "distributed", "jsonschema", "psd_tools", "pythoncdt"} | NEURAL
+HEAVY |= {"scipy", "taichi", "threadpoolctl", "tqdm"}
 
 LIGHT = {"numpy", "cv2"}
 """Packages outside the standard library that any module may import at its top."""

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SimulationError
+from ..linear_algebra import on_one_thread
 from ..material import RestShape, highest_eigenvalue, lumped_masses, stiffness_matrix
 from ..mesh import TriangleMesh
 from ..scene import Body, Holds, Scene, StrokesAs, holds_of
@@ -151,6 +152,7 @@ class System:
             )
 
 
+@on_one_thread
 def assemble(scene: Scene, holds: Holds | None = None) -> System:
     """Put the bodies of a scene together and settle how stiff and heavy each of their parts is.
 

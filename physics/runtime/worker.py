@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import PhysAnimatorError
-from ..threads import ALGEBRA
+from ..linear_algebra import THREADS_OF_ALGEBRA
 from .worker_pipe import receive, send
 
 __all__ = ["TaichiWorker"]
@@ -204,7 +204,7 @@ def _start() -> subprocess.Popen[bytes]:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            env={**os.environ, ALGEBRA: os.environ.get(ALGEBRA, "1")},
+            env={THREADS_OF_ALGEBRA: "1", **os.environ},
             creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
         )
     except OSError as error:

@@ -41,9 +41,10 @@ def _status(arguments: Sequence[str] | None) -> int:
     from .messages import warn
 
     try:
-        from ...physics.threads import calm_algebra, chosen_threads, keep_to_threads
+        from ...physics.linear_algebra import begin_on_one_thread
+        from ...physics.threads import chosen_threads, keep_to_threads
 
-        calm_algebra()  # before anything loads NumPy
+        begin_on_one_thread()
         from .commands import command_parser
         from .names import named_by_options
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.linear_algebra import on_one_thread
 from .like_regions import like_regions
 
 __all__ = ["chance_of_core"]
@@ -23,6 +24,7 @@ _TOLD = 5
 _NEIGHBOURS = ((0, 1, 1.0), (1, 0, 1.0), (1, 1, 0.7), (1, -1, 0.7))
 
 
+@on_one_thread
 def chance_of_core(
     image: FloatImage, mask: FloatImage, band: Mask, core: Mask, said: NDArray[np.float32]
 ) -> NDArray[np.float64]:

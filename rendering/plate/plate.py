@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...physics.beside import Beside
 from ...physics.errors import InvalidInputError
 from ...physics.interruption import checkpoint
+from ...physics.linear_algebra import on_one_thread
 from ...physics.mesh import coverage_of, fitted
 from ..matting import regular_mask, with_outline
 from ..pictures import as_dtype, as_float, as_picture, window_around
@@ -83,6 +84,7 @@ def clean_plate(image: NDArray[Any], mask: ArrayLike) -> NDArray[Any]:
     return plate
 
 
+@on_one_thread
 def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
     """Continue the surroundings of a hole into it: smooth colours, and texture from patches around.
 

@@ -7,16 +7,7 @@ import os
 import cv2
 import pytest
 from physanimator.physics.errors import InvalidInputError
-from physanimator.physics.runtime import TaichiWorker
-from physanimator.physics.threads import (
-    ALGEBRA,
-    THREADS,
-    allowed_threads,
-    calm_algebra,
-    keep_to_threads,
-    thread_variables,
-    usable_cores,
-)
+from physanimator.physics.threads import THREADS, allowed_threads, keep_to_threads, thread_variables, usable_cores
 
 
 def test_all_cores_unless_the_environment_says_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -47,18 +38,3 @@ def test_libraries_keep_to_them_unless_they_are_told_otherwise(monkeypatch: pyte
         assert os.environ["MKL_NUM_THREADS"] == "4"
     finally:
         cv2.setNumThreads(before)
-
-
-def test_a_process_that_has_loaded_numpy_is_left_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv(ALGEBRA, raising=False)
-    calm_algebra()
-    assert ALGEBRA not in os.environ
-
-
-def test_the_process_for_kernels_uses_one_thread_for_linear_algebra(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv(ALGEBRA, raising=False)
-    worker = TaichiWorker()
-    try:
-        assert worker.call(os.getenv, ALGEBRA) == "1"
-    finally:
-        worker.close()

@@ -18,8 +18,8 @@ import physanimator
 import pytest
 from command_status import status
 from physanimator.physics.errors import InvalidInputError
+from physanimator.physics.linear_algebra import THREADS_OF_ALGEBRA
 from physanimator.physics.material import PRESETS
-from physanimator.physics.threads import ALGEBRA
 from physanimator.rendering.command import EXAMPLE
 from physanimator.rendering.pictures import load_image, save_image
 from PIL import Image
@@ -358,7 +358,7 @@ def test_help_names_every_preset_and_loads_nothing(capsys: Output) -> None:
     assert done.stdout.splitlines()[-1] == "[]"
 
 
-@pytest.mark.parametrize(("told", "used"), [({}, "1"), ({ALGEBRA: "3"}, "3")])
+@pytest.mark.parametrize(("told", "used"), [({}, "1"), ({THREADS_OF_ALGEBRA: "3"}, "3")])
 def test_linear_algebra_has_one_thread_unless_told_otherwise(told: dict[str, str], used: str) -> None:
     script = (
         "import os, runpy, sys\n"
@@ -366,9 +366,9 @@ def test_linear_algebra_has_one_thread_unless_told_otherwise(told: dict[str, str
         "from physanimator.rendering.command import main\n"
         "late = 'numpy' in sys.modules\n"
         "main(['animate', 'nothing.png', '--mask', 'nothing.png', '--output', 'a.gif'])\n"
-        f"print(late, 'numpy' in sys.modules, os.environ[{ALGEBRA!r}])\n"
+        f"print(late, 'numpy' in sys.modules, os.environ[{THREADS_OF_ALGEBRA!r}])\n"
     )
-    environment = {name: value for name, value in os.environ.items() if name != ALGEBRA} | told
+    environment = {name: value for name, value in os.environ.items() if name != THREADS_OF_ALGEBRA} | told
     done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False", "True", used]
 
