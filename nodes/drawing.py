@@ -118,19 +118,35 @@ def drawing_of(
     return motion.layers.renderer
 
 
-def told_of_another_picture(node: Any, motion: MaskedMotion, picture: NDArray[Any]) -> dict[str, list[str]]:
-    """Tell that layers are drawn and not the picture, where it is another one; returns what ``tell_user`` does.
+def told_of_another_picture(
+    node: Any, motion: MaskedMotion, picture: NDArray[Any], plate: NDArray[Any] | None = None
+) -> dict[str, list[str]]:
+    """Tell that layers are drawn and not the picture, or that the plate is of another picture; as ``tell_user`` does.
 
     Args:
         node: the node's class, as ``execute`` has it.
         motion: what is drawn.
         picture: from the node's input image, shape [h, w, 3 or 4].
+        plate: from its input clean_plate, in the same form and size.
     """
+    told = (
+        _doubts_about_plate(motion, picture, plate) if motion.layers is None else _doubts_about_layers(motion, picture)
+    )
+    return tell_user(node, told)
+
+
+def _doubts_about_plate(motion: MaskedMotion, picture: NDArray[Any], plate: NDArray[Any] | None) -> list[str]:
+    from ..rendering.doubtful_inputs import doubts_about_plate
+
+    if any(mask.shape != picture.shape[:2] for mask in motion.masks):  # which is refused when it is drawn
+        return []
+    told = doubts_about_plate(picture, plate, motion.masks)
+    return [each.replace("the plate", "clean_plate", 1) for each in told]
+
+
+def _doubts_about_layers(motion: MaskedMotion, picture: NDArray[Any]) -> list[str]:
     from ..rendering.pictures import as_float, over
 
-    if motion.layers is None:
-        return {}
     own = as_float(over(motion.layers.picture))
     apart = float(np.abs(own - as_float(over(picture))).mean()) if own.shape[:2] == picture.shape[:2] else 0.0
-    told = ["image is another picture than the layers show: what is drawn are the layers."] if apart > _ANOTHER else []
-    return tell_user(node, told)
+    return ["image is another picture than the layers show: what is drawn are the layers."] if apart > _ANOTHER else []

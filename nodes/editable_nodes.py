@@ -86,5 +86,5 @@ class SaveSpineOrGltf(io.ComfyNode):
         place = free_place(filename_prefix, file_type, picture.shape[1], picture.shape[0])
         save = save_renderer_as_spine if file_type == SPINE else save_renderer_as_gltf
         written, *warnings = save(drawing(motion.motion), place.path, tolerance=tolerance, progress=host_progress())
-        told = all_told(tell_user(cls, warnings), told_of_another_picture(cls, motion, picture))
+        told = all_told(tell_user(cls, warnings), told_of_another_picture(cls, motion, picture, plate))
         return io.NodeOutput(place.path, ui={"text": [f"{place.name}: {written}"], **told})

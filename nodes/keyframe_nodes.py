@@ -119,9 +119,10 @@ class Keyframes(io.ComfyNode):
 
         form, picture = ModelFormat(frames, width, height, fit), picture_of(image)
         at = _numbers(keyframes, frames)
-        drawing = drawing_of(motion, picture, plate=given_plate(clean_plate), in_front=in_front)
+        plate = given_plate(clean_plate)
+        drawing = drawing_of(motion, picture, plate=plate, in_front=in_front)
         told = announce_batch(cls, frames, width, height, channels=4)
-        told = all_told(told, told_of_another_picture(cls, motion, picture))
+        told = all_told(told, told_of_another_picture(cls, motion, picture, plate))
         told = all_told(told, told_of_light_lines(cls, sketch, sketch_lines))
         drawn = motion_keyframes(picture, motion.masks, motion.motion, form, at=at, renderer=drawing)
         host_check()

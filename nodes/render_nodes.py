@@ -135,7 +135,7 @@ class Render(io.ComfyNode):
         told = announce_batch(cls, count, width, height, channels=channels, instead=instead)
         if not (by_model or pixel_art or motion.layers):
             told = all_told(told, hint_of_pixel_art(cls, picture))
-        told = all_told(told, told_of_another_picture(cls, motion, picture))
+        told = all_told(told, told_of_another_picture(cls, motion, picture, plate))
         told = all_told(told, told_of_light_lines(cls, choice.get("sketches"), name="sketches"))
         layers = drawing(motion.motion)
         if by_model and frames is not None:

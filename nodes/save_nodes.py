@@ -114,7 +114,7 @@ class SaveAnimation(io.ComfyNode):
         place = free_place(filename_prefix, file_type, *size)
         check_output(place.path, alpha=behind.has_alpha)
         told = {} if pixel_art or motion.layers else hint_of_pixel_art(cls, picture)
-        told = all_told(told, told_of_another_picture(cls, motion, picture))
+        told = all_told(told, told_of_another_picture(cls, motion, picture, plate))
         renderer = drawing(motion.motion)
         frames = _frames(renderer, behind, size, nearest=pixel_art)
         write_animation(frames, place.path, motion.motion.frame_rate, exact=pixel_art)

@@ -144,11 +144,12 @@ class TimeToMove(io.ComfyNode):
 
         moved, picture, report = motion.motion, picture_of(image), host_progress()
         form = _form(moved, frames, timing, size, (width, height), fit)
-        drawing = drawing_of(motion, picture, plate=given_plate(clean_plate), in_front=in_front)
+        plate = given_plate(clean_plate)
+        drawing = drawing_of(motion, picture, plate=plate, in_front=in_front)
         rules = told_rules(moved, form, timing)
         left_out = rules[:1] if timing == "frame by frame" and len(moved) > form.frames else []
         told = announce_batch(cls, form.frames, form.width, form.height, channels=4)
-        told = all_told(told, tell_user(cls, left_out), told_of_another_picture(cls, motion, picture))
+        told = all_told(told, tell_user(cls, left_out), told_of_another_picture(cls, motion, picture, plate))
         pictures, masks = picture_batch(form.frames), mask_batch(form.frames)
         free = mask_batch((form.frames - 1) // FRAME_STEP + 1)
         done = 0

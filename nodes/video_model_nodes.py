@@ -94,9 +94,10 @@ class WarpedVideo(io.ComfyNode):
         from ..rendering.control import warped_frames
 
         form, picture, report = ModelFormat(frames, width, height, fit), picture_of(image), host_progress()
-        drawing = drawing_of(motion, picture, plate=given_plate(clean_plate), in_front=in_front)
+        plate = given_plate(clean_plate)
+        drawing = drawing_of(motion, picture, plate=plate, in_front=in_front)
         told = announce_batch(cls, frames, width, height, channels=4)
-        told = all_told(told, told_of_another_picture(cls, motion, picture))
+        told = all_told(told, told_of_another_picture(cls, motion, picture, plate))
         pictures, holes = picture_batch(frames), mask_batch(frames)
         drawn = warped_frames(picture, motion.masks, motion.motion, form, grow=grow, renderer=drawing)
         for number, (picture, hole) in enumerate(drawn, start=1):
@@ -226,8 +227,9 @@ class FirstAndLastFrame(io.ComfyNode):
         from ..rendering.control import first_and_last
 
         form, picture = ModelFormat(width=width, height=height, fit=fit), picture_of(image)
-        drawing = drawing_of(motion, picture, plate=given_plate(clean_plate), in_front=in_front)
-        told = told_of_another_picture(cls, motion, picture)
+        plate = given_plate(clean_plate)
+        drawing = drawing_of(motion, picture, plate=plate, in_front=in_front)
+        told = told_of_another_picture(cls, motion, picture, plate)
         chosen = {"first": first_frame, "last": last_frame, "renderer": drawing}
         both = first_and_last(picture, motion.masks, motion.motion, form, **chosen)
         start, end = (batch_of_pictures([each], 1) for each in both)

@@ -8,7 +8,12 @@ __all__ = [
     "LEAST_FACTOR",
     "MAX_BODIES",
     "MAX_COLLIDERS",
+    "MAX_DIGITS",
     "MAX_DOCUMENT_BYTES",
+    "MAX_DOCUMENT_KEYS",
+    "MAX_DOCUMENT_LISTS",
+    "MAX_DOCUMENT_OBJECTS",
+    "MAX_DOCUMENT_VALUES",
     "MAX_LAYERS",
     "MAX_LOOP",
     "MAX_MASK_PIXELS",
@@ -76,6 +81,22 @@ MAX_POINTS = 10_000
 
 MAX_DOCUMENT_BYTES = 64 * 2**20
 """Size of a scene document as text."""
+
+MAX_DOCUMENT_VALUES = 4_200_000
+"""Entries of all lists and objects of a scene document together: those of one body of the most vertices and triangles.
+
+What a document becomes in memory follows from its entries, not from its size: 64 MB of empty lists are 1.6 GB.
+"""
+
+MAX_DOCUMENT_LISTS = 1_600_000
+"""Lists of a scene document: each point and each triangle is one."""
+
+MAX_DOCUMENT_OBJECTS = 100_000
+MAX_DOCUMENT_KEYS = 500_000
+"""Keys of all objects of a scene document together."""
+
+MAX_DIGITS = 1_000
+"""Digits in a row in a scene document: to read a longer number takes as long as thousands of short ones."""
 
 MAX_PICTURE_PIXELS = 2**26
 """Area of a picture that is read [px]: 8192 x 8192, or a page of 1600 x 30000."""

@@ -30,6 +30,7 @@ from ..physics.threads import allowed_threads
 from .animation import Animation, timed
 from .drawing_checks import check_drawing
 from .edge_advice import edge_advice
+from .files import removed_at_signals
 from .flat_pictures import FlatPicture
 from .movement import Movement
 from .neural import NetworkOptions
@@ -272,7 +273,7 @@ def _simulated_and_saved(
             hears(done, total)
 
     saving = SavedMeanwhile(lambda: parts.drawn_at_rest(scene), write)  # type: ignore[arg-type, return-value]
-    with simulated_beside(), saving:
+    with removed_at_signals(), simulated_beside(), saving:
         with timed(seconds, "simulate"):
             motion = simulate(
                 scene, frames=timing.frames, progress=advance, max_minutes=max_minutes, on_frame=coming.take

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...physics.checks import is_whole
-from ...physics.document import LayerMasks, read_json
+from ...physics.document import LayerMasks, Most, read_json, surplus_of
 from ...physics.errors import InvalidInputError, counted, require
 from ...physics.limits import MAX_SIDE
 from ...physics.scene import Body, Scene
@@ -37,6 +37,7 @@ from .limits import (
 
 __all__ = ["PreviewRequest", "document_points", "is_key", "preview_scene", "read_bounded", "read_request"]
 
+_MOST = Most(values=MAX_VALUES, lists=MAX_LISTS, objects=MAX_OBJECTS, keys=MAX_KEYS)
 _COARSER = "paint on a coarser mask"
 _FIELDS = {"editor", "key", "scene", "frames"}
 _KEY = re.compile(r"[0-9a-f]{64}")
@@ -98,7 +99,8 @@ def read_bounded(body: bytes) -> Any:
     require(
         "the request", counted(len(body), "byte"), len(body) <= MAX_REQUEST_BYTES, f"at most {MAX_REQUEST_BYTES} bytes"
     )
-    _require_few_signs(body)
+    if surplus := surplus_of(body, _MOST):
+        raise InvalidInputError(f"the request must hold at most {surplus}. Got: more")
     data = read_json(body)
     _require_small(data)
     return data
@@ -183,13 +185,6 @@ def _require_few(document: dict[str, Any], name: str, most: int) -> None:
     _require_preview(name, count, most, "queue the graph to see them all")
 
 
-def _require_few_signs(body: bytes) -> None:
-    """Refuse what would become too many things in memory: to read it would stop all else for seconds."""
-    bounds = (b",", MAX_VALUES, "values"), (b"{", MAX_OBJECTS, "objects"), (b"[", MAX_LISTS, "lists")
-    for sign, most, name in (*bounds, (b":", MAX_KEYS, "keys")):
-        require("the request", "more", body.count(sign) <= most, f"of at most {most} {name}")
-
-
 def _require_small(data: object) -> None:
     """Refuse what is nested too deep or has too many parts, before anything walks through it with more effort."""
     level, depth, values, objects = [data], 0, 1, 0
@@ -198,8 +193,8 @@ def _require_small(data: object) -> None:
         require("the request", "more", depth <= MAX_NESTING, f"nested at most {MAX_NESTING} deep")
         values += sum(map(len, level))
         objects += sum(isinstance(entry, dict) for entry in level)
-        require("the request", "more", values <= MAX_VALUES, f"of at most {MAX_VALUES} values")
-        require("the request", "more", objects <= MAX_OBJECTS, f"of at most {MAX_OBJECTS} objects")
+        require("the request", "more", values <= MAX_VALUES, f"of at most {MAX_VALUES:,} values")
+        require("the request", "more", objects <= MAX_OBJECTS, f"of at most {MAX_OBJECTS:,} objects")
         level = [each for entry in level for each in (entry.values() if isinstance(entry, dict) else entry)]
 
 

@@ -6,7 +6,7 @@ from .body_names import arranged_for, bodies_named, order_of_layers, rig_points_
 from .checking import check_document
 from .encoding import encode, encode_material, scene_to_dict
 from .given import given_scene, materials_of
-from .json_text import read_json
+from .json_text import Most, read_json, surplus_of
 from .overlay import checked_scene_over, scene_over
 from .point_text import parse_points, parse_polyline, require_pixels
 from .scene_json import LayerMasks, dumps, loads, mask_pixels, scene_from_dict
@@ -14,6 +14,7 @@ from .schema import scene_schema
 
 __all__ = [
     "LayerMasks",
+    "Most",
     "arranged_for",
     "bodies_named",
     "check_document",
@@ -36,4 +37,5 @@ __all__ = [
     "scene_schema",
     "scene_to_dict",
     "still_layers",
+    "surplus_of",
 ]

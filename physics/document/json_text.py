@@ -3,14 +3,44 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 from ..errors import SceneError
-from ..limits import MAX_DOCUMENT_BYTES
+from ..limits import (
+    MAX_DIGITS,
+    MAX_DOCUMENT_BYTES,
+    MAX_DOCUMENT_KEYS,
+    MAX_DOCUMENT_LISTS,
+    MAX_DOCUMENT_OBJECTS,
+    MAX_DOCUMENT_VALUES,
+)
+from .checking import join_path
 
-__all__ = ["read_json", "write_json"]
+__all__ = ["Most", "read_json", "surplus_of", "write_json"]
 
 _LINE = 110  # characters that may stand in one line before it is broken up
+
+
+@dataclass(frozen=True)
+class Most:
+    """How much a JSON text may hold.
+
+    Attributes:
+        values: entries of all lists and objects together.
+        lists: how many.
+        objects: how many.
+        keys: of all objects together.
+    """
+
+    values: int = MAX_DOCUMENT_VALUES
+    lists: int = MAX_DOCUMENT_LISTS
+    objects: int = MAX_DOCUMENT_OBJECTS
+    keys: int = MAX_DOCUMENT_KEYS
+
+
+_OF_A_SCENE = Most()
 
 
 class _Repeated:
@@ -26,10 +56,13 @@ def read_json(text: str | bytes) -> Any:
     NaN and infinity come through as floats, for the check against the schema to name their place.
 
     Raises:
-        SceneError: the text is too long, is not JSON (with line and column), or holds a key twice in one object.
+        SceneError: the text is too long or holds too much, is not JSON (with line and column), or holds a key twice in
+            one object.
     """
     if len(text) > MAX_DOCUMENT_BYTES:
         raise SceneError("", f"the scene must be at most {MAX_DOCUMENT_BYTES >> 20} MB of text. Got: more")
+    if surplus := surplus_of(text, _OF_A_SCENE):
+        raise SceneError("", f"the scene must hold at most {surplus}. Got: more")
     repeating: list[dict[str, Any]] = []
 
     def as_object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -56,6 +89,26 @@ def read_json(text: str | bytes) -> Any:
     return data
 
 
+def surplus_of(text: str | bytes, most: Most) -> str | None:
+    """Of what a JSON text holds more than it may, such as "100,000 objects", told from its signs before it is read.
+
+    A sign that stands in quotes counts as well: no honest text comes near the bounds.
+
+    Args:
+        text: JSON, or something else.
+        most: the bounds.
+    """
+    bounds = (",", most.values, "values"), ("[", most.lists, "lists"), ("{", most.objects, "objects")
+    for sign, bound, plural in (*bounds, (":", most.keys, "keys")):
+        if (text.count(sign) if isinstance(text, str) else text.count(sign.encode())) > bound:
+            return f"{bound:,} {plural}"
+    half = MAX_DIGITS // 2
+    # Of so many digits in a row, one of these pieces of half as many consists.
+    if any(text[first : first + half].isdigit() for first in range(0, len(text) - half + 1, half)):
+        return f"{MAX_DIGITS:,} digits a number"
+    return None
+
+
 def write_json(data: Any) -> str:
     """JSON text in which short things stand on one line and long lists fill their lines.
 
@@ -65,6 +118,8 @@ def write_json(data: Any) -> str:
     text = _written(data, 0) + "\n"
     if len(text.encode("utf-8", "surrogatepass")) > MAX_DOCUMENT_BYTES:
         raise SceneError("", f"the scene must be at most {MAX_DOCUMENT_BYTES >> 20} MB of text. Got: more")
+    if surplus := surplus_of(text, _OF_A_SCENE):
+        raise SceneError("", f"the scene must hold at most {surplus}. Got: more")
     return text
 
 
@@ -76,16 +131,29 @@ def _marked(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _refuse_repeated_keys(data: Any) -> None:
-    pending = [("", data)]
-    while pending:
-        path, value = pending.pop()
-        if isinstance(value, _Repeated):
-            raise SceneError(path, "stands twice in the same object; keep one")
-        # Numbers and texts are passed over at once: there may be millions of them.
-        if isinstance(value, dict):
-            pending += [(f"{path}.{key}" if path else key, v) for key, v in value.items() if type(v) in _HOLDING]
+    # The way to where the walk is, not one to each of millions of places.
+    way: list[str | int] = []
+    walks = [_holding(data)]
+    while walks:
+        for key, value in walks[-1]:
+            way[len(walks) - 1 :] = [key]
+            if isinstance(value, _Repeated):
+                raise SceneError(join_path("", *way), "stands twice in the same object; keep one")
+            if _holds(value):
+                walks.append(_holding(value))
+                break
         else:
-            pending += [(f"{path}[{index}]", v) for index, v in enumerate(value) if type(v) in _HOLDING]
+            walks.pop()
+
+
+def _holds(value: Any) -> bool:
+    return not _HOLDING.isdisjoint(map(type, value.values() if isinstance(value, dict) else value))
+
+
+def _holding(value: Any) -> Iterator[tuple[str | int, Any]]:
+    """What is in an object or a list; numbers and texts are passed over at once."""
+    entries = value.items() if isinstance(value, dict) else enumerate(value)
+    return ((key, each) for key, each in entries if type(each) in _HOLDING)
 
 
 def _written(value: Any, indent: int, *, used: int = 0) -> str:

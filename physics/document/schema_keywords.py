@@ -6,7 +6,7 @@ The library writes every wrong value out, a whole list too, into a message of it
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import jsonschema
@@ -16,12 +16,14 @@ from .quick_check import test_of
 
 __all__ = ["SceneValidator"]
 
+_TOGETHER = 4096  # entries of a list, of which mostly all are right
+
 
 def _is_number(checker: object, value: object) -> bool:
     return type(value) is int or (type(value) is float and math.isfinite(value))
 
 
-def _never(entry: object) -> bool:
+def _never(entries: Sequence[Any]) -> bool:
     return False
 
 
@@ -58,9 +60,13 @@ def _check_items(validator: Any, items: dict[str, Any], instance: Any, schema: A
     if not isinstance(instance, list) or len(instance) > schema.get("maxItems", math.inf):
         return
     is_right = test_of(items["$ref"]) if "$ref" in items else _never
-    for index, entry in enumerate(instance):
-        if not is_right(entry):
-            yield from validator.descend(entry, items, path=index)
+    for first in range(0, len(instance), _TOGETHER):
+        entries = instance[first : first + _TOGETHER]
+        if is_right(entries):
+            continue
+        for index, entry in enumerate(entries, first):
+            if not is_right([entry]):
+                yield from validator.descend(entry, items, path=index)
 
 
 SceneValidator: Any = jsonschema.validators.extend(

@@ -69,7 +69,9 @@ def check_outputs(options: argparse.Namespace, *, bundled: Sequence[Path] = ()) 
     # Frames of overlays have an alpha channel whatever the illustration is, unless something else is said.
     by_model = draws_opaque(options)
     usual = Background("parts" if suffix_of(options.output) in OVERLAYS and not by_model else "picture")
-    said = background_of(options.background) if options.background and not in_layers(options) else usual
+    said = (
+        background_of(options.background, others=["layers"]) if options.background and not in_layers(options) else usual
+    )
     if in_layers(options) and not is_folder_name(options.output):
         raise InvalidInputError(f"--background layers needs --output to end in '/'. Got: {options.output}")
     _check_clips(options, alpha=said.has_alpha)

@@ -57,11 +57,12 @@ class Background:
         return self.kind != "picture"
 
 
-def background_of(text: str) -> Background:
+def background_of(text: str, *, others: Sequence[str] = ()) -> Background:
     """A background by its name or colour.
 
     Args:
         text: picture, transparent, parts, or a colour as CSS writes it: a name, #rgb or #rrggbb.
+        others: what else the caller takes, for the message.
 
     Raises:
         InvalidInputError: it is none of these.
@@ -79,7 +80,7 @@ def background_of(text: str) -> Background:
     colour: tuple[int, ...] = ()
     with suppress(ValueError):
         colour = ImageColor.getrgb(name)
-    known = "picture, transparent, parts, or a colour such as white, #8cf or #87ceeb"
+    known = f"{', '.join(('picture', 'transparent', 'parts', *others))}, or a colour such as white, #8cf or #87ceeb"
     held = len(colour) == 3 and all(0 <= level <= 255 for level in colour)
     require("background", repr(text[:60]), held, known)
     return Background("picture", (colour[0], colour[1], colour[2]))

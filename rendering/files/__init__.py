@@ -10,7 +10,7 @@ from .recorded_folder import RecordedFiles, check_recorded_folder, write_recorde
 from .regular import check_regular
 from .signals import ending_signals, hear_signals, ignore_signals, uninterrupted
 from .text_files import check_text_output, parsed_toml, read_text_file, write_text
-from .unfinished import made_beside, noting_unfinished, remove_noted, remove_unfinished
+from .unfinished import made_beside, noting_unfinished, remove_noted, remove_unfinished, removed_at_signals
 
 __all__ = [
     "RecordedFiles",
@@ -39,6 +39,7 @@ __all__ = [
     "recorded",
     "remove_noted",
     "remove_unfinished",
+    "removed_at_signals",
     "replacing",
     "same_name",
     "suffix_of",

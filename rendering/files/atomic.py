@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from ...physics.errors import InvalidInputError
+from ...physics.errors import InvalidInputError, PhysAnimatorError
 from .path_names import StrPath
 from .places import check_replaceable
 from .signals import uninterrupted
@@ -17,8 +17,8 @@ from .unfinished import made_beside
 
 __all__ = ["is_full", "naming_place", "putting_in_place", "replacing"]
 
-_FULL = {getattr(errno, name, None) for name in ("ENOSPC", "EDQUOT", "EROFS")} - {None}
-_OF_THE_DISK = {getattr(errno, name, None) for name in ("ENOSPC", "EDQUOT", "EFBIG", "EIO", "EROFS")} - {None}
+_FULL = {getattr(errno, name) for name in ("ENOSPC", "EDQUOT", "EROFS") if hasattr(errno, name)}
+_OF_THE_DISK = {getattr(errno, name) for name in ("ENOSPC", "EDQUOT", "EFBIG", "EIO", "EROFS") if hasattr(errno, name)}
 
 
 @contextmanager
@@ -66,13 +66,25 @@ def putting_in_place(path: StrPath) -> Iterator[None]:
 
 @contextmanager
 def naming_place(path: StrPath) -> Iterator[None]:
-    """Let errors of the disk name the result, not the file under work."""
+    """Let errors of the disk name the result, not the file under work.
+
+    Libraries that write files by themselves, such as OpenEXR, raise errors of their own kinds, in whose texts the
+    system's stand.
+    """
     try:
         yield
-    except OSError as error:
-        if error.errno not in _OF_THE_DISK:
+    except Exception as error:
+        number = error.errno if isinstance(error, OSError) else _number_in(error)
+        if number not in _OF_THE_DISK:
             raise
-        raise OSError(error.errno, error.strerror, str(path)) from error
+        raise OSError(number, os.strerror(number), str(path)) from error
+
+
+def _number_in(error: Exception) -> int | None:
+    """The number of the error of the disk that an error's text tells of."""
+    if isinstance(error, PhysAnimatorError):
+        return None
+    return next((number for number in _OF_THE_DISK if os.strerror(number) in str(error)), None)
 
 
 def is_full(error: BaseException) -> bool:

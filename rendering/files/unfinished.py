@@ -6,18 +6,18 @@ import os
 import secrets
 import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from contextvars import ContextVar
 from pathlib import Path
 
-from .signals import uninterrupted
+from .signals import clearing_up, uninterrupted
 
-__all__ = ["made_beside", "noting_unfinished", "remove_noted", "remove_unfinished"]
+__all__ = ["made_beside", "noting_unfinished", "remove_noted", "remove_unfinished", "removed_at_signals"]
 
 _TRIES = 200  # random names, before giving up
 _PREFIX = 5  # characters of the name that give way to a dot and a random number
 
-_unfinished: set[Path] = set()
+_unfinished: dict[Path, int] = {}  # by the process that makes it: a fork knows of it as well, and must not touch it
 _note: ContextVar[Path | None] = ContextVar("note", default=None)
 
 
@@ -35,17 +35,26 @@ def made_beside(name: str, folder: Path, *, is_folder: bool = False) -> Iterator
     Raises:
         OSError: it cannot be made.
     """
-    made: Path | None = None
-    try:
-        with uninterrupted():
-            made = _made(name, folder, is_folder)
-            _unfinished.add(made)
-            _write_down(made)
-        yield made
-    finally:
-        with uninterrupted():
-            if made is not None:
-                _remove(made)
+    with removed_at_signals():
+        made: Path | None = None
+        try:
+            with uninterrupted():
+                made = _made(name, folder, is_folder)
+                _unfinished[made] = os.getpid()
+                _write_down(made)
+            yield made
+        finally:
+            with uninterrupted():
+                if made is not None:
+                    _remove(made)
+
+
+def removed_at_signals() -> AbstractContextManager[None]:
+    """Let a signal that nobody handles remove what is made inside, on whatever thread, before it ends the process.
+
+    Only the main thread can do so; it is the one to enter this while another one writes for it.
+    """
+    return clearing_up(remove_unfinished)
 
 
 @contextmanager
@@ -86,18 +95,26 @@ def _write_down(made: Path) -> None:
 
 
 def remove_unfinished() -> None:
-    """Remove everything that was made and is neither in its place nor removed: the process is ending."""
-    for made in list(_unfinished):
-        _remove(made)
+    """Remove everything that this process made and is neither in its place nor removed: it is ending."""
+    for made, process in list(_unfinished.items()):
+        if process == os.getpid():
+            _remove(made)
 
 
 def _remove(made: Path) -> None:
-    _unfinished.discard(made)
+    _unfinished.pop(made, None)
     if os.path.isdir(made) and not os.path.islink(made):
-        shutil.rmtree(made, ignore_errors=True)
+        shutil.rmtree(_out_of_reach(made), ignore_errors=True)
     else:
         with suppress(OSError):
             made.unlink(missing_ok=True)
+
+
+def _out_of_reach(folder: Path) -> Path:
+    """The folder under another name, so that threads that still write into it by its own add nothing meanwhile."""
+    with suppress(OSError):
+        return folder.rename(folder.with_name(f".{secrets.token_hex(8)}"))
+    return folder
 
 
 def _made(name: str, folder: Path, is_folder: bool) -> Path:

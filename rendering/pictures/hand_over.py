@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 from ...physics.beside import Beside
 from ...physics.interruption import checkpoint
 from ...physics.threads import allowed_threads
+from ..files import removed_at_signals
 
 __all__ = ["consumed_beside"]
 
@@ -33,7 +34,7 @@ def consumed_beside(items: Iterable[T], consume: Callable[[Iterator[T]], None], 
         consume(_in_turns(items))
         return
     handed: queue.Queue[Any] = queue.Queue(ahead)
-    with Beside(lambda: consume(_arriving(handed))) as consumer:
+    with removed_at_signals(), Beside(lambda: consume(_arriving(handed))) as consumer:
         for item in items:
             if not _put(handed, item, consumer):
                 break

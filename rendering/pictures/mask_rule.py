@@ -137,8 +137,8 @@ def _by_grey(plane: FloatPlane, called: str) -> MaskFile:
             f"{255 * unit * level:.0f} on {100 * share:.1f} %" for level, share in levels if level >= greys[0]
         )
         raise InvalidInputError(
-            f"{called} must show one part in white; of labels, save one as a mask of its own."
-            f" Got: {len(greys)} grey levels besides black: {seen}"
+            f"{called} must show one part in white; of labels, save one as a mask of its own, and what fades in more"
+            f" shades. Got: {len(greys)} grey levels besides black: {seen}"
         )
     if (greys and greys[0] < _BRIGHT * highest / unit) or (highest < 0.5 and (greys or _of_one_level(plane))):
         return MaskFile(np.clip(plane / np.float32(unit * greys[0] if greys else highest), 0, 1), soft or ())
@@ -196,8 +196,8 @@ def _by_colour(rgb: NDArray[np.uint8], called: str) -> MaskFile:
     soft = _as_soft(plane, len(between) + 1, called) if between else ()
     if soft is None:
         raise InvalidInputError(
-            f"{called} must show one part; of labels, save one as a mask of its own. Got: {len(between) + 1} shades of"
-            f" {part.name}"
+            f"{called} must show one part; of labels, save one as a mask of its own, and what fades in more shades."
+            f" Got: {len(between) + 1} shades of {part.name}"
         )
     notes = (f"{called}: {part.name} on white was taken as the part",) if rest.name == "white" else ()
     return MaskFile(plane, (*notes, *soft))

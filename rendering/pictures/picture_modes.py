@@ -22,6 +22,8 @@ StrPath = str | os.PathLike[str]
 GREY_MODES = ("I", "F", "I;16", "I;16L", "I;16B", "I;16N")
 """Pillow's modes of one plane with more than 8 bits."""
 
+_LEAST_OF_RANGE = 16  # the part of a range that values reach is at least one by this
+
 
 def has_transparency(picture: Image.Image) -> bool:
     """Whether a picture says anywhere how opaque it is."""
@@ -57,7 +59,8 @@ def grey_numbers(picture: Image.Image, *, name: str = "picture") -> NDArray[Any]
     """The values of a picture of one of ``GREY_MODES`` as 0 to 1, shape [h, w].
 
     16-bit files reach to 65535. 32-bit files are written with any range: the smallest of 0 to 1 (of fractions), 255,
-    65535 and 2^31 - 1 that holds all values is taken.
+    65535 and 2^31 - 1 that holds all values is taken, if they reach a sixteenth of it: of others, such as 0 to 4095,
+    nothing tells whether they are nearly black or of a range of their own.
 
     Raises:
         InvalidInputError: a value is not finite, negative, or the range cannot be told.
@@ -70,12 +73,13 @@ def grey_numbers(picture: Image.Image, *, name: str = "picture") -> NDArray[Any]
     ranges: tuple[float, ...] = (1.0, 255.0, 65535.0) if fractions else (255.0, 65535.0, 2.0**31 - 1)
     if picture.mode.startswith("I;16") or picture.format == "PNG":
         ranges = (65535.0,)
-    # Above 1 and below 16 it may be a picture brighter than white, or a nearly black one of 255 levels.
-    unclear = fractions and 1 + OVERSHOOT < high < 16
     fitting = [each for each in ranges if high <= each * (1 + OVERSHOOT if fractions and each == 1 else 1)]
+    unclear = bool(fitting) and fitting[0] > ranges[0] and high < fitting[0] / _LEAST_OF_RANGE
     if low < (-OVERSHOOT if fractions else 0) or unclear or not fitting:
-        known = "0 to 1, 0 to 255 or 0 to 65535" if fractions else f"0 to {ranges[-1]:.0f}"
-        raise InvalidInputError(f"{name} must hold numbers from {known}. Got: {low:.6g} to {high:.6g}")
+        known = [f"0 to {each:.0f}" for each in ranges]
+        of = f"{', '.join(known[:-1])} or {known[-1]}" if known[1:] else known[0]
+        reaching = f", and reach a sixteenth of that" if unclear else ""
+        raise InvalidInputError(f"{name} must hold numbers from {of}{reaching}. Got: {low:.6g} to {high:.6g}")
     return np.clip(values / fitting[0], 0.0, 1.0)
 
 

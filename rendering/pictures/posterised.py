@@ -53,7 +53,9 @@ def is_gradient(plane: NDArray[np.float32]) -> bool:
     if _share_of_single(steps) >= _ONE_STEP:
         return _in_bands(steps, range(1, count - 1), _ALIKE)
     # A part that fades only inside of a hard outline lies on black with all of its greys.
-    return _share_of_single(steps, painted=True) >= _ONE_STEP and _in_bands(steps, range(2, count - 1), _SAME)
+    if _share_of_single(steps, painted=True) < _ONE_STEP:
+        return False
+    return count > 2 * _NESTED or _in_bands(steps, range(2, count - 1), _SAME)
 
 
 def _steps_of(plane: NDArray[np.float32]) -> tuple[Steps, int]:

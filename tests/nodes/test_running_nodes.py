@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bar_graphs import core, drawn_bar, ours
+from bar_graphs import core, drawn_bar, moving_bar, ours
 from PIL import Image
 
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
@@ -103,6 +103,31 @@ def test_a_motion_is_saved_for_spine_and_gltf(standin: Any) -> None:
         wrong = drawn_bar(5) | {"saved": ours("SaveSpineOrGltf", file_type="glb", **(given | {name: value}))}
         errors, _ = standin.post(wrong)
         assert f"{name} must be" in errors["saved"][0]["details"]
+
+
+@pytest.mark.parametrize("colour", [0xFFFFFF, 0x000000])
+def test_a_plate_of_another_picture_is_told(standin: Any, colour: int) -> None:
+    """Whoever draws with it says so; black is what the picture shows beside the bar."""
+    drawn = {"image": ["picture", 0], "motion": ["motion", 0], "clean_plate": ["behind", 0]}
+    form = {"frames": 5, "width": 160, "height": 96, "fit": "crop"}
+    prompt = moving_bar(5) | {
+        "behind": core("EmptyImage", width=160, height=96, batch_size=1, color=colour),
+        "render": ours("Render", **drawn),
+        "seen": core("PreviewImage", images=["render", 0]),
+        "saved": ours("SaveAnimation", file_type="webp", filename_prefix="plate/bar", width=0, **drawn),
+        "rigged": ours("SaveSpineOrGltf", file_type="glb", tolerance=0.3, filename_prefix="plate/bar", **drawn),
+        "warped": ours("WarpedVideo", grow=0, **drawn, **form),
+        "bent": core("PreviewImage", images=["warped", 0]),
+        "ends": ours("FirstAndLastFrame", first_frame=0, last_frame=-1, **drawn, **{**form, "frames": 0}),
+        "end": core("PreviewImage", images=["ends", 0]),
+    }
+    del prompt["ends"]["inputs"]["frames"]
+    outputs = standin.run(prompt)
+    sentence = "clean_plate differs from the picture on 100 % of what does not move"
+    for node in ("render", "saved", "rigged", "warped", "ends"):
+        told = [each for each in outputs.get(node, {}).get("advice", []) if each.startswith("clean_plate")]
+        assert len(told) == (colour > 0), node
+        assert all(each.startswith(sentence) for each in told)
 
 
 def test_moving_noise_is_a_latent_of_a_video(standin: Any) -> None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import copy
 import json
 import math
+import tracemalloc
 from dataclasses import MISSING, fields
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +17,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from physanimator.physics import limits
-from physanimator.physics.document import dumps, loads, scene_from_dict, scene_schema, scene_to_dict
+from physanimator.physics.document import dumps, json_text, loads, scene_from_dict, scene_schema, scene_to_dict
 from physanimator.physics.document.quick_check import is_right
 from physanimator.physics.errors import InvalidInputError, SceneError
 from physanimator.physics.fields import described_fields
@@ -613,6 +615,67 @@ def test_wrong_texts(text: str | bytes, path: str, words: str) -> None:
 def test_text_of_any_length_is_refused_before_it_is_read() -> None:
     with pytest.raises(SceneError, match="at most 64 MB"):
         loads(b" " * (limits.MAX_DOCUMENT_BYTES + 1))
+
+
+HEAD = '{"version": 2, "width": 9, "height": 9, "strokes": ['
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (HEAD + "1," * limits.MAX_DOCUMENT_VALUES + "1]}", "at most 4,200,000 values"),
+        (HEAD + "[" * limits.MAX_DOCUMENT_LISTS + "]" * limits.MAX_DOCUMENT_LISTS + "]}", "at most 1,600,000 lists"),
+        (HEAD + "{}," * limits.MAX_DOCUMENT_OBJECTS + "{}]}", "at most 100,000 objects"),
+        (HEAD + "{" + '"a":1,' * limits.MAX_DOCUMENT_KEYS + '"b":1}]}', "at most 500,000 keys"),
+        (HEAD + "9" * limits.MAX_DIGITS + "]}", "at most 1,000 digits a number"),
+    ],
+    ids=["values", "lists", "objects", "keys", "digits"],
+)
+@pytest.mark.parametrize("encoded", [False, True])
+def test_what_would_fill_the_memory_is_refused_before_it_is_read(text: str, words: str, encoded: bool) -> None:
+    given = text.encode() if encoded else text
+    tracemalloc.start()
+    try:
+        with pytest.raises(SceneError, match=words):
+            loads(given)
+        assert tracemalloc.get_traced_memory()[1] < 200_000
+    finally:
+        tracemalloc.stop()
+
+
+def test_what_could_not_be_read_again_is_not_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = scene_from_dict(GOOD)
+    few = partial(json_text.Most, lists=3)
+    assert loads(dumps(scene)) is not None
+    monkeypatch.setattr(json_text, "_OF_A_SCENE", few())
+    with pytest.raises(SceneError, match="at most 3 lists"):
+        dumps(scene)
+
+
+def test_the_place_of_a_repeated_key_is_found_without_a_way_to_every_other() -> None:
+    count = 20_000
+    text = HEAD + "[[1]]," * count + '{"path": [[{"a": 1, "a": 2}]]}]}'
+    with pytest.raises(SceneError, match=rf"^strokes\[{count}\]\.path\[0\]\[0\]\.a: stands twice"):
+        loads(text)
+    tracemalloc.start()
+    try:
+        data = [[[1]] for _ in range(count)]
+        before = tracemalloc.get_traced_memory()[0]
+        json_text._refuse_repeated_keys(data)
+        assert tracemalloc.get_traced_memory()[1] - before < 20_000
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("wrong", [math.nan, math.inf, True, "1", None, [1]], ids=str)
+@pytest.mark.parametrize("place", [0, 1, 5000, 5999])
+def test_a_wrong_value_among_thousands_is_named(wrong: object, place: int) -> None:
+    path: list[list[Any]] = [[1, 2.5] for _ in range(6000)]
+    path[place][1] = wrong
+    data = {**GOOD, "strokes": [{"path": path}]}
+    assert not is_right(data)
+    with pytest.raises(SceneError, match=rf"^strokes\[0\]\.path\[{place}\]\[1\]: must be a number"):
+        scene_from_dict(data)
 
 
 def test_strokes_together_have_a_limit_of_particles() -> None:

@@ -30,6 +30,8 @@ def test_anything_else_is_refused_in_one_sentence(text: str) -> None:
     with pytest.raises(InvalidInputError, match=r"^background must be picture, transparent, parts, or a colour") as got:
         background_of(text)
     assert len(str(got.value)) < 200
+    with pytest.raises(InvalidInputError, match="parts, layers, or a colour"):
+        background_of(text, others=["layers"])
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import sys
 from pathlib import Path
 
@@ -76,3 +78,20 @@ def test_without_the_package_it_is_said_before_the_work(tmp_path: Path, monkeypa
     with pytest.raises(InvalidInputError, match="channels must be one of nuke, blender"):
         save_motion_vectors(motion(), tmp_path / "out", channels="fusion")  # type: ignore[arg-type]
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there are no such limits")
+def test_a_file_that_the_disk_does_not_take_is_told_as_all_are(tmp_path: Path) -> None:
+    """The library that writes them raises an error of its own kind."""
+    import resource
+
+    pytest.importorskip("OpenEXR")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, before[1]))
+    try:
+        with pytest.raises(OSError, match="out") as told:
+            save_motion_vectors(motion(), tmp_path / "out")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert told.value.errno == errno.EFBIG
+    assert list(tmp_path.iterdir()) == []

@@ -9,8 +9,16 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from physanimator.rendering.files import ending_signals, hear_signals, ignore_signals, replacing, uninterrupted
-from physanimator.rendering.files.signals import Ended
+from physanimator.rendering.files import (
+    ending_signals,
+    hear_signals,
+    ignore_signals,
+    made_beside,
+    remove_unfinished,
+    replacing,
+    uninterrupted,
+)
+from physanimator.rendering.files.signals import Ended, clearing_up
 
 # Where a signal is heard is the very thing: the blocks are as long as that takes.
 # ruff: noqa: PT012, SIM105
@@ -138,3 +146,67 @@ def test_a_file_is_replaced_whole_although_a_signal_comes(tmp_path: Path, monkey
         assert path.read_text() in ("earlier", "new")
         assert list(tmp_path.iterdir()) == [path]
     assert steps >= 5
+
+
+def test_ctrl_c_waits_in_the_library_as_well() -> None:
+    done = []
+    with pytest.raises(KeyboardInterrupt) as stopped, clearing_up(lambda: None), uninterrupted():
+        send(signal.SIGINT)
+        done.append("finished")
+    assert done == ["finished"]
+    assert type(stopped.value) is KeyboardInterrupt  # of nothing else Python makes exit status 130
+
+
+def test_whoever_handles_signals_in_a_script_goes_on_doing_so(tmp_path: Path) -> None:
+    heard = []
+    before = signal.signal(signal.SIGTERM, lambda *_: heard.append(1))
+    try:
+        with replacing(tmp_path / "a.txt") as temporary:
+            send(signal.SIGTERM)
+            temporary.write_text("whole", encoding="utf-8")
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert heard == [1]
+    assert [each.name for each in tmp_path.iterdir()] == ["a.txt"]
+
+
+def test_a_command_hears_signals_while_it_writes(tmp_path: Path) -> None:
+    with pytest.raises(Ended), ending_signals(), replacing(tmp_path / "a.txt"):
+        send(signal.SIGTERM)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_fork_removes_nothing_of_the_process_that_it_is_of(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with made_beside("a.txt", tmp_path) as made:
+        with monkeypatch.context() as in_the_fork:
+            in_the_fork.setattr(os, "getpid", lambda: -1)
+            remove_unfinished()
+        assert made.exists()
+        remove_unfinished()
+        assert not made.exists()
+
+
+def test_a_folder_goes_while_somebody_writes_into_it(tmp_path: Path) -> None:
+    stop = threading.Event()
+
+    def write(folder: Path) -> None:
+        number = 0
+        while not stop.is_set() and number < 200_000:
+            number += 1
+            try:
+                (folder / f"frame_{number}.png").write_bytes(b"0")
+            except OSError:
+                return
+
+    with made_beside("frames", tmp_path, is_folder=True) as made:
+        writing = [threading.Thread(target=write, args=(made,)) for _ in range(3)]
+        for each in writing:
+            each.start()
+        while len(list(made.iterdir())) < 50:
+            pass
+        remove_unfinished()
+        left = list(tmp_path.iterdir())
+        stop.set()
+        for each in writing:
+            each.join()
+    assert left == []

@@ -241,6 +241,15 @@ def test_planes_that_cannot_be_told(tmp_path: Path, value: float, message: str) 
             load(tmp_path / "deep.tif")
 
 
+@pytest.mark.parametrize("most", [256, 1023, 4095, 2**24 - 1, 100_000_000])
+@pytest.mark.parametrize("kind", [np.int32, np.float32])
+def test_a_range_that_no_value_comes_near_is_not_guessed(tmp_path: Path, most: int, kind: type) -> None:
+    """Taken for the next wider one, the picture would be nearly black."""
+    Image.fromarray(np.linspace(0, most, 72).reshape(8, 9).astype(kind)).save(tmp_path / "deep.tif")
+    with pytest.raises(InvalidInputError, match="deep.tif must hold numbers from 0 to"):
+        load_image(tmp_path / "deep.tif")
+
+
 def test_page_descriptions_are_not_opened(tmp_path: Path) -> None:
     (tmp_path / "page.png").write_bytes(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\nshowpage\n")
     with pytest.raises(InvalidInputError, match="PNG, JPEG or WebP"):

@@ -183,6 +183,28 @@ def test_a_gradient_in_a_few_steps_is_one_soft_mask_and_says_so(
     assert f"shows {greys - 1} shades in order" in found.notes[0]
 
 
+def strands_that_fade(greys: int) -> np.ndarray:
+    """Three slanting strands of unlike widths in shades across all of them, 0 on black."""
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
+    inside = ((abs(x - 25 - 0.2 * y) < 3) | (abs(x - 50 + 0.1 * y) < 9) | (abs(x - 80 - 0.3 * y) < 2)) & (y > 6)
+    across = 1 - (x / WIDTH + y / HEIGHT) / 2
+    return np.where(inside, (np.floor(np.clip(across, 0, 0.999) * greys) + 1) / greys, 0)
+
+
+@pytest.mark.parametrize("greys", [24, 32])
+def test_strands_that_fade_in_many_shades_are_one_part(tmp_path: Path, greys: int) -> None:
+    shares = strands_that_fade(greys)
+    Image.fromarray(np.rint(shares * 255).astype(np.uint8)).save(tmp_path / "a.png")
+    found = read_mask(tmp_path / "a.png", width=WIDTH, height=HEIGHT)
+    assert np.abs(found.coverage / found.coverage.max() - shares / shares.max()).max() < 0.04
+
+
+def test_too_few_shades_to_tell_say_what_to_do(tmp_path: Path) -> None:
+    Image.fromarray(np.rint(strands_that_fade(3) * 255).astype(np.uint8)).save(tmp_path / "a.png")
+    with pytest.raises(InvalidInputError, match="of labels, save one as a mask of its own, and what fades in more"):
+        load_mask(tmp_path / "a.png", width=WIDTH, height=HEIGHT)
+
+
 @pytest.mark.parametrize("greys", [4, 6, 8, 16, 32])
 @pytest.mark.parametrize("colour", ["white", "red"])
 @pytest.mark.parametrize("highest", [1, 0.6])
