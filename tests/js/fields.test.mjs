@@ -106,6 +106,17 @@ test("a file from the input folder and the pack's own example are pictures, a by
   assert.equal(found({ type: "PhysAnimator_ExampleIllustration" }), "/physanimator/example");
 });
 
+test("a node that left its graph has no picture, and its frontend is not asked", () => {
+  const first = { id: 1, type: "A", inputs: [{ type: "IMAGE", to: 1 }] };
+  const second = { id: 2, type: "B", inputs: [{ type: "IMAGE", to: 2 }] };
+  const root = graphOf([first, second], { 1: { origin_id: 2 }, 2: { origin_id: 1 } });
+  second.graph = undefined;
+  second.getInputLink = () => {
+    throw new TypeError("Cannot read properties of undefined (reading 'getLinks')");
+  };
+  assert.equal(upstreamPicture(first, root), null);
+});
+
 test("a ring of links ends, and a node without a picture has none", () => {
   const first = { id: 1, type: "A", inputs: [{ type: "IMAGE", to: 1 }] };
   const second = { id: 2, type: "B", inputs: [{ type: "IMAGE", to: 2 }] };

@@ -15,5 +15,6 @@ export function isConnected(node, slot) {
  * @returns {any} what is connected to it; null for nothing
  */
 export function linkInto(node, slot) {
-  return (isConnected(node, slot) && node.getInputLink?.(slot)) || null;
+  // A node that left its graph, as when it goes into a subgraph, may keep its slots; older frontends then ask a graph that is not there.
+  return (node.graph && isConnected(node, slot) && node.getInputLink?.(slot)) || null;
 }
