@@ -1,6 +1,6 @@
 /**
  * A new node where its user can see it: the picture in it is large, and hosts put nodes down where there was a double
- * click, on a small screen half of it outside the window.
+ * click, on a small screen with half of it out of sight.
  *
  * @typedef {{left: number, top: number, right: number, bottom: number}} Box
  * @typedef {{scale: number, x: number, y: number}} View  what lies at (a, b) of the graph is seen at ((a + x) * scale, (b + y) * scale)
