@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from .noise import LEAST_NOISE, noise_of, sharpness_of, without_noise
 
-__all__ = ["Looks"]
+__all__ = ["Looks", "is_backdrop"]
 
 Mask = NDArray[np.bool_]
 Lab = NDArray[np.uint8]
@@ -38,6 +38,7 @@ _SPREADS = (20, 16, 12, 9, 6)
 shade change it more than they change the two other channels, which are held to half as much."""
 _LEAST_CONTRAST = 12.0
 """Where small steps lead over edges of so much contrast [8-bit Lab], they lead out of most parts."""
+_BACKDROP = 0.25  # of the picture's border: a region along so much of it is what parts lie on
 _BRIDGE = 5  # narrower ways than this may be of noise alone [px]
 
 
@@ -104,6 +105,12 @@ class Looks:
         if _noise_around(self._clean, point) < LEAST_NOISE:
             return held | _broadly(_flooded(self._clean, point, others, tolerance), held)
         return held | _broadly(_flooded(look, point, others, max(1, tolerance // 2)), held)
+
+
+def is_backdrop(region: Mask) -> bool:
+    """Whether a region runs along so much of the picture's border that it is what parts lie on."""
+    border = np.concatenate([region[0], region[-1], region[1:-1, 0], region[1:-1, -1]])
+    return bool(border.mean() > _BACKDROP)
 
 
 def _noise_around(lab: Lab, point: NDArray[np.int_], size: int = 3) -> float:

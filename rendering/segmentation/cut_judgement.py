@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...physics.document import parse_points
 from .parts_beyond import parts_beyond
 from .prompts import Box, Prompt
+from .speck_clicks import REACH
 
 __all__ = ["judge_cut", "judge_cuts", "judge_points"]
 
@@ -125,7 +126,7 @@ def _across(image: NDArray[Any], mask: Mask, beside: NDArray[np.int_], others: M
 def _specks(mask: Mask, cells: NDArray[np.int_]) -> str:
     """About the points on the part around which hardly anything was cut."""
     _, labels, statistics, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
-    areas = np.where(mask[cells[:, 1], cells[:, 0]], statistics[labels[cells[:, 1], cells[:, 0]], cv2.CC_STAT_AREA], 0)
+    areas = np.array([_area_near(cell, labels, statistics[:, cv2.CC_STAT_AREA]) for cell in cells], dtype=int)
     small = areas <= max(1.0, _SPECK * mask.size)
     if not small.any():
         return ""
@@ -138,6 +139,14 @@ def _specks(mask: Mask, cells: NDArray[np.int_]) -> str:
         f"{what} cut out hardly more than {itself}, at {places}: {int(areas[small].max())} px at most. Put points"
         " off lines and edges, more of them on other colours of the part, or draw a box around it."
     )
+
+
+def _area_near(cell: NDArray[np.int_], labels: NDArray[np.int32], areas: NDArray[np.int32]) -> int:
+    """The largest piece of a cut within the reach in which a click stands for what is close by [px]."""
+    reach = round(REACH * max(labels.shape))
+    x, y = np.maximum(cell - reach, 0)
+    near = np.unique(labels[y : cell[1] + reach + 1, x : cell[0] + reach + 1])
+    return int(areas[near[near > 0]].max(initial=0))
 
 
 def _holes(mask: Mask, cells: NDArray[np.int_]) -> str:

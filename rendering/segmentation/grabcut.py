@@ -21,6 +21,7 @@ from .line_clicks import off_lines
 from .noise import noise_of, without_noise
 from .outline_cuts import cut_by_majority, grab_cut, window_of, without_foreign_lines
 from .prompts import Box, checked_box, checked_points, require_object
+from .speck_clicks import off_specks
 from .trimap import trimap_from_points
 
 __all__ = ["segment"]
@@ -94,6 +95,7 @@ def segment(
     at = np.minimum((seeds * small_size / (width, height)).astype(int), np.array(small_size) - 1)
 
     at, on_object = off_lines(lab, at, positive, tolerance)
+    at = off_specks(lab, at, on_object, tolerance)
     trimap = trimap_from_points(lab, at, on_object, small_limit, tolerance, has_box=box is not None)
     # Noise stays: the colour models and the smoothness of the cut bear it better than the loss of thin strands.
     found = cut_by_majority(lab, trimap, iterations, at[on_object])

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from .clicked_regions import Looks
+from .clicked_regions import Looks, is_backdrop
 from .noise import noise_of, without_noise
 
 __all__ = ["off_lines"]
@@ -27,7 +27,6 @@ _LEAST_CONTRAST = 12.0
 _TIMES_NOISE = 3.0
 _LONG = 3.0  # times its own width
 _LINE_SHARE = 0.8  # of a region that is nothing but a line
-_BACKDROP = 0.25  # of the picture's border: a region along so much of it is what parts lie on
 _ALIKE = (20, 10, 10)  # by which light and shade change one colour [8-bit Lab]
 _DIRECTIONS = 16
 _SQUARE = np.ones((3, 3), np.uint8)
@@ -85,7 +84,7 @@ def _beside(
     if across is None or not own.any() or (own & lines).sum() < _LINE_SHARE * own.sum():
         return point[None]
     sides = [(each, looks.region(each, others, tolerance)) for each in across]
-    sides = [(each, region) for each, region in sides if region.any() and not _is_backdrop(region)]
+    sides = [(each, region) for each, region in sides if region.any() and not is_backdrop(region)]
     sides = _preferred(lab, sides, known)
     if len(sides) < 2:
         return sides[0][0][None] if sides else point[None]
@@ -127,8 +126,3 @@ def _across(point: Points, lines: Mask) -> tuple[Points, Points] | None:
         if len(ends) == 2 and (length := float(np.hypot(*(ends[0] - ends[1])))) < least:
             best, least = (ends[0], ends[1]), length
     return best
-
-
-def _is_backdrop(region: Mask) -> bool:
-    border = np.concatenate([region[0], region[-1], region[1:-1, 0], region[1:-1, -1]])
-    return bool(border.mean() > _BACKDROP)

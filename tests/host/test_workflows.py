@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from comfy_host import skip_without_its_nodes
 from frame_interpolation_graph import for_newer_hosts
 from graphs import without_models
 from video_model_graphs import led_by, without_video_model
@@ -41,12 +42,6 @@ def frames_of(video: bytes) -> np.ndarray:
 
     with av.open(io.BytesIO(video)) as container:
         return np.stack([frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)])
-
-
-def skip_without_its_nodes(host: Any, prompt: dict[str, Any]) -> None:
-    missing = {node["class_type"] for node in prompt.values()} - set(host.get("/object_info"))
-    if missing:
-        pytest.skip(f"this host has no {', '.join(sorted(missing))}")
 
 
 @pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.stem)

@@ -106,6 +106,34 @@ test("a file from the input folder and the pack's own example are pictures, a by
   assert.equal(found({ type: "PhysAnimator_ExampleIllustration" }), "/physanimator/example");
 });
 
+test("a node that left its graph has no picture, and its frontend is not asked", () => {
+  const first = { id: 1, type: "A", inputs: [{ type: "IMAGE", to: 1 }] };
+  const second = { id: 2, type: "B", inputs: [{ type: "IMAGE", to: 2 }] };
+  const root = graphOf([first, second], { 1: { origin_id: 2 }, 2: { origin_id: 1 } });
+  second.graph = undefined;
+  second.getInputLink = () => {
+    throw new TypeError("Cannot read properties of undefined (reading 'getLinks')");
+  };
+  assert.equal(upstreamPicture(first, root), null);
+});
+
+test("a node that holds a subgraph is asked for the link at its outer end", () => {
+  const inner = { id: 5, type: "PhysAnimator_SceneEditor", inputs: [{ type: "IMAGE", to: 20 }] };
+  const subgraph = graphOf([inner], { 20: { origin_id: -10, origin_slot: 0 } });
+  const holder = { id: 3, type: "sub", subgraph, inputs: [{ type: "IMAGE", to: 11 }] };
+  const root = graphOf([load, holder], { 11: { origin_id: 1 } });
+  const { getInputLink } = holder;
+  holder.getInputLink = () => {
+    throw new TypeError("Cannot read properties of undefined (reading 'getLinks')");
+  };
+  globalThis.LiteGraph = { LGraphNode: { prototype: { getInputLink } } };
+  try {
+    assert.equal(upstreamPicture(inner, root), "/view?filename=girl.png&subfolder=art&type=output");
+  } finally {
+    delete globalThis.LiteGraph;
+  }
+});
+
 test("a ring of links ends, and a node without a picture has none", () => {
   const first = { id: 1, type: "A", inputs: [{ type: "IMAGE", to: 1 }] };
   const second = { id: 2, type: "B", inputs: [{ type: "IMAGE", to: 2 }] };

@@ -233,7 +233,7 @@ export class Editor {
 
   /** @param {string[]} sentences about what the node has made; they stay until something changes or it runs again */
   advise(sentences) {
-    this.notes.show("advice", sentences.join("\n"));
+    this.notes.show("advice", sentences.join("\n"), { closes: true });
   }
 
   redraw() {
@@ -372,7 +372,7 @@ export class Editor {
     const zoom = Math.round(this.stage.view.scale * 100);
     const said = [this.picking?.viewed ? say("The frames of the last run") : ACTIONS[this.tool.id].title, `${zoom} % · ${width} × ${height} px`];
     const parts = [this.status.firstElementChild?.firstElementChild, this.status.lastElementChild];
-    parts.forEach((part, i) => part && part.textContent !== said[i] && (part.textContent = said[i]));
+    parts.forEach((part, i) => part && part.textContent !== said[i] && Object.assign(part, { textContent: said[i], title: said[i] }));
   }
 
   /** Let the host hear of the last change at once, if it has not yet. */

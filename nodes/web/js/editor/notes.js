@@ -1,5 +1,6 @@
 /** Sentences over the picture: what went wrong, what to do, what has just happened. */
 
+import { say } from "../host/words.js";
 import { element } from "../panels/elements.js";
 
 const PASSING = 7000;
@@ -14,13 +15,14 @@ export class Notes {
   /**
    * @param {string} name  of the place; a new sentence takes the place of the old one
    * @param {string} text  empty: nothing
-   * @param {{kind?: "info" | "error", passing?: boolean, button?: [string, () => void]}} [options]
+   * @param {{kind?: "info" | "error", passing?: boolean, closes?: boolean, button?: [string, () => void]}} [options]
    */
-  show(name, text, { kind = "info", passing = false, button } = {}) {
+  show(name, text, { kind = "info", passing = false, closes = false, button } = {}) {
     this.shown.get(name)?.remove();
     this.shown.delete(name);
     if (!text) return;
     const more = button ? [element("button", { type: "button", onclick: button[1], "data-action": name }, [button[0]])] : [];
+    if (closes) more.push(element("button", { type: "button", className: "physanimator-close", onclick: () => this.show(name, ""), title: say("Close"), "aria-label": say("Close") }, ["×"]));
     const note = element("div", { className: "physanimator-note", "data-kind": kind, "data-note": name, role: kind === "error" ? "alert" : "status" }, [text, ...more]);
     this.shown.set(name, note);
     this.root.append(note);
@@ -35,6 +37,17 @@ export class Notes {
    */
   keep(name, text) {
     if ((this.shown.get(name)?.textContent ?? "") !== text) this.show(name, text);
+  }
+
+  /**
+   * Sentences under which the pointer is hide what it points at: they fade until it has left.
+   *
+   * @param {PointerEvent} event
+   */
+  makeWay({ clientX: x, clientY: y, type }) {
+    const under = (/** @type {DOMRect} */ { left, right, top, bottom }) => x >= left && x <= right && y >= top && y <= bottom;
+    const away = type !== "pointerleave" && [...this.shown.values()].some((note) => under(note.getBoundingClientRect()));
+    this.root.toggleAttribute("data-away", away);
   }
 
   /** @param {string} sentence that goes away by itself */

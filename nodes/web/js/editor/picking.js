@@ -48,7 +48,9 @@ const STYLE = `
 .physanimator-editor[data-picks="true"] .physanimator-lanes { display: none; }
 .physanimator-frame[data-viewed="result"] .physanimator-bar :is(button, .physanimator-slider, .physanimator-readout) { visibility: hidden; }
 .physanimator-editor[data-picks="true"] { min-height: 330px; }
-[data-node-id] .physanimator-editor[data-picks="true"] { min-height: max(400px, var(--node-height, 0px) - 420px); }
+/* What such a node has beside its editor in older Vue canvases: with less the node would grow each time it is opened. */
+[data-node-id] .physanimator-editor[data-picks] { min-height: max(300px, var(--node-height, 0px) - 276px); }
+[data-node-id] .physanimator-editor[data-picks="true"] { min-height: max(400px, var(--node-height, 0px) - 472px); }
 `;
 
 export class Picking {
@@ -230,7 +232,7 @@ export class Picking {
       if (this.running === mine) this.#tell("");
     } catch (error) {
       if (this.running !== mine || mine.signal.aborted) return;
-      editor.notes.show("pick", /** @type {Error} */ (error).message, { kind: "error" });
+      editor.notes.show("pick", /** @type {Error} */ (error).message, { kind: "error", closes: true });
     } finally {
       clearTimeout(telling);
     }

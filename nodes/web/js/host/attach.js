@@ -16,6 +16,7 @@
 
 import { Editor } from "../editor/editor.js";
 import { shareGestures } from "./gestures.js";
+import { bringIntoView } from "./into_view.js";
 import { executionId, runNode } from "./queueing.js";
 import { upstreamPicture } from "./upstream.js";
 import { chain, embed, hide, tell } from "./widgets.js";
@@ -59,21 +60,23 @@ export function attachEditor(app, api, node, kind) {
   embed(node, "physanimator_editor", editor.root, kind.picks && kind.moves ? SHORTEST_PICKING : SHORTEST);
   shareGestures(app, node, editor.root);
   follow(app, api, node, value, editor, kind);
-  grow(node, kind.size, editor.root);
+  grow(app, node, kind.size, editor.root);
   return editor;
 }
 
 /**
- * Give a new node its size; one that is opened with its workflow keeps what the user made of it.
+ * Give a new node its size, and bring it into view; one that is opened with its workflow keeps what the user made of it.
  *
+ * @param {any} app
  * @param {any} node
  * @param {[number, number]} size
  * @param {HTMLElement} root
  */
-function grow(node, size, root) {
+function grow(app, node, size, root) {
   let opened = false;
   chain(node, "onConfigure", () => (opened = true));
   node.setSize?.([Math.max(node.size[0], size[0]), Math.max(node.size[1], size[1])]);
+  chain(node, "onAdded", () => bringIntoView(app, node, () => opened));
   // Older Vue canvases measure a new node once by themselves, and then only listen to the size of its box.
   chain(node, "onAdded", () =>
     setTimeout(() => {

@@ -15,5 +15,9 @@ export function isConnected(node, slot) {
  * @returns {any} what is connected to it; null for nothing
  */
 export function linkInto(node, slot) {
-  return (isConnected(node, slot) && node.getInputLink?.(slot)) || null;
+  // A node that has left its graph, as when it goes into a subgraph, may keep its slots.
+  if (!node.graph || !isConnected(node, slot)) return null;
+  // Nodes that hold a subgraph answer this question about the links at its inner end; what every node does asks the outer one.
+  const outer = node.subgraph && /** @type {any} */ (globalThis).LiteGraph?.LGraphNode?.prototype.getInputLink;
+  return (outer ? outer.call(node, slot) : node.getInputLink?.(slot)) || null;
 }

@@ -8,7 +8,7 @@ export const STYLE = `
   --physanimator-rim: var(--border-color, #4e4e54);
   --physanimator-accent: var(--p-primary-color, #3b82f6);
   container-type: size;
-  box-sizing: border-box; width: 100%; height: 100%; min-height: max(300px, var(--node-height, 0px) - 140px);
+  box-sizing: border-box; width: 100%; height: 100%; min-height: max(300px, var(--node-height, 0px) - 180px);
   color: var(--physanimator-text); font: 13px/1.35 Inter, system-ui, sans-serif; text-align: left; scrollbar-color: var(--physanimator-dim) transparent;
 }
 .physanimator-editor *, .physanimator-editor *::before { box-sizing: border-box; }
@@ -43,9 +43,11 @@ export const STYLE = `
 .physanimator-notes { position: absolute; inset: auto 8px 8px; display: flex; flex-direction: column; align-items: flex-start; gap: 4px; pointer-events: none; }
 .physanimator-note { max-width: 100%; padding: 4px 8px; border-radius: 5px; color: #fff; background: rgba(16, 18, 24, 0.86); overflow-wrap: anywhere; }
 .physanimator-note[data-kind="error"], .physanimator-note button { pointer-events: auto; }
+.physanimator-notes[data-away] { opacity: 0.15; }
 .physanimator-note[data-kind="error"] { background: rgba(150, 28, 36, 0.94); }
 .physanimator-note button { color: #fff; background: var(--physanimator-accent); margin-left: 8px; padding: 0 8px; }
 .physanimator-note button:hover:not(:disabled) { background: var(--physanimator-accent); filter: brightness(1.15); }
+.physanimator-note .physanimator-close, .physanimator-note .physanimator-close:hover:not(:disabled) { float: right; min-width: 20px; height: 20px; padding: 0; background: transparent; }
 .physanimator-side { grid-area: inspector; display: flex; flex-direction: column; min-height: 0; border-left: 1px solid var(--physanimator-rim); }
 .physanimator-inspector { flex: 1 1 0; min-height: 0; overflow: auto; padding: 6px 8px; scrollbar-width: thin; }
 .physanimator-layers { flex: 0 1 auto; max-height: 55%; min-height: 84px; display: flex; flex-direction: column; padding: 6px 4px 4px 8px; border-bottom: 1px solid var(--physanimator-rim); }
@@ -129,7 +131,7 @@ export const STYLE = `
 .physanimator-status > :first-child { white-space: normal; }
 .physanimator-status > :last-child { flex: none; }
 .physanimator-said { display: grid; }
-.physanimator-said > * { grid-area: 1 / 1; }
+.physanimator-said > * { grid-area: 1 / 1; min-width: 0; overflow: hidden; text-overflow: ellipsis; }
 .physanimator-said > [aria-hidden] { visibility: hidden; }
 .physanimator-empty { padding: 6px 2px; color: var(--physanimator-dim); }
 .physanimator-dialog .physanimator-frame {
@@ -163,6 +165,7 @@ export const STYLE = `
   .physanimator-dialog .physanimator-lanes { height: 54px; }
 }
 @container (max-width: 519px) {
+  .physanimator-status > :first-child { white-space: nowrap; }
   .physanimator-bar .physanimator-unit { display: none; }
   .physanimator-editor > .physanimator-frame, .physanimator-editor > .physanimator-frame[data-panel="false"] {
     grid-template: "toolbar" max-content "stage" minmax(140px, 1fr) "status" max-content "inspector" max-content "timeline" max-content / minmax(0, 1fr); overflow-y: auto; scrollbar-width: thin;
@@ -178,6 +181,7 @@ export const STYLE = `
   .physanimator-editor > .physanimator-frame .physanimator-group { display: contents; }
   .physanimator-editor > .physanimator-frame .physanimator-inspector { grid-template-columns: minmax(0, 1fr); }
   .physanimator-status { flex-wrap: wrap; }
+  .physanimator-status > :first-child { white-space: normal; }
   .physanimator-editor > .physanimator-frame .physanimator-notes { inset: auto 4px 4px; }
   .physanimator-editor > .physanimator-frame .physanimator-note { padding: 2px 6px; font-size: 12px; line-height: 1.25; }
   .physanimator-editor > .physanimator-frame .physanimator-note button { height: 20px; margin-left: 6px; }
