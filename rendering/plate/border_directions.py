@@ -1,0 +1,87 @@
+"""Which way the borders of areas run where they enter a hole, and how they lead on into it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Directions", "border_directions"]
+
+FloatImage = NDArray[np.float32]
+FloatArray = NDArray[np.float32]
+IntImage = NDArray[np.int32]
+Mask = NDArray[np.bool_]
+
+# Borders are looked at within this of the hole, over about this length [px].
+_REACH = 12.0
+_SMOOTHED = 2.0
+# What is nearer to the hole than this would see it as a border [px].
+_SQUARE = np.ones((5, 5), np.uint8)
+# Squares of this side count as one piece of border [px].
+_CELL = 4
+# A piece of border counts by its distance to this power.
+_POWER = 2.0
+_FAINTEST = 1e-3
+# Places that are so far apart have directions of their own [px].
+_COARSE = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Directions:
+    """Pieces of the borders around a hole.
+
+    Attributes:
+        x, y: where they are [px], shape [e].
+        tensor: products of their normals, xx, xy, yy, times their lengths, shape [e, 3].
+    """
+
+    x: FloatArray
+    y: FloatArray
+    tensor: FloatArray
+
+    def at(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """The mean tensor at some places, with a trace of 1, shape [n, 3]; 0 without borders."""
+        if not len(self.x):
+            return np.zeros((len(x), 3), dtype=np.float32)
+        far = np.square(x[:, None] - self.x) + np.square(y[:, None] - self.y) + np.float32(1)
+        total = np.power(far, np.float32(-_POWER / 2)) @ self.tensor
+        return np.asarray(total / (total[:, :1] + total[:, 2:]), dtype=np.float32)
+
+    def dispersion(self, shape: tuple[int, ...]) -> FloatImage:
+        """Sine of the angle by which they differ in the mean from the way that most of them run, shape [h, w]."""
+        height, width = (-(-length // _COARSE) for length in shape)
+        row, column = np.indices((height, width), dtype=np.float32).reshape(2, -1) * _COARSE + (_COARSE - 1) / 2
+        xx, xy, yy = self.at(column.astype(np.float32), row.astype(np.float32)).T
+        smaller = (xx + yy - np.sqrt(np.square(xx - yy) + 4 * xy * xy)) / 2
+        sine = np.sqrt(np.maximum(smaller, 0)).astype(np.float32).reshape(height, width)
+        size = width * _COARSE, height * _COARSE
+        return cv2.resize(sine, size, interpolation=cv2.INTER_LINEAR)[: shape[0], : shape[1]]
+
+
+def border_directions(labels: IntImage, hole: Mask) -> Directions:
+    """Find the borders that are known near a hole.
+
+    Args:
+        labels: which area each pixel belongs to, shape [h, w].
+        hole: where that is not known, shape [h, w].
+    """
+    away = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    near = ~hole & (away <= _REACH)
+    known = (~hole).astype(np.float32)
+    weight = np.maximum(cv2.GaussianBlur(known, (0, 0), _SMOOTHED), np.float32(1e-3))
+    inner = cv2.erode(near.astype(np.uint8) | hole, _SQUARE) > 0
+    inner &= near & (cv2.dilate(hole.astype(np.uint8), _SQUARE) == 0)
+    tensor = np.zeros((*labels.shape, 3), dtype=np.float32)
+    for k in np.unique(labels[near]):
+        share = cv2.GaussianBlur((labels == k) * known, (0, 0), _SMOOTHED) / weight
+        right, down = (cv2.Scharr(share, cv2.CV_32F, *way) / np.float32(32) for way in ((1, 0), (0, 1)))
+        tensor += np.stack([right * right, right * down, down * down], axis=-1)
+    tensor *= inner[..., None]
+    size = -(-labels.shape[1] // _CELL), -(-labels.shape[0] // _CELL)
+    pieces = cv2.resize(tensor, size, interpolation=cv2.INTER_AREA)
+    row, column = np.nonzero(pieces[..., 0] + pieces[..., 2] > _FAINTEST / _CELL**2)
+    x, y = ((at + np.float32(0.5)) * length / count for at, length, count in ((column, labels.shape[1], size[0]), (row, labels.shape[0], size[1])))
+    return Directions(x.astype(np.float32), y.astype(np.float32), pieces[row, column])
