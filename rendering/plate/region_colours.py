@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..pictures import window_around
 from .blurring import blurred
+from .border_softness import border_softness
 from .channels import over_channels
 from .flat_regions import FlatRegions
 
@@ -25,6 +26,8 @@ _MOST = 3000
 _FEWEST = 30
 # How far the plane may lead beyond the colours that are there, as a share of their range.
 _BEYOND = 0.25
+SOFT=float(os.environ.get("SOFT","1"))
+REACH=float(os.environ.get("WREACH","3"))
 UNS=float(os.environ.get("UNS","0.5"))
 
 
@@ -59,7 +62,11 @@ def paint_regions(
     share = np.clip(np.float32(0.5) + regions.aside / 2, 0.5, 1)[..., None]
     sharp = np.where(hole[..., None], second + share * (first - second), picture)
     contrast = np.where(beside, np.sqrt(over_channels((first - second) ** 2)), 0)
-    return np.where(hole[..., None], blurred(sharp, np.float32(UNS) * regions.unsure), picture), contrast
+    width = np.hypot(border_softness(picture, hole, regions) * SOFT, np.float32(UNS) * regions.unsure)
+    border = hole & (regions.aside < 1) & (regions.number != regions.second)
+    away = cv2.distanceTransform((~border).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    width = np.where(hole & (away < np.float32(REACH) * width), width, 0)
+    return np.where(hole[..., None], blurred(sharp, width, hole | (regions.flat > 0)), picture), contrast
 
 
 def _continued(picture: FloatImage, source: Mask, wanted: Mask) -> FloatImage:
