@@ -53,12 +53,12 @@ def area_votes(labels: IntImage, hole: Mask, rim: Mask, directions: Directions) 
     one = np.eye(len(areas), dtype=np.float32)[voters]
     x, y = column.astype(np.float32), row.astype(np.float32)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    height, width = (-(-length // _COARSE) * (_COARSE // _FINE) for length in labels.shape)
-    coarse = np.zeros((height * _FINE // _COARSE, width * _FINE // _COARSE, len(areas)), dtype=np.float32)
+    height, width = (-(-length // _COARSE) for length in labels.shape)
+    coarse = np.zeros((height, width, len(areas)), dtype=np.float32)
     grouped = _grouped(x, y, one)
     for part in _parts(_asked(hole, _COARSE)):
         coarse[part] = _votes(part, _COARSE, directions, *grouped)
-    fine = _enlarged(coarse, (height, width))
+    fine = _enlarged(coarse, _COARSE // _FINE)
     shallow = _asked(hole & (depth <= _SHALLOW), _FINE)
     for tile in _tiles(shallow):
         left, right, top, bottom = (
@@ -66,7 +66,7 @@ def area_votes(labels: IntImage, hole: Mask, rim: Mask, directions: Directions) 
         )
         near = (x >= left) & (x <= right) & (y >= top) & (y <= bottom)
         fine[tile] = _votes(tile, _FINE, directions, x[near], y[near], one[near])
-    votes = _enlarged(fine, (height * _FINE, width * _FINE))[: labels.shape[0], : labels.shape[1]]
+    votes = _enlarged(fine, _FINE)[: labels.shape[0], : labels.shape[1]]
     return areas, np.moveaxis(votes, 2, 0)
 
 
@@ -130,7 +130,7 @@ def _votes(
     return np.asarray(np.log(np.maximum(far @ one.astype(np.float32), np.float32(_LEAST))))
 
 
-def _enlarged(votes: FloatArray, size: tuple[int, int]) -> FloatArray:
-    """At twice the size, or so, shape [h, w, k]."""
-    planes = [cv2.resize(votes[..., k], size[::-1], interpolation=cv2.INTER_LINEAR) for k in range(votes.shape[2])]
+def _enlarged(votes: FloatArray, times: int) -> FloatArray:
+    size = votes.shape[1] * times, votes.shape[0] * times
+    planes = [cv2.resize(votes[..., k], size, interpolation=cv2.INTER_LINEAR) for k in range(votes.shape[2])]
     return np.stack(planes, axis=-1)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +30,7 @@ def blurred(picture: FloatImage, sigma: FloatImage, shown: Mask) -> FloatImage:
     """
     weighted = np.dstack([picture * shown[..., None], shown.astype(np.float32)])
     result, narrower = picture, weighted
-    for below, width in zip(_WIDTHS[:-1], _WIDTHS[1:], strict=True):
+    for below, width in pairwise(_WIDTHS):
         share = np.clip(np.log2(np.maximum(sigma, np.float32(1e-3)) / np.float32(below)), 0, 1)
         if not share.any():
             break

@@ -83,5 +83,8 @@ def border_directions(labels: IntImage, hole: Mask) -> Directions:
     size = -(-labels.shape[1] // _CELL), -(-labels.shape[0] // _CELL)
     pieces = cv2.resize(tensor, size, interpolation=cv2.INTER_AREA)
     row, column = np.nonzero(pieces[..., 0] + pieces[..., 2] > _FAINTEST / _CELL**2)
-    x, y = ((at + np.float32(0.5)) * length / count for at, length, count in ((column, labels.shape[1], size[0]), (row, labels.shape[0], size[1])))
+    x, y = (
+        (at + np.float32(0.5)) * length / count
+        for at, length, count in ((column, labels.shape[1], size[0]), (row, labels.shape[0], size[1]))
+    )
     return Directions(x.astype(np.float32), y.astype(np.float32), pieces[row, column])

@@ -1,9 +1,9 @@
 """How soft borders between areas are: a cloud fades into the sky, a roof does not.
 
 Across each piece of a known border, colours pass from one side's to the other's. With t the share of the one, the
-integral of t (1 - t) across tells over which way: a step blurred by a Gaussian of width s has s / sqrt(pi), wherever in
-the profile it lies, and noise on both sides, which adds as much on either, is taken off. An outline between both is
-neither one's colour nor the other's, which makes the integral small: then the border is sharp.
+integral of t (1 - t) across tells over which way: a step blurred by a Gaussian of deviation s has s / sqrt(pi),
+wherever in the profile it lies. What noise adds is seen at the profile's ends. An outline between both is neither one's
+colour nor the other's, and its border sharp.
 """
 
 from __future__ import annotations
@@ -15,148 +15,141 @@ from numpy.typing import NDArray
 from .flat_regions import FlatRegions
 from .flatness import nearest_of
 
-__all__ = ["border_softness"]
+__all__ = ["border_widths"]
 
 FloatImage = NDArray[np.float32]
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 Mask = NDArray[np.bool_]
+Places = tuple[IntArray, IntArray]
 
-# A profile reaches so far to either side; its ends, from here on, are the colours of both sides [px].
+# A profile reaches so far to either side, as long as it meets no third area, and no less than the second [px].
 _REACH = 20
-_BESIDE = 8
-# Borders are looked at within this of the hole, so many of them at most.
-_NEAR = 32.0
-_MOST = 600
-# Sides must differ by this much to tell.
+_SHORTEST = 8
+# The last share of either side gives its colour; both must differ by so much.
+_END = 0.4
 _CONTRAST = 0.06
+# What lies farther beyond both colours than this share of their difference is neither.
 _BEYOND = 0.25
-# Borders within the hole are asked so many at most, and carry on to what is nearest.
-_ASKED = 600
+# Borders are looked at within this of the hole [px], so many pieces of them, and carried on to as many in the hole.
+_NEAR = 32.0
+_PIECES = 600
+# A blur changes nothing farther from the border than this [deviations].
+_SEEN = 3
 
 
-def border_softness(picture: FloatImage, hole: Mask, regions: FlatRegions) -> FloatImage:
-    """Widths of the Gaussians that would blur a sharp border as soft as those in a hole should be [px], shape [h, w].
+def border_widths(picture: FloatImage, hole: Mask, regions: FlatRegions) -> FloatImage:
+    """How wide borders are in a hole: as soft as they are around it, and blurred where their course is not sure.
 
     Args:
         picture: RGB in 0 to 1, shape [h, w, 3].
         hole: where colours are unknown, shape [h, w].
         regions: the areas.
+
+    Returns:
+        Deviation of the Gaussian that a sharp border is to be blurred by [px], shape [h, w]; 0 away from borders.
     """
     on_border = (regions.aside < 1) & (regions.number != regions.second)
-    wanted = _some(hole & on_border, _ASKED)
+    within, soft = hole & on_border, np.zeros(hole.shape, dtype=np.float32)
+    if not within.any():
+        return soft
+    wanted = _some(within)
+    soft[wanted] = _softness(picture, hole, regions, on_border, wanted)
+    chosen = np.zeros(hole.shape, dtype=bool)
+    chosen[wanted] = True
+    width = np.hypot(soft.ravel()[nearest_of(chosen)[1]], regions.unsure)
+    away = cv2.distanceTransform((~within).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    return np.where(hole & (away < _SEEN * width), width, 0).astype(np.float32)
+
+
+def _softness(picture: FloatImage, hole: Mask, regions: FlatRegions, on_border: Mask, wanted: Places) -> FloatArray:
+    """How soft some borders in the hole should be [px], shape [n]; 0 where nothing is known."""
     away = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    known = _some(~hole & (away <= _NEAR) & on_border, _MOST)
-    result = np.zeros(hole.shape, dtype=np.float32)
-    if not (len(wanted[0]) and len(known[0])):
-        return result
-    soft, sure = _measured(picture, hole, regions, known)
-    known = known[0][sure], known[1][sure]
-    soft = soft[sure]
-    if not len(soft):
-        return result
-    found = _carried(soft, _pairs(regions, known), known, _pairs(regions, wanted), wanted)
-    result[wanted] = found
-    where = np.zeros(hole.shape, dtype=bool)
-    where[wanted] = True
-    return np.where(hole, result.ravel()[nearest_of(where)[1]], 0).astype(np.float32)
+    known = _some(~hole & (away <= _NEAR) & on_border)
+    if not len(known[0]):
+        return np.zeros(len(wanted[0]))
+    soft, told = _measured(picture, hole, regions, known)
+    if not told.any():
+        return np.zeros(len(wanted[0]))
+    known = known[0][told], known[1][told]
+    return _carried(soft[told], known, _pairs(regions, known), wanted, _pairs(regions, wanted))
 
 
-def _some(where: Mask, most: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _some(where: Mask) -> Places:
     row, column = np.nonzero(where)
-    step = 1 + len(row) // most
+    step = 1 + len(row) // _PIECES
     return row[::step], column[::step]
 
 
-def _pairs(regions: FlatRegions, at: tuple[NDArray[np.int64], NDArray[np.int64]]) -> NDArray[np.int32]:
+def _pairs(regions: FlatRegions, at: Places) -> NDArray[np.int32]:
     """The two areas of some borders, the lower first, shape [n, 2]."""
     return np.sort(np.stack([regions.number[at], regions.second[at]], axis=1), axis=1)
 
 
-def _measured(
-    picture: FloatImage, hole: Mask, regions: FlatRegions, at: tuple[NDArray[np.int64], NDArray[np.int64]]
-) -> tuple[FloatArray, Mask]:
-    """How soft some known borders are [px], and which of them could be measured, shape [n]."""
-    row, column = at
-    first = np.minimum(regions.number[at], regions.second[at])
+def _measured(picture: FloatImage, hole: Mask, regions: FlatRegions, at: Places) -> tuple[FloatArray, Mask]:
+    """How soft known borders are [px], and which of them could be measured, shape [n]."""
     down, right = _normals(regions, at)
     steps = np.arange(-_REACH, _REACH + 1)
-    y = (row[:, None] + down[:, None] * steps).astype(np.float32)
-    x = (column[:, None] + right[:, None] * steps).astype(np.float32)
+    y = (at[0][:, None] + down[:, None] * steps).astype(np.float32)
+    x = (at[1][:, None] + right[:, None] * steps).astype(np.float32)
     colours = cv2.remap(picture, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE).astype(np.float64)
-    known = cv2.remap((~hole).astype(np.float32), x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT) > 0.999
-    nearest = np.rint(y).astype(int).clip(0, hole.shape[0] - 1), np.rint(x).astype(int).clip(0, hole.shape[1] - 1)
-    number = regions.number[nearest]
-    # Each side ends where its area does.
-    second = np.maximum(regions.number[at], regions.second[at])
-    fits = known & ((number == first[:, None]) | (number == second[:, None]))
-    middle = _REACH
-    low, high = fits.copy(), fits.copy()
-    low[:, middle::-1] = np.logical_and.accumulate(fits[:, middle::-1], axis=1)
-    low[:, middle + 1 :] = False
-    high[:, middle:] = np.logical_and.accumulate(fits[:, middle:], axis=1)
-    high[:, :middle] = False
-    ends = [_far(side, order) for side, order in ((low, -steps), (high, steps))]
-    long = (low.sum(axis=1) > _BESIDE) & (high.sum(axis=1) > _BESIDE)
-    means = [_mean(colours, end) for end in ends]
-    way = means[1] - means[0]
-    length = np.linalg.norm(way, axis=1)
-    share = np.einsum("nsc,nc->ns", colours - means[0][:, None], way) / np.maximum(length, 1e-6)[:, None] ** 2
-    mixed = share * (1 - share)
-    total = np.zeros(len(row))
-    for side, end in zip((low, high), ends, strict=True):
-        noise = (mixed * end).sum(axis=1) / np.maximum(end.sum(axis=1), 1)
-        total += ((mixed - noise[:, None]) * side).sum(axis=1)
-    smooth = (share[:, 2:] + share[:, 1:-1] + share[:, :-2]) / 3
-    beyond = (np.abs(smooth - 0.5) > 0.5 + _BEYOND) & (low | high)[:, 1:-1]
-    total[beyond.any(axis=1)] = 0
-    return np.maximum(total, 0) * np.sqrt(np.pi), long & (length > _CONTRAST)
+    unknown = cv2.remap(hole.astype(np.float32), x, y, cv2.INTER_LINEAR, borderValue=1) > 0
+    number = regions.number[
+        y.round().astype(int).clip(0, len(hole) - 1), x.round().astype(int).clip(0, hole.shape[1] - 1)
+    ]
+    fits = ~unknown & (number[..., None] == _pairs(regions, at)[:, None]).any(axis=2)
+    sides = [_side(fits[:, ::-1])[:, ::-1], _side(fits)]
+    lengths = [side.sum(axis=1) for side in sides]
+    ends = [side & (np.abs(steps) > (1 - _END) * length[:, None]) for side, length in zip(sides, lengths, strict=True)]
+    one, other = (_mean(colours, end) for end in ends)
+    way = other - one
+    contrast = np.linalg.norm(way, axis=1)
+    share = np.einsum("nsc,nc->ns", colours - one[:, None], way) / np.maximum(contrast, 1e-6)[:, None] ** 2
+    mixed = (share * (1 - share))[..., None]
+    total = sum(
+        ((mixed - _mean(mixed, end)[:, None])[..., 0] * side).sum(axis=1) for side, end in zip(sides, ends, strict=True)
+    )
+    even = (share[:, 2:] + share[:, 1:-1] + share[:, :-2]) / 3
+    neither = (np.abs(even - 0.5) > 0.5 + _BEYOND) & (sides[0] | sides[1])[:, 1:-1]
+    soft = np.where(neither.any(axis=1), 0, np.maximum(total, 0) * np.sqrt(np.pi))
+    return soft, (np.minimum(*lengths) > _SHORTEST) & (contrast > _CONTRAST)
 
 
-def _far(side: Mask, steps: NDArray[np.int64]) -> Mask:
-    """The farther end of a side, shape [n, s]."""
-    farthest = np.where(side, steps, 0).max(axis=1)
-    return side & (steps > 0.6 * farthest[:, None])
+def _side(fits: Mask) -> Mask:
+    """One side of profiles, from the middle on as far as they fit, shape [n, s]."""
+    side = np.zeros_like(fits)
+    side[:, _REACH:] = np.logical_and.accumulate(fits[:, _REACH:], axis=1)
+    return side
 
 
-def _mean(colours: FloatArray, where: Mask) -> FloatArray:
-    return np.einsum("nsc,ns->nc", colours, where) / np.maximum(where.sum(axis=1), 1)[:, None]
+def _mean(values: FloatArray, where: Mask) -> FloatArray:
+    """Over the places of each profile that are in a mask, shape [n, c]."""
+    return np.asarray(np.einsum("nsc,ns->nc", values, where) / np.maximum(where.sum(axis=1), 1)[:, None])
 
 
-def _normals(
-    regions: FlatRegions, at: tuple[NDArray[np.int64], NDArray[np.int64]]
-) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+def _normals(regions: FlatRegions, at: Places) -> tuple[FloatArray, FloatArray]:
     """Unit vectors across borders, down and right, shape [n] each."""
-    signed = cv2.GaussianBlur(regions.aside.clip(0, 3), (0, 0), 1.5)
-    # From the border on, how far it is rises on both sides; its second derivative is largest across.
-    xx, yy = (cv2.Sobel(signed, cv2.CV_32F, *way, ksize=5)[at] for way in ((2, 0), (0, 2)))
-    xy = cv2.Sobel(signed, cv2.CV_32F, 1, 1, ksize=5)[at]
-    angle = 0.5 * np.arctan2(2 * xy, xx - yy)
+    # How far borders are rises on both of their sides: it bends most across them.
+    far = cv2.GaussianBlur(np.minimum(regions.aside, np.float32(3)), (0, 0), 1.5)
+    xx, xy, yy = (cv2.Sobel(far, cv2.CV_64F, *way, ksize=5)[at] for way in ((2, 0), (1, 1), (0, 2)))
+    angle = np.arctan2(2 * xy, xx - yy) / 2
     return np.sin(angle), np.cos(angle)
 
 
 def _carried(
-    soft: FloatArray,
-    known_pairs: NDArray[np.int32],
-    known: tuple[NDArray[np.int64], NDArray[np.int64]],
-    wanted_pairs: NDArray[np.int32],
-    wanted: tuple[NDArray[np.int64], NDArray[np.int64]],
+    soft: FloatArray, known: Places, known_pairs: NDArray[np.int32], wanted: Places, wanted_pairs: NDArray[np.int32]
 ) -> FloatArray:
-    """Softness of the borders that are wanted, shape [n].
+    """Softness of the borders that are wanted, by distance from where the same two areas meet, shape [n].
 
-    By distance from where the same two areas meet; where that is not known, as sharp as the sharper of both is elsewhere.
+    Where those do not, a border is as sharp as that of the sharper one: what lies in front has its own edge.
     """
-    far = np.square(wanted[0][:, None] - known[0]) + np.square(wanted[1][:, None] - known[1]) + 1.0
-    weight = 1 / far
+    nearness = 1 / (np.square(wanted[0][:, None] - known[0]) + np.square(wanted[1][:, None] - known[1]) + 1.0)
     same = (wanted_pairs[:, None] == known_pairs).all(axis=2)
-    found = _weighted(weight * same, soft)
+    carried = _weighted(nearness * same, soft)
     alone = ~same.any(axis=1)
-    if alone.any():
-        either = [
-            _weighted(weight[alone] * (known_pairs == wanted_pairs[alone, None, k : k + 1]).any(axis=2), soft)
-            for k in (0, 1)
-        ]
-        found[alone] = np.minimum(*either)
-    return found
+    either = ((known_pairs == wanted_pairs[alone, None, k, None]).any(axis=2) for k in (0, 1))
+    carried[alone] = np.minimum(*(_weighted(nearness[alone] * each, soft) for each in either))
+    return carried
 
 
 def _weighted(weight: FloatArray, values: FloatArray) -> FloatArray:

@@ -29,6 +29,8 @@ _TOUCH = 8.0
 _MOST_REGIONS = 48
 # Borders are rounded over this [px].
 _ROUNDED = 3.0
+# They may be off by this share of what the directions of those around would let them be off by.
+_OFF = 0.5
 # Areas whose colours differ by less are one; a line that is continued through the hole has an area's colours at its
 # sides if they differ by less than the second.
 _ALIKE = 0.06
@@ -126,7 +128,7 @@ def _continued(labels: IntImage, hole: Mask, rim: Mask) -> tuple[IntImage, Float
     areas, votes = area_votes(labels, hole, rim, directions)
     continued = areas[votes.argmax(axis=0)].astype(np.int32)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    return np.where(hole, continued, labels), depth * directions.dispersion(hole.shape)
+    return np.where(hole, continued, labels), np.float32(_OFF) * depth * directions.dispersion(hole.shape)
 
 
 def _rim(hole: Mask) -> Mask:

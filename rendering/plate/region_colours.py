@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from ..pictures import window_around
 from .blurring import blurred
-from .border_softness import border_softness
+from .border_softness import border_widths
 from .channels import over_channels
 from .flat_regions import FlatRegions
 
@@ -26,15 +25,12 @@ _MOST = 3000
 _FEWEST = 30
 # How far the plane may lead beyond the colours that are there, as a share of their range.
 _BEYOND = 0.25
-SOFT=float(os.environ.get("SOFT","1"))
-REACH=float(os.environ.get("WREACH","3"))
-UNS=float(os.environ.get("UNS","0.5"))
 
 
 def paint_regions(
     picture: FloatImage, rest: FloatImage, hole: Mask, regions: FlatRegions
 ) -> tuple[FloatImage, FloatImage]:
-    """Paint each flat area's part of a hole in its colours, up to borders a pixel wide.
+    """Paint each flat area's part of a hole in its colours, up to borders as soft as those around.
 
     Args:
         picture: RGB in 0 to 1, shape [h, w, 3].
@@ -62,11 +58,8 @@ def paint_regions(
     share = np.clip(np.float32(0.5) + regions.aside / 2, 0.5, 1)[..., None]
     sharp = np.where(hole[..., None], second + share * (first - second), picture)
     contrast = np.where(beside, np.sqrt(over_channels((first - second) ** 2)), 0)
-    width = np.hypot(border_softness(picture, hole, regions) * SOFT, np.float32(UNS) * regions.unsure)
-    border = hole & (regions.aside < 1) & (regions.number != regions.second)
-    away = cv2.distanceTransform((~border).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    width = np.where(hole & (away < np.float32(REACH) * width), width, 0)
-    return np.where(hole[..., None], blurred(sharp, width, hole | (regions.flat > 0)), picture), contrast
+    soft = blurred(sharp, border_widths(picture, hole, regions), hole | (regions.flat > 0))
+    return np.where(hole[..., None], soft, picture), contrast
 
 
 def _continued(picture: FloatImage, source: Mask, wanted: Mask) -> FloatImage:
