@@ -49,7 +49,7 @@ def area_votes(labels: IntImage, hole: Mask, rim: Mask, directions: Directions) 
         outside of the hole means nothing.
     """
     row, column = np.nonzero(rim)
-    areas, voters = np.unique(labels[row, column], return_inverse=True)
+    areas, voters = np.unique(labels[row, column].astype(np.int64), return_inverse=True)
     one = np.eye(len(areas), dtype=np.float32)[voters]
     x, y = column.astype(np.float32), row.astype(np.float32)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
@@ -100,7 +100,8 @@ def _grouped(x: FloatArray, y: FloatArray, one: FloatArray) -> tuple[FloatArray,
     _, number, count = np.unique(square, return_inverse=True, return_counts=True)
     order = np.argsort(number, kind="stable")
     sums = np.add.reduceat(np.column_stack([x, y, one])[order], np.cumsum(count) - count, axis=0)
-    return sums[:, 0] / count, sums[:, 1] / count, sums[:, 2:]
+    x, y = ((sums[:, k] / count).astype(np.float32) for k in (0, 1))
+    return x, y, sums[:, 2:]
 
 
 def _votes(

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+
+from ..pictures import window_around
 
 __all__ = ["blurred"]
 
@@ -15,6 +15,9 @@ Mask = NDArray[np.bool_]
 
 # Blurs that double from each to the next; between them is mixed. The narrowest is less than a pixel's own [px].
 _WIDTHS = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
+# A Gaussian ends so many deviations from its middle, and may be as narrow as this where it is sampled [px].
+_SEEN = 3
+_FINEST = 1.5
 
 
 def blurred(picture: FloatImage, sigma: FloatImage, shown: Mask) -> FloatImage:
@@ -28,23 +31,29 @@ def blurred(picture: FloatImage, sigma: FloatImage, shown: Mask) -> FloatImage:
     Returns:
         The picture, shape [h, w, 3].
     """
-    weighted = np.dstack([picture * shown[..., None], shown.astype(np.float32)])
-    result, narrower = picture, weighted
-    for below, width in pairwise(_WIDTHS):
-        share = np.clip(np.log2(np.maximum(sigma, np.float32(1e-3)) / np.float32(below)), 0, 1)
-        if not share.any():
+    if not (sigma > _WIDTHS[0]).any():
+        return picture
+    window = window_around(sigma > _WIDTHS[0], margin=int(_SEEN * min(float(sigma.max()), _WIDTHS[-1])) + 1)
+    sharp, part = picture[window], shown[window]
+    narrower = np.dstack([sharp * part[..., None], part.astype(np.float32)])
+    wide = np.log2(np.maximum(sigma[window], np.float32(1e-3)) / np.float32(_WIDTHS[0]))
+    result, before = picture.copy(), 0.0
+    inner = result[window]
+    for number, width in enumerate(_WIDTHS[1:]):
+        at = np.nonzero(part & (wide > number))
+        if not len(at[0]):
             break
-        step = float(np.sqrt(width**2 - (below**2 if narrower is not weighted else 0)))
-        narrower = _gaussian(narrower, step)
-        mean = narrower[..., :3] / np.maximum(narrower[..., 3:], np.float32(1e-6))
-        result = result + (share * shown)[..., None] * (mean - result)
+        narrower, before = _gaussian(narrower, float(np.sqrt(width**2 - before**2))), width
+        found = narrower[at]
+        share = np.minimum(wide[at] - number, 1)[:, None]
+        inner[at] += share * (found[:, :3] / np.maximum(found[:, 3:], np.float32(1e-6)) - inner[at])
     return result
 
 
 def _gaussian(picture: FloatImage, sigma: float) -> FloatImage:
     """The same everywhere, wide ones at a part of the size."""
     scale = 1
-    while sigma / scale >= 4:
+    while sigma / scale >= 2 * _FINEST:
         scale *= 2
     if scale == 1:
         return cv2.GaussianBlur(picture, (0, 0), sigma)

@@ -8,6 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pictures import gradients
+
 __all__ = ["Directions", "border_directions"]
 
 FloatImage = NDArray[np.float32]
@@ -18,12 +20,12 @@ Mask = NDArray[np.bool_]
 # Borders are looked at within this of the hole, over about this length [px].
 _REACH = 12.0
 _SMOOTHED = 2.0
-# What is nearer to the hole than this would see it as a border [px].
-_SQUARE = np.ones((5, 5), np.uint8)
+# What is nearer to the hole than this sees too little of them [px].
+_BLIND = 3.0
+# Every so many pixels are looked at.
+_STEP = 2
 # Squares of this side count as one piece of border [px].
 _CELL = 4
-# A piece of border counts by its distance to this power.
-_POWER = 2.0
 _FAINTEST = 1e-3
 # Places that are so far apart have directions of their own [px].
 _COARSE = 8
@@ -43,11 +45,11 @@ class Directions:
     tensor: FloatArray
 
     def at(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """The mean tensor at some places, with a trace of 1, shape [n, 3]; 0 without borders."""
+        """The mean tensor at some places, by the square of nearness, its trace 1, shape [n, 3]; 0 without borders."""
         if not len(self.x):
             return np.zeros((len(x), 3), dtype=np.float32)
         far = np.square(x[:, None] - self.x) + np.square(y[:, None] - self.y) + np.float32(1)
-        total = np.power(far, np.float32(-_POWER / 2)) @ self.tensor
+        total = np.reciprocal(far, out=far) @ self.tensor
         return np.asarray(total / (total[:, :1] + total[:, 2:]), dtype=np.float32)
 
     def dispersion(self, shape: tuple[int, ...]) -> FloatImage:
@@ -68,23 +70,23 @@ def border_directions(labels: IntImage, hole: Mask) -> Directions:
         labels: which area each pixel belongs to, shape [h, w].
         hole: where that is not known, shape [h, w].
     """
-    away = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    near = ~hole & (away <= _REACH)
-    known = (~hole).astype(np.float32)
-    weight = np.maximum(cv2.GaussianBlur(known, (0, 0), _SMOOTHED), np.float32(1e-3))
-    inner = cv2.erode(near.astype(np.uint8) | hole, _SQUARE) > 0
-    inner &= near & (cv2.dilate(hole.astype(np.uint8), _SQUARE) == 0)
+    labels, hole = labels[::_STEP, ::_STEP], hole[::_STEP, ::_STEP]
+    away = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5) * _STEP
+    near = (away > _BLIND) & (away <= _REACH)
+    known, sigma = (~hole).astype(np.float32), _SMOOTHED / _STEP
+    weight = np.maximum(cv2.GaussianBlur(known, (0, 0), sigma), np.float32(1e-3))
     tensor = np.zeros((*labels.shape, 3), dtype=np.float32)
     for k in np.unique(labels[near]):
-        share = cv2.GaussianBlur((labels == k) * known, (0, 0), _SMOOTHED) / weight
-        right, down = (cv2.Scharr(share, cv2.CV_32F, *way) / np.float32(32) for way in ((1, 0), (0, 1)))
-        tensor += np.stack([right * right, right * down, down * down], axis=-1)
-    tensor *= inner[..., None]
-    size = -(-labels.shape[1] // _CELL), -(-labels.shape[0] // _CELL)
-    pieces = cv2.resize(tensor, size, interpolation=cv2.INTER_AREA)
-    row, column = np.nonzero(pieces[..., 0] + pieces[..., 2] > _FAINTEST / _CELL**2)
-    x, y = (
-        (at + np.float32(0.5)) * length / count
-        for at, length, count in ((column, labels.shape[1], size[0]), (row, labels.shape[0], size[1]))
-    )
+        share = cv2.GaussianBlur((labels == k) * known, (0, 0), sigma) / weight
+        right, down = gradients(share)
+        for product, total in zip((right * right, right * down, down * down), np.moveaxis(tensor, 2, 0), strict=True):
+            total += product
+    tensor *= near[..., None]
+    cell = _CELL // _STEP
+    height, width = (-(-length // cell) for length in hole.shape)
+    padded = np.zeros((height * cell, width * cell, 3), dtype=np.float32)
+    padded[: hole.shape[0], : hole.shape[1]] = tensor
+    pieces = padded.reshape(height, cell, width, cell, 3).sum(axis=(1, 3))
+    row, column = np.nonzero(pieces[..., 0] + pieces[..., 2] > _FAINTEST)
+    y, x = ((each + 0.5) * _CELL - 0.5 for each in (row, column))
     return Directions(x.astype(np.float32), y.astype(np.float32), pieces[row, column])

@@ -33,7 +33,7 @@ _CONTRAST = 0.06
 _BEYOND = 0.25
 # Borders are looked at within this of the hole [px], so many pieces of them, and carried on to as many in the hole.
 _NEAR = 32.0
-_PIECES = 600
+_PIECES = 300
 # A blur changes nothing farther from the border than this [deviations].
 _SEEN = 3
 

@@ -20,7 +20,7 @@ def level_of(seed: int, height: int = 40, width: int = 34) -> Level:
     hole = np.zeros((height, width), dtype=bool)
     top, left = random.integers(0, 20, 2)
     hole[top : top + 13, left : left + 11] = True
-    return Level(picture, hole, picture, picture)
+    return Level(picture, hole, hole, picture, picture)
 
 
 def plain_cost(search: PatchSearch, source: np.ndarray) -> np.ndarray:
