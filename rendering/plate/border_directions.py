@@ -19,14 +19,14 @@ Mask = NDArray[np.bool_]
 
 # Borders are looked at within this of the hole, over about this length [px].
 _REACH = 12.0
-_SMOOTHED = 2.0
+_SMOOTHED = 3.0
 # What is nearer to the hole than this sees too little of them [px].
 _BLIND = 3.0
 # Every so many pixels are looked at.
 _STEP = 2
-# Squares of this side count as one piece of border [px].
-_CELL = 4
-_FAINTEST = 1e-3
+# Squares of so many of them count as one piece of border.
+_CELL = 2
+_FAINTEST = 1e-4
 # Places that are so far apart have directions of their own [px].
 _COARSE = 8
 
@@ -70,23 +70,21 @@ def border_directions(labels: IntImage, hole: Mask) -> Directions:
         labels: which area each pixel belongs to, shape [h, w].
         hole: where that is not known, shape [h, w].
     """
+    full = labels.shape
     labels, hole = labels[::_STEP, ::_STEP], hole[::_STEP, ::_STEP]
     away = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5) * _STEP
     near = (away > _BLIND) & (away <= _REACH)
     known, sigma = (~hole).astype(np.float32), _SMOOTHED / _STEP
     weight = np.maximum(cv2.GaussianBlur(known, (0, 0), sigma), np.float32(1e-3))
-    tensor = np.zeros((*labels.shape, 3), dtype=np.float32)
+    # A border's pixels are in steps, which are no directions of its own: changes are averaged before they are squared.
+    size = -(-labels.shape[1] // _CELL), -(-labels.shape[0] // _CELL)
+    tensor = np.zeros((size[1], size[0], 3), dtype=np.float32)
     for k in np.unique(labels[near]):
         share = cv2.GaussianBlur((labels == k) * known, (0, 0), sigma) / weight
-        right, down = gradients(share)
-        for product, total in zip((right * right, right * down, down * down), np.moveaxis(tensor, 2, 0), strict=True):
-            total += product
-    tensor *= near[..., None]
-    cell = _CELL // _STEP
-    height, width = (-(-length // cell) for length in hole.shape)
-    padded = np.zeros((height * cell, width * cell, 3), dtype=np.float32)
-    padded[: hole.shape[0], : hole.shape[1]] = tensor
-    pieces = padded.reshape(height, cell, width, cell, 3).sum(axis=(1, 3))
-    row, column = np.nonzero(pieces[..., 0] + pieces[..., 2] > _FAINTEST)
-    y, x = ((each + 0.5) * _CELL - 0.5 for each in (row, column))
-    return Directions(x.astype(np.float32), y.astype(np.float32), pieces[row, column])
+        right, down = (cv2.resize(each * near, size, interpolation=cv2.INTER_AREA) for each in gradients(share))
+        tensor += np.stack([right * right, right * down, down * down], axis=-1)
+    row, column = np.nonzero(tensor[..., 0] + tensor[..., 2] > _FAINTEST)
+    y, x = (
+        (each + 0.5) * length / count - 0.5 for each, length, count in zip((row, column), full, size[::-1], strict=True)
+    )
+    return Directions(x.astype(np.float32), y.astype(np.float32), tensor[row, column])

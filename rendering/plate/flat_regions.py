@@ -116,8 +116,12 @@ def _regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> FlatRe
     rim = _rim(hole)
     if not labels[rim].any():
         return None
-    wide = rim & wide_areas(picture, seeds, labels, hole)
-    labels, unsure = _continued(labels, hole, wide if wide.any() else rim)
+    wide = wide_areas(picture, seeds, labels, hole)
+    labels, unsure = _continued(labels, hole, rim & wide if (rim & wide).any() else rim)
+    # A strip between two areas that belongs to neither is the soft border of both.
+    strip = (labels == 0) & ~hole & ~wide
+    if not strip[~hole].all():
+        labels = np.where(strip, labels.ravel()[nearest_of(~hole & ~strip)[1]], labels)
     number, second, aside = _borders(labels, int(seeds.max()) + 1)
     return FlatRegions(number, second, aside, unsure, np.maximum(seeds, 0) * flat)
 
