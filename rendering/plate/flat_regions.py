@@ -30,7 +30,7 @@ _MOST_REGIONS = 48
 # Borders are rounded over this [px].
 _ROUNDED = 3.0
 # They may be off by this share of what the directions of those around would let them be off by.
-_OFF = 0.5
+_OFF = 0.25
 # Areas whose colours differ by less are one; a line that is continued through the hole has an area's colours at its
 # sides if they differ by less than the second.
 _ALIKE = 0.06
