@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..pictures import gradients
 
-__all__ = ["Directions", "border_directions"]
+__all__ = ["Directions", "border_directions", "squares_with"]
 
 FloatImage = NDArray[np.float32]
 FloatArray = NDArray[np.float32]
@@ -52,15 +52,20 @@ class Directions:
         total = np.reciprocal(far, out=far) @ self.tensor
         return np.asarray(total / (total[:, :1] + total[:, 2:]), dtype=np.float32)
 
-    def dispersion(self, shape: tuple[int, ...]) -> FloatImage:
-        """Sine of the angle by which they differ in the mean from the way that most of them run, shape [h, w]."""
-        height, width = (-(-length // _COARSE) for length in shape)
-        row, column = np.indices((height, width), dtype=np.float32).reshape(2, -1) * _COARSE + (_COARSE - 1) / 2
+    def dispersion(self, hole: Mask) -> FloatImage:
+        """Sine of the angle by which they differ in the mean from the way that most of them run, shape [h, w].
+
+        Args:
+            hole: where it is asked, shape [h, w]; elsewhere it means nothing.
+        """
+        asked = squares_with(hole, _COARSE)
+        row, column = (each * np.float32(_COARSE) + (_COARSE - 1) / 2 for each in np.nonzero(asked))
         xx, xy, yy = self.at(column.astype(np.float32), row.astype(np.float32)).T
         smaller = (xx + yy - np.sqrt(np.square(xx - yy) + 4 * xy * xy)) / 2
-        sine = np.sqrt(np.maximum(smaller, 0)).astype(np.float32).reshape(height, width)
-        size = width * _COARSE, height * _COARSE
-        return cv2.resize(sine, size, interpolation=cv2.INTER_LINEAR)[: shape[0], : shape[1]]
+        sine = np.zeros(asked.shape, dtype=np.float32)
+        sine[asked] = np.sqrt(np.maximum(smaller, 0))
+        size = asked.shape[1] * _COARSE, asked.shape[0] * _COARSE
+        return cv2.resize(sine, size, interpolation=cv2.INTER_LINEAR)[: hole.shape[0], : hole.shape[1]]
 
 
 def border_directions(labels: IntImage, hole: Mask) -> Directions:
@@ -88,3 +93,12 @@ def border_directions(labels: IntImage, hole: Mask) -> Directions:
         (each + 0.5) * length / count - 0.5 for each, length, count in zip((row, column), full, size[::-1], strict=True)
     )
     return Directions(x.astype(np.float32), y.astype(np.float32), tensor[row, column])
+
+
+def squares_with(where: Mask, side: int) -> Mask:
+    """Which squares of a picture have something in a mask, or are beside one that has, shape [h / side, w / side]."""
+    height, width = (-(-length // side) for length in where.shape)
+    padded = np.zeros((height * side, width * side), dtype=bool)
+    padded[: where.shape[0], : where.shape[1]] = where
+    some = padded.reshape(height, side, width, side).any(axis=(1, 3))
+    return cv2.dilate(some.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0

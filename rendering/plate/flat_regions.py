@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..pictures import window_around
 from .area_kinds import ending_at_edges, wide_areas
-from .area_votes import area_votes
+from .area_votes import elected_areas
 from .border_directions import border_directions
 from .flatness import nearest_of
 
@@ -129,10 +129,9 @@ def _regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> FlatRe
 def _continued(labels: IntImage, hole: Mask, rim: Mask) -> tuple[IntImage, FloatImage]:
     """Labels from the hole's rim continued into it, and how far off their borders may be [px], shape [h, w]."""
     directions = border_directions(labels, hole)
-    areas, votes = area_votes(labels, hole, rim, directions)
-    continued = areas[votes.argmax(axis=0)].astype(np.int32)
+    continued = elected_areas(labels, hole, rim, directions)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    return np.where(hole, continued, labels), np.float32(_OFF) * depth * directions.dispersion(hole.shape)
+    return np.where(hole, continued, labels), np.float32(_OFF) * depth * directions.dispersion(hole)
 
 
 def _rim(hole: Mask) -> Mask:

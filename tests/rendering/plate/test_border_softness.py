@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from physanimator.rendering.plate import fill_hole
 from physanimator.rendering.plate.blurring import blurred
+from physanimator.rendering.plate.patch_synthesis import continue_texture
 
 HEIGHT, WIDTH = 200, 260
 Y, X = np.mgrid[:HEIGHT, :WIDTH] + 0.5
@@ -123,3 +124,30 @@ def test_nothing_is_blurred_into_a_picture_that_takes_no_part() -> None:
     shown[:, :30] = True
     result = blurred(picture, np.full((60, 60), 4, np.float32), shown)
     assert np.abs(result - picture).max() < 1e-5
+
+
+def test_what_ends_in_sight_goes_on_less_far(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A bow of 24 px beside the hole, and a wall that leaves the picture, along as much of the rim."""
+    _without_lines(monkeypatch)
+    hole = np.abs(Y - 100) < 40
+    hole &= np.abs(X - 130) < 60
+    picture = np.broadcast_to(np.float32(SKY), (*X.shape, 3)).copy()
+    picture[(np.abs(X - 130) < 30) & (Y > 139) & (Y < 163)] = HILL
+    small = (np.abs(filled(picture, hole) - HILL).max(axis=2) < 0.2) & hole
+    picture[(np.abs(X - 130) < 30) & (Y > 139)] = HILL
+    large = (np.abs(filled(picture, hole) - HILL).max(axis=2) < 0.2) & hole
+    assert small.sum() < 0.85 * large.sum()
+
+
+def test_patches_are_looked_for_only_where_they_are_wanted() -> None:
+    rng = np.random.default_rng(0)
+    picture = np.tile(rng.random((8, 8, 3)), (10, 10, 1)).astype(np.float32)
+    hole = np.zeros((80, 80), bool)
+    hole[20:60, 20:60] = True
+    guide = np.full_like(picture, 0.5)
+    left = hole & (np.arange(80) < 40)
+    result = continue_texture(picture, hole, guide, wanted=left)
+    far = hole & ~left
+    assert (result[far] == guide[far]).all()
+    assert (result[~hole] == picture[~hole]).all()
+    assert result[left].std() > 0.1

@@ -68,7 +68,7 @@ def test_each_pixel_is_the_weighted_mean_of_what_patches_propose(
     random, level = np.random.default_rng(seed), level_of(seed, 90, 90)
     hole = np.zeros_like(level.hole)
     hole[5:85, 10:80] = True
-    level = Level(level.picture, hole, level.guide, level.smooth)
+    level = Level(level.picture, hole, hole, level.guide, level.smooth)
     height, width = hole.shape
     trust = np.where(random.random(hole.shape) < 0.8, random.random(hole.shape), 0).astype(np.float32)
     trust[:RADIUS] = trust[-RADIUS:] = trust[:, :RADIUS] = trust[:, -RADIUS:] = 0
