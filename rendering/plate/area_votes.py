@@ -135,13 +135,9 @@ def _tiles(asked: Mask) -> Iterator[tuple[IntArray, IntArray]]:
 def _votes(at: tuple[IntArray, IntArray], step: int, directions: Directions, voters: _Voters) -> FloatArray:
     """Logarithms of the votes for the pixels in the middle of squares, shape [n, k]."""
     down, right = ((each * step + np.float32(step / 2 - 0.5)).astype(np.float32) for each in at)
-    xx, xy, yy = directions.at(right, down).T
-    # What is aside counts by how much more the borders run one way than across it.
-    spread = np.sqrt(np.square(xx - yy) + 4 * xy * xy)
-    # The tensor less its smaller eigenvalue is the normal's, times the spread.
-    smaller = (1 - spread) / 2 * (xx + yy > 0)
-    more = np.float32(_ASIDE**2 - 1) * spread
-    xx, xy, yy = 1 + more * (xx - smaller), more * xy, 1 + more * (yy - smaller)
+    # Across the borders' way distances are stretched, the more the more the borders run one way.
+    xx, xy, yy = np.float32(_ASIDE**2 - 1) * directions.across(right, down).T
+    xx, yy = xx + 1, yy + 1
     # The squared distance as a sum of products, about the middle of the places asked.
     middle = right.mean(), down.mean()
     right, down, x, y = right - middle[0], down - middle[1], voters.x - middle[0], voters.y - middle[1]
@@ -152,7 +148,10 @@ def _votes(at: tuple[IntArray, IntArray], step: int, directions: Directions, vot
     far = np.stack(own, axis=1) @ np.stack([x * x, x * y, y * y, x, y, np.ones_like(x)]).astype(np.float32)
     np.maximum(far, 0, out=far)
     far += np.float32(_NEAREST**2)
-    far *= far * (1 + far * voters.bound)
+    bounded = far * voters.bound
+    bounded += 1
+    far *= far
+    far *= bounded
     np.reciprocal(far, out=far)
     return np.asarray(np.log(np.maximum(far @ voters.area, np.float32(_LEAST))))
 

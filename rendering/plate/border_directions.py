@@ -27,55 +27,70 @@ _STEP = 2
 # Squares of so many of them count as one piece of border.
 _CELL = 2
 _FAINTEST = 1e-4
-# Places that are so far apart have directions of their own [px].
-_COARSE = 8
+# In the hole directions are found for squares of this side [px], and between them by interpolation.
+_SQUARE = 8
 
 
 @dataclass(frozen=True, eq=False)
 class Directions:
-    """Pieces of the borders around a hole.
+    """The mean of the borders around, by the square of nearness, at each square of a hole.
 
     Attributes:
-        x, y: where they are [px], shape [e].
-        tensor: products of their normals, xx, xy, yy, times their lengths, shape [e, 3].
+        tensor: mean products of their normals, xx, xy, yy, its trace 1 or 0, shape [rows, columns, 3].
+        shape: of the hole.
     """
 
-    x: FloatArray
-    y: FloatArray
-    tensor: FloatArray
+    tensor: FloatImage
+    shape: tuple[int, ...]
 
-    def at(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """The mean tensor at some places, by the square of nearness, its trace 1, shape [n, 3]; 0 without borders."""
-        if not len(self.x):
-            return np.zeros((len(x), 3), dtype=np.float32)
-        far = np.square(x[:, None] - self.x) + np.square(y[:, None] - self.y) + np.float32(1)
-        total = np.reciprocal(far, out=far) @ self.tensor
-        return np.asarray(total / (total[:, :1] + total[:, 2:]), dtype=np.float32)
+    @property
+    def dispersion(self) -> FloatImage:
+        """Sine of the angle by which borders differ in the mean from the way that most of them run, shape [h, w]."""
+        xx, xy, yy = np.moveaxis(self.tensor, 2, 0)
+        smaller = (xx + yy - np.sqrt(np.square(xx - yy) + 4 * xy * xy)) / 2
+        size = self.tensor.shape[1] * _SQUARE, self.tensor.shape[0] * _SQUARE
+        sine = cv2.resize(np.sqrt(np.maximum(smaller, 0)), size, interpolation=cv2.INTER_LINEAR)
+        return sine[: self.shape[0], : self.shape[1]]
 
-    def dispersion(self, hole: Mask) -> FloatImage:
-        """Sine of the angle by which they differ in the mean from the way that most of them run, shape [h, w].
+    def across(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """The way across borders at some places.
 
         Args:
-            hole: where it is asked, shape [h, w]; elsewhere it means nothing.
+            x, y: in the hole [px], shape [n].
+
+        Returns:
+            Products of the normal, xx, xy, yy, times the square of how much more borders run one way than the other,
+            0..1; shape [n, 3].
         """
-        asked = squares_with(hole, _COARSE)
-        row, column = (each * np.float32(_COARSE) + (_COARSE - 1) / 2 for each in np.nonzero(asked))
-        xx, xy, yy = self.at(column.astype(np.float32), row.astype(np.float32)).T
-        smaller = (xx + yy - np.sqrt(np.square(xx - yy) + 4 * xy * xy)) / 2
-        sine = np.zeros(asked.shape, dtype=np.float32)
-        sine[asked] = np.sqrt(np.maximum(smaller, 0))
-        size = asked.shape[1] * _COARSE, asked.shape[0] * _COARSE
-        return cv2.resize(sine, size, interpolation=cv2.INTER_LINEAR)[: hole.shape[0], : hole.shape[1]]
+        column, row = ((each[None] - np.float32(_SQUARE / 2 - 0.5)) / np.float32(_SQUARE) for each in (x, y))
+        xx, xy, yy = cv2.remap(self.tensor, column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)[0].T
+        # The tensor is the sum of the normal's, times the larger eigenvalue, and of the tangent's, times the smaller.
+        spread = np.sqrt(np.square(xx - yy) + 4 * xy * xy)
+        smaller = (xx + yy - spread) / 2
+        return np.stack([spread * (xx - smaller), spread * xy, spread * (yy - smaller)], axis=1)
 
 
 def border_directions(labels: IntImage, hole: Mask) -> Directions:
-    """Find the borders that are known near a hole.
+    """Find the borders that are known near a hole, and what they say within it.
 
     Args:
         labels: which area each pixel belongs to, shape [h, w].
         hole: where that is not known, shape [h, w].
     """
-    full = labels.shape
+    x, y, pieces = _pieces(labels, hole)
+    asked = squares_with(hole, _SQUARE)
+    tensor = np.zeros((*asked.shape, 3), dtype=np.float32)
+    if len(x):
+        row, column = (each * np.float32(_SQUARE) + np.float32(_SQUARE / 2 - 0.5) for each in np.nonzero(asked))
+        far = np.square(column[:, None] - x) + np.square(row[:, None] - y) + np.float32(1)
+        total = np.reciprocal(far) @ pieces
+        tensor[asked] = total / (total[:, :1] + total[:, 2:])
+    return Directions(tensor, hole.shape)
+
+
+def _pieces(labels: IntImage, hole: Mask) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Pieces of borders: where they are [px], shape [e], and products of their normals, shape [e, 3]."""
+    full = hole.shape
     labels, hole = labels[::_STEP, ::_STEP], hole[::_STEP, ::_STEP]
     away = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5) * _STEP
     near = (away > _BLIND) & (away <= _REACH)
@@ -92,7 +107,7 @@ def border_directions(labels: IntImage, hole: Mask) -> Directions:
     y, x = (
         (each + 0.5) * length / count - 0.5 for each, length, count in zip((row, column), full, size[::-1], strict=True)
     )
-    return Directions(x.astype(np.float32), y.astype(np.float32), tensor[row, column])
+    return x.astype(np.float32), y.astype(np.float32), tensor[row, column]
 
 
 def squares_with(where: Mask, side: int) -> Mask:

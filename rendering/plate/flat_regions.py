@@ -131,7 +131,7 @@ def _continued(labels: IntImage, hole: Mask, rim: Mask) -> tuple[IntImage, Float
     directions = border_directions(labels, hole)
     continued = elected_areas(labels, hole, rim, directions)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    return np.where(hole, continued, labels), np.float32(_OFF) * depth * directions.dispersion(hole)
+    return np.where(hole, continued, labels), np.float32(_OFF) * depth * directions.dispersion
 
 
 def _rim(hole: Mask) -> Mask:
@@ -164,8 +164,9 @@ def _seeds(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> IntImage
     chosen = chosen[contact[chosen] >= _CONTACT]
     if not len(chosen):
         return None
-    near = away <= 2 * _TOUCH
-    colours = np.stack([picture[near & (parts == part)].mean(axis=0) for part in chosen])
+    own = parts[flat]
+    sums = [np.bincount(own, weights=plane[flat], minlength=count)[chosen] for plane in cv2.split(picture)]
+    colours = (np.stack(sums, axis=1) / np.bincount(own, minlength=count)[chosen, None]).astype(np.float32)
     merged = _merged(colours)
     numbers = np.zeros(count, dtype=np.int32)
     numbers[chosen] = merged + 1
