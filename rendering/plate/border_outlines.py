@@ -44,6 +44,8 @@ _OPEN = 0.4
 _ALIKE = 0.12
 # With one end alone an outline thins out over this share of its length.
 _THINNING = 0.6
+# A line is as strong as its width is of that over which a Gaussian spreads it, so many times its deviation.
+_SPREAD = np.float32(np.sqrt(2 * np.pi))
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +70,7 @@ class _Surroundings:
     number: IntImage
     second: IntImage
     aside: FloatImage
-    sure: FloatImage
+    unsure: FloatImage
 
     def within(self, window: tuple[slice, slice]) -> _Surroundings:
         return _Surroundings(*(getattr(self, field.name)[window] for field in fields(self)))
@@ -97,7 +99,7 @@ def draw_outlines(
     """
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     around = _Surroundings(
-        picture, *lines, hole, depth, contrast, regions.number, regions.second, regions.aside, regions.sure
+        picture, *lines, hole, depth, contrast, regions.number, regions.second, regions.aside, regions.unsure
     )
     closed = _closed(around, regions.count)
     drawn = filled.copy()
@@ -193,5 +195,10 @@ def _draw(picture: FloatImage, border: Mask, around: _Surroundings, ends: list[_
         left = 1 - away[0] / max(float(away[0][border[near]].max()), 1)
         width *= np.clip(left / _THINNING, 0, 1)
     colour = nearness.T @ np.stack([end.colour for end in ends])
-    share = np.clip(width / 2 + 0.5 - around.aside[near], 0, 1) * np.minimum(width, 1) * around.sure[near]
+    share = (
+        np.clip(width / 2 + 0.5 - around.aside[near], 0, 1)
+        * np.minimum(width, 1)
+        * width
+        / np.hypot(width, _SPREAD * around.unsure[near])
+    )
     picture[near] += (share[:, None] * (colour - picture[near])).astype(np.float32)

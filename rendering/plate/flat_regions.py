@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from ..pictures import window_around
 from .area_kinds import ending_at_edges, wide_areas
+from .area_votes import elected_areas
+from .border_directions import border_directions
 from .flatness import nearest_of
 
 __all__ = ["FlatRegions", "flat_regions"]
@@ -25,20 +27,16 @@ _LINE = 5.0
 _CONTACT = 8
 _TOUCH = 8.0
 _MOST_REGIONS = 48
-# Borders are rounded over this [px]; where little is known of them they blur over this.
+# Borders are rounded over this [px].
 _ROUNDED = 3.0
-_UNSURE = 20.0
+# They may be off by this share of what the directions of those around would let them be off by.
+_OFF = 0.25
 # Areas whose colours differ by less are one; a line that is continued through the hole has an area's colours at its
 # sides if they differ by less than the second.
 _ALIKE = 0.06
 _BESIDE = 0.2
 # Areas are looked for within this of the hole [px].
 _MARGIN = 48
-# Deeper than this the rim is seen at this scale [px], and counts by distance to this power.
-_SCALE = 4
-_POWER = 4.0
-# Borders grow unsure over this depth [px].
-_DEEP = 80.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,14 +47,14 @@ class FlatRegions:
         number: of the area, from 1; 0 is what is not flat, shape [h, w].
         second: the area beyond the nearest border, shape [h, w].
         aside: how far that border is [px], shape [h, w].
-        sure: how sure the borders are, 0..1, shape [h, w].
+        unsure: how far off the borders may be [px], shape [h, w].
         flat: where the areas themselves are, their numbers, shape [h, w]; 0 elsewhere.
     """
 
     number: IntImage
     second: IntImage
     aside: FloatImage
-    sure: FloatImage
+    unsure: FloatImage
     flat: IntImage
 
     @property
@@ -96,7 +94,7 @@ def flat_regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> Fl
         _placed(near.number, window, hole.shape, 0),
         _placed(near.second, window, hole.shape, 0),
         _placed(near.aside, window, hole.shape, np.inf),
-        _placed(near.sure, window, hole.shape, 1),
+        _placed(near.unsure, window, hole.shape, 0),
         _placed(near.flat, window, hole.shape, 0),
     )
 
@@ -118,41 +116,22 @@ def _regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> FlatRe
     rim = _rim(hole)
     if not labels[rim].any():
         return None
-    wide = rim & wide_areas(picture, seeds, labels, hole)
-    labels, sure = _continued(labels, hole, wide if wide.any() else rim)
+    wide = wide_areas(picture, seeds, labels, hole)
+    labels, unsure = _continued(labels, hole, rim & wide if (rim & wide).any() else rim)
+    # A strip between two areas that belongs to neither is the soft border of both.
+    strip = (labels == 0) & ~hole & ~wide
+    if not strip[~hole].all():
+        labels = np.where(strip, labels.ravel()[nearest_of(~hole & ~strip)[1]], labels)
     number, second, aside = _borders(labels, int(seeds.max()) + 1)
-    return FlatRegions(number, second, aside, sure, np.maximum(seeds, 0) * flat)
+    return FlatRegions(number, second, aside, unsure, np.maximum(seeds, 0) * flat)
 
 
 def _continued(labels: IntImage, hole: Mask, rim: Mask) -> tuple[IntImage, FloatImage]:
-    """Labels from the hole's rim continued into it, and how sure they are, shape [h, w].
-
-    Beside the rim the nearest label counts, and deeper the one that has most of the rim around, by distance.
-    """
-    nearest = nearest_of(rim)[1]
+    """Labels from the hole's rim continued into it, and how far off their borders may be [px], shape [h, w]."""
+    directions = border_directions(labels, hole)
+    continued = elected_areas(labels, hole, rim, directions)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    continued = np.where(depth < _SCALE, labels.ravel()[nearest], _elected(labels, rim))
-    sure = np.exp(-((depth / np.float32(_DEEP)) ** 2))
-    return np.where(hole, continued, labels), sure
-
-
-def _elected(labels: IntImage, rim: Mask) -> IntImage:
-    """The label with the largest sum of distance^-power over its part of the rim, shape [h, w]."""
-    from scipy import fft
-
-    height, width = (-(-length // _SCALE) for length in labels.shape)
-    size = [fft.next_fast_len(2 * length, real=True) for length in (height, width)]
-    y, x = (np.minimum(np.arange(length), length - np.arange(length)).astype(np.float64) for length in size)
-    kernel = fft.rfft2((y[:, None] ** 2 + x**2 + 0.25) ** (-_POWER / 2))
-    best = np.zeros(labels.shape, dtype=np.int32)
-    most = np.full(labels.shape, -np.inf, dtype=np.float32)
-    for k in np.unique(labels[rim]):
-        own = cv2.resize((rim & (labels == k)).astype(np.float32), (width, height), interpolation=cv2.INTER_AREA)
-        votes = np.maximum(fft.irfft2(fft.rfft2(own.astype(np.float64), size) * kernel, size)[:height, :width], 1e-12)
-        support = cv2.resize(np.log(votes).astype(np.float32), labels.shape[::-1], interpolation=cv2.INTER_LINEAR)
-        wins = support > most
-        best[wins], most = k, np.maximum(support, most)
-    return best
+    return np.where(hole, continued, labels), np.float32(_OFF) * depth * directions.dispersion
 
 
 def _rim(hole: Mask) -> Mask:
@@ -185,8 +164,9 @@ def _seeds(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> IntImage
     chosen = chosen[contact[chosen] >= _CONTACT]
     if not len(chosen):
         return None
-    near = away <= 2 * _TOUCH
-    colours = np.stack([picture[near & (parts == part)].mean(axis=0) for part in chosen])
+    own = parts[flat]
+    sums = [np.bincount(own, weights=plane[flat], minlength=count)[chosen] for plane in cv2.split(picture)]
+    colours = (np.stack(sums, axis=1) / np.bincount(own, minlength=count)[chosen, None]).astype(np.float32)
     merged = _merged(colours)
     numbers = np.zeros(count, dtype=np.int32)
     numbers[chosen] = merged + 1

@@ -42,19 +42,21 @@ class Level:
     Attributes:
         picture: RGB in 0 to 1, shape [h, w, 3].
         hole: true where colours are unknown, shape [h, w].
+        wanted: where of that patches are to be found, shape [h, w].
         guide: smooth colours for the hole, shape [h, w, 3].
         smooth: the picture as blurred as the guide, shape [h, w, 3].
     """
 
     picture: FloatImage
     hole: Mask
+    wanted: Mask
     guide: FloatImage
     smooth: FloatImage
 
     @cached_property
     def unknown(self) -> IndexArray:
-        """Flat indices of the pixels of the hole, shape [n]."""
-        return np.flatnonzero(self.hole)
+        """Flat indices of the pixels that are wanted, shape [n]."""
+        return np.flatnonzero(self.wanted)
 
     def halved(self) -> Level:
         """Half the size; a pixel is known if most of it was."""
@@ -63,7 +65,9 @@ class Level:
         known = cv2.resize(weight, size, interpolation=cv2.INTER_AREA)
         total = cv2.resize(self.picture * weight[..., None], size, interpolation=cv2.INTER_AREA)
         guide, smooth = (cv2.resize(image, size, interpolation=cv2.INTER_AREA) for image in (self.guide, self.smooth))
-        return Level(total / np.maximum(known, 1e-6)[..., None], known < 0.6, guide, smooth)
+        hole = known < 0.6
+        wanted = hole & (cv2.resize(self.wanted.astype(np.float32), size, interpolation=cv2.INTER_AREA) > 0)
+        return Level(total / np.maximum(known, 1e-6)[..., None], hole, wanted, guide, smooth)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,13 +102,13 @@ def usable_sources(hole: Mask) -> Mask:
 
 
 class PatchSearch:
-    """Nearest neighbours of the patches that touch the hole, at one level."""
+    """Nearest neighbours of the patches that touch what is wanted of the hole, at one level."""
 
     def __init__(self, level: Level, finds: Finds | None, random: np.random.Generator) -> None:
         self.level, self.random = level, random
         self.shape = level.hole.shape
         self.usable = usable_sources(level.hole).reshape(-1)
-        self.targets = np.flatnonzero(cv2.dilate(level.hole.astype(np.uint8), _SQUARE))
+        self.targets = np.flatnonzero(cv2.dilate(level.wanted.astype(np.uint8), _SQUARE))
         self.row, self.column = np.divmod(self.targets, self.shape[1])
         sources = np.flatnonzero(self.usable)
         self.source = random.choice(sources, len(self.targets))

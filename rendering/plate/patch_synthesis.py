@@ -35,7 +35,13 @@ _PIECE = 4096
 
 
 def continue_texture(
-    picture: FloatImage, hole: Mask, guide: FloatImage, *, matched: tuple[int, ...] = (3, 2, 1), seed: int = 0
+    picture: FloatImage,
+    hole: Mask,
+    guide: FloatImage,
+    *,
+    wanted: Mask | None = None,
+    matched: tuple[int, ...] = (3, 2, 1),
+    seed: int = 0,
 ) -> FloatImage:
     """Fill a hole with patches from around it.
 
@@ -43,6 +49,7 @@ def continue_texture(
         picture: RGB in 0 to 1, shape [h, w, 3].
         hole: true where colours are unknown, shape [h, w]; its surroundings should contain whole patches.
         guide: smooth colours for the hole, shape [h, w, 3].
+        wanted: where in the hole patches are wanted, shape [h, w]; elsewhere it keeps the guide's colours. None: all.
         matched: scales at which patches are matched, from coarse to fine; scale k is 2^-k of the size.
         seed: of the random guesses.
 
@@ -50,7 +57,9 @@ def continue_texture(
         RGB in 0 to 1, shape [h, w, 3]; equal to ``picture`` outside the hole.
     """
     filled = np.where(hole[..., None], guide, picture)
-    levels = [Level(picture, hole, guide, cv2.GaussianBlur(filled, (0, 0), 3.0))]
+    levels = [
+        Level(picture, hole, hole if wanted is None else hole & wanted, guide, cv2.GaussianBlur(filled, (0, 0), 3.0))
+    ]
     while len(levels) <= matched[0]:
         levels.append(levels[-1].halved())
     random = np.random.default_rng(seed)
@@ -61,7 +70,7 @@ def continue_texture(
         if finds is not None:
             finds = finds.doubled(level.hole.shape)
             current = _voted(level, current, finds)
-        if scale in matched and level.hole.any() and usable_sources(level.hole).any():
+        if scale in matched and level.wanted.any() and usable_sources(level.hole).any():
             current, finds = _matched(level, current, finds, random, rounds=_ROUNDS + scale)
     return current if finds is not None else filled
 

@@ -35,6 +35,8 @@ _FAINT = 0.02
 # the hole, patches are less and less likely to be the right ones: their share fades with this depth [px].
 _TEXTURE = 0.6
 _TEXTURE_DEPTH = 40.0
+# A share that changes no colour by a level.
+_UNSEEN = 1 / 255
 # Colours, lines and patches come from within this of the hole [px].
 _CONTEXT = 120
 # Patches are matched down to the scale at which a hole has no more pixels than this.
@@ -111,12 +113,12 @@ def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
     # Fine scales take long in a large hole, and most of it stays hidden.
     finest = max(0, int(np.ceil(np.log2(inside.sum() / _MATCHED_PIXELS) / 2)))
     scales = tuple(range(max(3, finest + 2), finest - 1, -1))
-    textured = continue_texture(around, inside, smooth, matched=scales)
     depth = cv2.distanceTransform(inside.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     share = np.float32(_TEXTURE) * np.exp(-depth / np.float32(_TEXTURE_DEPTH))
     if regions is not None:
         share *= 1 - np.float32(flat.cleanness) * regions.flat_share
     share[lines] = 0  # patches from elsewhere would break them up
+    textured = continue_texture(around, inside, smooth, wanted=share > _UNSEEN, matched=scales)
     blended = np.where(inside[..., None], smooth + share[..., None] * (textured - smooth), around)
     if regions is not None:
         blended = draw_outlines(lined, blended, unknown, regions, contrast, ink_lines(lined, ~unknown, flat.noise))

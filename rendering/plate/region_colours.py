@@ -7,6 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..pictures import window_around
+from .blurring import blurred
+from .border_softness import border_widths
 from .channels import over_channels
 from .flat_regions import FlatRegions
 
@@ -23,14 +25,12 @@ _MOST = 3000
 _FEWEST = 30
 # How far the plane may lead beyond the colours that are there, as a share of their range.
 _BEYOND = 0.25
-# Where the borders of areas are not sure, they blur over this [px].
-_UNSURE = 16.0
 
 
 def paint_regions(
     picture: FloatImage, rest: FloatImage, hole: Mask, regions: FlatRegions
 ) -> tuple[FloatImage, FloatImage]:
-    """Paint each flat area's part of a hole in its colours, up to borders a pixel wide.
+    """Paint each flat area's part of a hole in its colours, up to borders as soft as those around.
 
     Args:
         picture: RGB in 0 to 1, shape [h, w, 3].
@@ -57,9 +57,9 @@ def paint_regions(
         second[window][next_to_own[window]] = colours[next_to_own[window]]
     share = np.clip(np.float32(0.5) + regions.aside / 2, 0.5, 1)[..., None]
     sharp = np.where(hole[..., None], second + share * (first - second), picture)
-    soft = _blurred(sharp)
     contrast = np.where(beside, np.sqrt(over_channels((first - second) ** 2)), 0)
-    return np.where(hole[..., None], soft + regions.sure[..., None] * (sharp - soft), picture), contrast
+    soft = blurred(sharp, border_widths(picture, hole, regions), hole | (regions.flat > 0))
+    return np.where(hole[..., None], soft, picture), contrast
 
 
 def _continued(picture: FloatImage, source: Mask, wanted: Mask) -> FloatImage:
@@ -108,9 +108,3 @@ def _trend(picture: FloatImage, source: Mask, near: Mask) -> tuple[FloatImage, F
     down = np.linspace(-0.5, 0.5, height, endpoint=False, dtype=np.float32)[:, None, None]
     trend = found[0] + found[1] * across + found[2] * down
     return trend, np.maximum(lowest - beyond, 0), np.minimum(highest + beyond, 1)
-
-
-def _blurred(picture: FloatImage) -> FloatImage:
-    size = picture.shape[1] // 4 + 1, picture.shape[0] // 4 + 1
-    small = cv2.GaussianBlur(cv2.resize(picture, size, interpolation=cv2.INTER_AREA), (0, 0), _UNSURE / 4)
-    return cv2.resize(small, picture.shape[1::-1], interpolation=cv2.INTER_LINEAR)

@@ -20,7 +20,7 @@ def level_of(seed: int, height: int = 40, width: int = 34) -> Level:
     hole = np.zeros((height, width), dtype=bool)
     top, left = random.integers(0, 20, 2)
     hole[top : top + 13, left : left + 11] = True
-    return Level(picture, hole, picture, picture)
+    return Level(picture, hole, hole, picture, picture)
 
 
 def plain_cost(search: PatchSearch, source: np.ndarray) -> np.ndarray:
@@ -68,7 +68,7 @@ def test_each_pixel_is_the_weighted_mean_of_what_patches_propose(
     random, level = np.random.default_rng(seed), level_of(seed, 90, 90)
     hole = np.zeros_like(level.hole)
     hole[5:85, 10:80] = True
-    level = Level(level.picture, hole, level.guide, level.smooth)
+    level = Level(level.picture, hole, hole, level.guide, level.smooth)
     height, width = hole.shape
     trust = np.where(random.random(hole.shape) < 0.8, random.random(hole.shape), 0).astype(np.float32)
     trust[:RADIUS] = trust[-RADIUS:] = trust[:, :RADIUS] = trust[:, -RADIUS:] = 0
