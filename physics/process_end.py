@@ -11,12 +11,13 @@ import atexit
 import os
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 
 from .errors import Cancelled
 
-__all__ = ["stop_at_end", "working"]
+__all__ = ["stop_at_end", "wait_to_the_end", "working"]
 
 _LAST_SECONDS = 30.0  # that the end of the process waits: no stage is longer between two checkpoints, or few are
 _GRACE_SECONDS = 0.5  # and then for those threads themselves: they may be somebody's, which do not end
@@ -61,6 +62,22 @@ def stop_at_end() -> None:
         raise Cancelled("the process is ending")
 
 
+def wait_to_the_end(wait: Callable[[float], object], seconds: float) -> None:
+    """Wait while the process ends, whatever signals come: nobody can be told any more that somebody pressed Ctrl+C.
+
+    Args:
+        wait: waits for at most so many seconds; called again where an interrupt has ended it early.
+        seconds: how long to wait at most.
+    """
+    until = time.monotonic() + seconds
+    while True:
+        try:
+            wait(max(0.0, until - time.monotonic()))
+        except KeyboardInterrupt:
+            continue
+        return
+
+
 def _finish() -> None:
     if _state["process"] != os.getpid():
         return
@@ -68,7 +85,7 @@ def _finish() -> None:
     with _changed:
         _state["ending"] = True
         stopped = [thread for thread in threading.enumerate() if thread.ident in set(_at_work) - {this}]
-        _changed.wait_for(lambda: not set(_at_work) - {this}, _LAST_SECONDS)
+        wait_to_the_end(partial(_changed.wait_for, lambda: not set(_at_work) - {this}), _LAST_SECONDS)
     until = time.monotonic() + _GRACE_SECONDS
     for thread in stopped:  # which may still write that it was stopped
-        thread.join(max(0.0, until - time.monotonic()))
+        wait_to_the_end(thread.join, until - time.monotonic())

@@ -5,11 +5,13 @@ from __future__ import annotations
 import atexit
 import threading
 from collections.abc import Sequence
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..process_end import wait_to_the_end
 from .spacing import SpacingField
 
 __all__ = ["CrossingEdgesError", "interior_seeds", "morton_order", "triangulate"]
@@ -33,7 +35,7 @@ _LAST_SECONDS = 30.0
 # Held while the library triangulates. The end of the process takes it for good: a thread that came back from the
 # library after that would find no interpreter, and abort.
 _at_work = threading.Lock()
-atexit.register(_at_work.acquire, timeout=_LAST_SECONDS)
+atexit.register(wait_to_the_end, partial(_at_work.acquire, True), _LAST_SECONDS)
 
 
 class CrossingEdgesError(Exception):

@@ -26,6 +26,7 @@ from functools import wraps
 from typing import Any, ParamSpec, TypeVar, cast
 
 from ..errors import PhysAnimatorError
+from ..process_end import wait_to_the_end
 from .cache_folder import KernelCache, kernel_cache
 from .program import end_program, import_taichi, is_initialising, new_program, program_of
 from .reading import quick_reading
@@ -195,7 +196,7 @@ class _TaichiThread:
                 self._worker.kill()
             job = _Job(self._close)
             self._jobs.put(job)
-            job.done.wait(_LAST_SECONDS)
+            wait_to_the_end(job.done.wait, _LAST_SECONDS)
 
     def _close(self) -> None:
         self._closed = True

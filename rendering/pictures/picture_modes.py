@@ -78,7 +78,7 @@ def grey_numbers(picture: Image.Image, *, name: str = "picture") -> NDArray[Any]
     if low < (-OVERSHOOT if fractions else 0) or unclear or not fitting:
         known = [f"0 to {each:.0f}" for each in ranges]
         of = f"{', '.join(known[:-1])} or {known[-1]}" if known[1:] else known[0]
-        reaching = f", and reach a sixteenth of that" if unclear else ""
+        reaching = ", and reach a sixteenth of that" if unclear else ""
         raise InvalidInputError(f"{name} must hold numbers from {of}{reaching}. Got: {low:.6g} to {high:.6g}")
     return np.clip(values / fitting[0], 0.0, 1.0)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -78,3 +79,42 @@ time.sleep({seconds})
 """)
     assert (done.returncode, done.stderr) == (0, "")
     assert "the process is ending" in done.stdout
+
+
+@pytest.mark.skipif(os.name == "nt", reason="os.kill ends the process on Windows")
+def test_ctrl_c_does_not_tear_the_end_apart() -> None:
+    done = ended("""\
+import os, signal
+def work():
+    try:
+        with process_end.working():
+            begun.set()
+            time.sleep(0.3)
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(0.3)
+            process_end.stop_at_end()
+    except Cancelled as error:
+        print(error, flush=True)
+begun = threading.Event()
+threading.Thread(target=work, daemon=True).start()
+begun.wait()
+""")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "the process is ending\n", "")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="os.kill ends the process on Windows")
+def test_ctrl_c_while_the_last_kernels_are_kept_is_not_heard() -> None:
+    done = ended("""\
+import os, signal
+from physanimator.physics.runtime import taichi_runtime
+taichi_runtime.run(int)
+runtime = taichi_runtime._taichi_thread
+close = runtime._close
+def closing():
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(0.5)
+    close()
+    print("closed", flush=True)
+runtime._close = closing
+""")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "closed\n", "")

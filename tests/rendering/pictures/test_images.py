@@ -246,7 +246,7 @@ def test_planes_that_cannot_be_told(tmp_path: Path, value: float, message: str) 
 def test_a_range_that_no_value_comes_near_is_not_guessed(tmp_path: Path, most: int, kind: type) -> None:
     """Taken for the next wider one, the picture would be nearly black."""
     Image.fromarray(np.linspace(0, most, 72).reshape(8, 9).astype(kind)).save(tmp_path / "deep.tif")
-    with pytest.raises(InvalidInputError, match="deep.tif must hold numbers from 0 to"):
+    with pytest.raises(InvalidInputError, match=r"deep\.tif must hold numbers from 0 to"):
         load_image(tmp_path / "deep.tif")
 
 
