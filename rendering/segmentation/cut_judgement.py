@@ -57,7 +57,7 @@ def judge_cut(
     if share > _LARGEST and box is None and positive.sum() == 1:
         found.append(
             f"The cut is {100 * share:.0f} % of the picture from one point, most likely the background too: put points"
-            " beside it (0) on what shall stay, or draw a box around what shall move."
+            " beside it (Alt+click, or 0 in a list) on what shall stay, or draw a box around what shall move."
         )
     if image is not None and not any(found) and box is None:
         found.append(_across(image, mask, cells[~positive], others))
@@ -119,7 +119,8 @@ def _across(image: NDArray[Any], mask: Mask, beside: NDArray[np.int_], others: M
     places = ", ".join(f"({each.x}, {each.y})" for each in found[:3]) + (", ..." if len(found) > 3 else "")
     return (
         f"The cut ends at something narrow, and its colours go on beyond it, at {places}: {found[0].area} px that stay"
-        " still. If they belong to the part, put a point on them; if not, one beside the part (0)."
+        " still. If they belong to the part, put a point on them; if not, one beside the part (Alt+click, or"
+        " 0 in a list)."
     )
 
 
@@ -159,5 +160,5 @@ def _holes(mask: Mask, cells: NDArray[np.int_]) -> str:
     places = ", ".join(f"({x}, {y})" for x, y in cells[inside][:3]) + (", ..." if inside.sum() > 3 else "")
     return (
         f"The cut goes around {inside.sum()} of {len(cells)} points beside the part, at {places}: put more points"
-        " beside the part (0) there, or draw a box around the part."
+        " beside the part (Alt+click, or 0 in a list) there, or draw a box around the part."
     )

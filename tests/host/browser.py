@@ -22,7 +22,7 @@ _ARGUMENTS = [
     "--enable-unsafe-swiftshader",
 ]
 # What the frontends complain about by themselves: files that the host lacks, routes that are newer than the host, the
-# outside world; a page file that fails, which they name in a second message; subgraphs that are left.
+# outside world; a page file that fails, which they name in a second message; subgraphs that are left or unpacked.
 _HOST_NOISE = (
     "Failed to load resource",
     "[Jobs API]",
@@ -30,6 +30,7 @@ _HOST_NOISE = (
     "Connecting to",
     "[vite:preloadError]",
     "Attempted to cleanup event listeners",
+    "Missing Link ID when unpacking",
 )
 _READY = "() => window.app?.graph && window.LiteGraph?.registered_node_types?.['PhysAnimator_Render']"
 
