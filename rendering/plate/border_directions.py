@@ -20,20 +20,20 @@ Mask = NDArray[np.bool_]
 # Borders are looked at within this of the hole, over about this length [px].
 _REACH = 12.0
 _SMOOTHED = 3.0
-# What is nearer to the hole than this sees too little of them [px].
-_BLIND = 3.0
 # Every so many pixels are looked at.
 _STEP = 2
 # Squares of so many of them count as one piece of border.
 _CELL = 2
 _FAINTEST = 1e-4
+# It counts by nearness to this power.
+_POWER = 3.0
 # In the hole directions are found for squares of this side [px], and between them by interpolation.
 _SQUARE = 8
 
 
 @dataclass(frozen=True, eq=False)
 class Directions:
-    """The mean of the borders around, by the square of nearness, at each square of a hole.
+    """The mean of the borders around, the nearer the more, at each square of a hole.
 
     Attributes:
         tensor: mean products of their normals, xx, xy, yy, its trace 1 or 0, shape [rows, columns, 3].
@@ -83,7 +83,7 @@ def border_directions(labels: IntImage, hole: Mask) -> Directions:
     if len(x):
         row, column = (each * np.float32(_SQUARE) + np.float32(_SQUARE / 2 - 0.5) for each in np.nonzero(asked))
         far = np.square(column[:, None] - x) + np.square(row[:, None] - y) + np.float32(1)
-        total = np.reciprocal(far) @ pieces
+        total = far ** np.float32(-_POWER / 2) @ pieces
         tensor[asked] = total / (total[:, :1] + total[:, 2:])
     return Directions(tensor, hole.shape)
 
@@ -93,15 +93,17 @@ def _pieces(labels: IntImage, hole: Mask) -> tuple[FloatArray, FloatArray, Float
     full = hole.shape
     labels, hole = labels[::_STEP, ::_STEP], hole[::_STEP, ::_STEP]
     away = cv2.distanceTransform((~hole).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5) * _STEP
-    near = (away > _BLIND) & (away <= _REACH)
+    near = ~hole & (away <= _REACH)
     known, sigma = (~hole).astype(np.float32), _SMOOTHED / _STEP
     weight = np.maximum(cv2.GaussianBlur(known, (0, 0), sigma), np.float32(1e-3))
+    # Beside the hole they are seen in part.
+    trust = near * weight
     # A border's pixels are in steps, which are no directions of its own: changes are averaged before they are squared.
     size = -(-labels.shape[1] // _CELL), -(-labels.shape[0] // _CELL)
     tensor = np.zeros((size[1], size[0], 3), dtype=np.float32)
     for k in np.unique(labels[near]):
         share = cv2.GaussianBlur((labels == k) * known, (0, 0), sigma) / weight
-        right, down = (cv2.resize(each * near, size, interpolation=cv2.INTER_AREA) for each in gradients(share))
+        right, down = (cv2.resize(each * trust, size, interpolation=cv2.INTER_AREA) for each in gradients(share))
         tensor += np.stack([right * right, right * down, down * down], axis=-1)
     row, column = np.nonzero(tensor[..., 0] + tensor[..., 2] > _FAINTEST)
     y, x = (

@@ -78,7 +78,7 @@ def test_a_border_goes_on_in_its_direction(slope: float, monkeypatch: pytest.Mon
     truth = cloud(0.6, slope=slope)
     plate = filled(truth)
     wrong = HOLE & (np.abs(plate - truth).max(axis=2) > 0.15)
-    assert wrong.sum() < 0.05 * HOLE.sum()
+    assert wrong.sum() < 0.07 * HOLE.sum()
 
 
 def test_stripes_run_through_a_narrow_part_aslant(monkeypatch: pytest.MonkeyPatch) -> None:
