@@ -75,7 +75,7 @@ def naming_place(path: StrPath) -> Iterator[None]:
         yield
     except Exception as error:
         number = error.errno if isinstance(error, OSError) else _number_in(error)
-        if number not in _OF_THE_DISK:
+        if number is None or number not in _OF_THE_DISK:
             raise
         raise OSError(number, os.strerror(number), str(path)) from error
 

@@ -112,9 +112,12 @@ def _remove(made: Path) -> None:
 
 def _out_of_reach(folder: Path) -> Path:
     """The folder under another name, so that threads that still write into it by its own add nothing meanwhile."""
-    with suppress(OSError):
-        return folder.rename(folder.with_name(f".{secrets.token_hex(8)}"))
-    return folder
+    away = folder.with_name(f".{secrets.token_hex(8)}")
+    try:
+        os.rename(folder, away)
+    except OSError:
+        return folder
+    return away
 
 
 def _made(name: str, folder: Path, is_folder: bool) -> Path:
