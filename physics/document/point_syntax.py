@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import InvalidInputError, require, shown
-from ..limits import MAX_DOCUMENT_BYTES
+from ..limits import MAX_DOCUMENT_BYTES, MAX_DOCUMENT_LISTS
+from .json_text import Most, surplus_of
 
 __all__ = ["POINT_FORMS", "decoded"]
 
@@ -20,6 +21,7 @@ POINT_FORMS = '{"x": .., "y": ..}, [x, y], [x, y, label] or [x, y, label, part]'
 _DEEPEST = 40  # a scene document needs 8
 _LONGEST_LITERAL = 2**20  # characters: Python's parser takes 200 bytes for each
 _MOST_WRAPPINGS = 8  # JSON text within JSON text
+_LONGEST_TABLE, _LONGEST_LINE = 2**20, 1000  # characters
 _COLUMNS = ("x", "y", "label", "part")
 
 
@@ -40,7 +42,7 @@ def decoded(value: Any, name: str) -> Any:
         text = value.strip().lstrip("\ufeff").strip()
         require(name, "empty text", bool(text), expected)
         require(name, "more", len(text) <= MAX_DOCUMENT_BYTES, f"at most {MAX_DOCUMENT_BYTES >> 20} MB of text")
-        value = _structured(text, name) if text[0] in "[{('\"" else _number_or_table(text)
+        value = _structured(text, name) if text[0] in "[{('\"" else _number_or_table(text, name)
     value = value.tolist() if isinstance(value, np.ndarray) else value
     if isinstance(value, Mapping):
         value = {key: each.tolist() if isinstance(each, np.ndarray) else each for key, each in value.items()}
@@ -50,6 +52,11 @@ def decoded(value: Any, name: str) -> Any:
 
 
 def _structured(text: str, name: str) -> Any:
+    surplus = surplus_of(text, Most()) if len(text) > _LONGEST_LITERAL else None
+    if not surplus and max(map(text.count, "()]}")) > MAX_DOCUMENT_LISTS:
+        surplus = f"{MAX_DOCUMENT_LISTS:,} brackets"
+    if surplus:
+        raise InvalidInputError(f"{name} must hold at most {surplus}. Got: more")
     if _depth(text) > _DEEPEST:
         raise InvalidInputError(f"{name} must not be nested deeper than {_DEEPEST} lists. Got: {shown(text)}")
     for attempt in _attempts(text):
@@ -60,7 +67,7 @@ def _structured(text: str, name: str) -> Any:
         if found is not None:
             return list(found) if isinstance(found, tuple) else found
     if text[0] in "\"'":
-        return _table(text)
+        return _table(text, name)
     raise InvalidInputError(f"{name} must be valid JSON, a list of points such as {POINT_FORMS}. Got: {shown(text)}")
 
 
@@ -86,18 +93,26 @@ def _depth(text: str) -> int:
     return deepest
 
 
-def _number_or_table(text: str) -> Any:
+def _number_or_table(text: str, name: str) -> Any:
     """A bare number, which is no list of points, or a row for each point."""
+    _require_table(text, name)
     try:
         return float(text)
     except ValueError:
-        return _table(text)
+        return _table(text, name)
 
 
-def _table(text: str) -> list[Any]:
+def _require_table(text: str, name: str) -> None:
+    require(name, "more", len(text) <= _LONGEST_TABLE, f"a table of at most {_LONGEST_TABLE >> 20} MB")
+
+
+def _table(text: str, name: str) -> list[Any]:
     """Rows of numbers between commas, semicolons, tabs or blanks; a line of names may stand first."""
+    _require_table(text, name)
     lines = [line.split("#")[0].split("//")[0].strip() for line in text.splitlines()]
     lines = [line for line in lines if line]
+    longest = max(map(len, lines), default=0)
+    require(name, f"one of {longest:,}", longest <= _LONGEST_LINE, f"lines of at most {_LONGEST_LINE} characters")
     if not all(re.fullmatch(r"[^\s,;]+(\s*;\s*[^\s,;]*)+", line) for line in lines):
         lines = [part.strip() for line in lines for part in line.split(";") if part.strip()]
     rows = [_cells(line) for line in lines]

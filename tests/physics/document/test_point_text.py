@@ -206,3 +206,21 @@ def test_hostile_points_are_one_short_line(points: object, message: str) -> None
         parse_points(points, width=100, height=50)
     assert str(caught.value).isprintable()
     assert len(str(caught.value)) < 500
+
+
+@pytest.mark.parametrize(
+    ("text", "most"),
+    [
+        ("[" * 1_700_000, "1,600,000 lists"),
+        ("[" + ")" * 1_700_000, "1,600,000 brackets"),
+        ("[" + "1," * 4_300_000 + "1]", "4,200,000 values"),
+        ("[" + "1" * 1_100_000 + "]", "1,000 digits a number"),
+        ("1,2\n" * 300_000, "a table of at most 1 MB"),
+        ("1" * 1_100_000, "a table of at most 1 MB"),
+        # A search for a separator would begin anew at each of these blanks.
+        ("1" + "\N{NO-BREAK SPACE}" * 1000 + "2", "lines of at most 1000 characters"),
+    ],
+)
+def test_text_that_holds_too_much_is_refused_before_it_is_read(text: str, most: str) -> None:
+    with pytest.raises(InvalidInputError, match=rf"points must (be|hold at most) {most}"):
+        parse_points(text, width=100, height=100)
