@@ -36,7 +36,7 @@ _SQUARES = 8000
 _SHALLOW = 10.0
 _WITHIN = 64
 _TILE = 48
-_AT_ONCE = 1024
+_AT_ONCE = 128
 _LEAST = 1e-30
 
 
@@ -87,18 +87,22 @@ def elected_areas(labels: IntImage, hole: Mask, rim: Mask, directions: Direction
     coarse = np.zeros((*asked.shape, len(areas)), dtype=np.float32)
     for part in _parts(asked):
         coarse[part] = _votes(part, step, directions, grouped)
-    fine = _enlarged(coarse, step // _FINE)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    fine = []
     for tile in _tiles(squares_with(hole & (depth <= _SHALLOW), _FINE)):
         sides = (edge(at) * _FINE + way * _WITHIN for at in tile[::-1] for edge, way in ((np.min, -1), (np.max, 1)))
         near = voters.within(*(int(side) for side in sides))
         if len(near.x):
-            fine[tile] = _votes(tile, _FINE, directions, near)
+            fine.append((tile, _votes(tile, _FINE, directions, near)))
     best, most = np.zeros((2, *labels.shape), dtype=np.float32)
-    for k, plane in enumerate(np.moveaxis(fine, 2, 0)):
-        votes = _enlarged(plane[..., None], _FINE)[: labels.shape[0], : labels.shape[1], 0]
-        wins = votes > most if k else np.ones(labels.shape, dtype=bool)
-        best[wins], most[wins] = k, votes[wins]
+    # One area after the other: of a large picture all of them together would take gigabytes.
+    for k in range(len(areas)):
+        plane = _enlarged(coarse[..., k], step // _FINE)
+        for tile, votes in fine:
+            plane[tile] = votes[:, k]
+        plane = _enlarged(plane, _FINE)[: labels.shape[0], : labels.shape[1]]
+        wins = plane > most if k else np.ones(labels.shape, dtype=bool)
+        best[wins], most[wins] = k, plane[wins]
     return areas[best.astype(np.int64)].astype(np.int32)
 
 
@@ -158,5 +162,4 @@ def _votes(at: tuple[IntArray, IntArray], step: int, directions: Directions, vot
 
 def _enlarged(votes: FloatArray, times: int) -> FloatArray:
     size = votes.shape[1] * times, votes.shape[0] * times
-    planes = [cv2.resize(votes[..., k], size, interpolation=cv2.INTER_LINEAR) for k in range(votes.shape[2])]
-    return np.stack(planes, axis=-1)
+    return np.asarray(cv2.resize(np.ascontiguousarray(votes), size, interpolation=cv2.INTER_LINEAR))

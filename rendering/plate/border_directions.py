@@ -29,6 +29,8 @@ _FAINTEST = 1e-4
 _POWER = 3.0
 # In the hole directions are found for squares of this side [px], and between them by interpolation.
 _SQUARE = 8
+# So many pairs of a square and a piece are looked at at once, which the processor's cache holds.
+_AT_ONCE = 1 << 17
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,8 +84,13 @@ def border_directions(labels: IntImage, hole: Mask) -> Directions:
     tensor = np.zeros((*asked.shape, 3), dtype=np.float32)
     if len(x):
         row, column = (each * np.float32(_SQUARE) + np.float32(_SQUARE / 2 - 0.5) for each in np.nonzero(asked))
-        far = np.square(column[:, None] - x) + np.square(row[:, None] - y) + np.float32(1)
-        total = far ** np.float32(-_POWER / 2) @ pieces
+        total, rows = np.empty((len(row), 3), dtype=np.float32), max(1, _AT_ONCE // len(x))
+        for start in range(0, len(row), rows):
+            some = slice(start, start + rows)
+            far = np.square(column[some, None] - x)
+            far += np.square(row[some, None] - y)
+            far += 1
+            total[some] = np.power(far, np.float32(-_POWER / 2), out=far) @ pieces
         tensor[asked] = total / (total[:, :1] + total[:, 2:])
     return Directions(tensor, hole.shape)
 
