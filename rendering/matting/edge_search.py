@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ...physics.beside import side_by_side
 from ..pictures import nearest_pixels
+from .drawn_lines import WIDEST_LINE, disc
 from .like_regions import like_regions
 from .mask_edges import SQUARE
 from .random_walk import chance_of_core
@@ -33,6 +34,8 @@ _SAMPLES = 36
 _NEAR, _FAR = 9, 30
 _BEST = 3
 _ALIKE = 0.08
+# And with so many of all of a side; colours that differ by less are then the same.
+_ANYWHERE, _ROUGHLY = 256, np.float32(0.04)
 # So many pixels are compared at once: what is read then stays in the processor's cache.
 _AT_ONCE = 8192
 # A colour of neither side is more often the part's, whose outline is drawn, than the background's.
@@ -67,7 +70,7 @@ def found_shape(image: FloatImage, mask: FloatImage, reach: FloatImage) -> tuple
     if not (core.any() and outside.any() and band.any()):
         return inside, likely
     telling = _telling(image, core, outside, (depth - reach, away - reach))
-    likely[band] = _likely(image, band, *telling)
+    likely[band] = _likely(image, band, *telling, elsewhere=True)
     further = _going_on(image, (core | band) & (likely > _DENIED) | core, outside & ~telling[1])
     if further.any():
         likely[further] = _likely(image, further, *telling)
@@ -131,12 +134,43 @@ def _going_on(image: FloatImage, part: Mask, denied: Mask) -> Mask:
     return denied & kept[labels]
 
 
-def _likely(image: FloatImage, asked: Mask, core: Mask, outside: Mask) -> FloatImage:
-    """How likely the colours of some pixels are the part's, shape [n]."""
+def _likely(image: FloatImage, asked: Mask, core: Mask, outside: Mask, *, elsewhere: bool = False) -> FloatImage:
+    """How likely the colours of some pixels are the part's, shape [n].
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3].
+        asked: the pixels, shape [h, w].
+        core: what is the part's for sure, shape [h, w].
+        outside: what is not, shape [h, w].
+        elsewhere: where neither side has a colour near by, look farther off, see ``_wide_and_strange``.
+    """
     if not (asked.any() and core.any() and outside.any()):
         return np.full(int(asked.sum()), _HALF, dtype=np.float32)
     part, rest = explained(image, asked, core), explained(image, asked, outside)
+    if elsewhere and (strange := _wide_and_strange(asked, part + rest)).any():
+        colours = image[asked][strange]
+        part[strange], rest[strange] = (_found_anywhere(colours, image[side]) for side in (core, outside))
     return (part + _OUTLINE) / (part + rest + _OUTLINE + _STRANGE)
+
+
+def _wide_and_strange(asked: Mask, known: FloatImage) -> Mask:
+    """Which pixels are of areas wider than a drawn line in colours that neither side has near by, shape [n].
+
+    An outline is a line. What is wider may be what is behind the part, seen through a gap that the mask has closed:
+    then the nearest pixels outside are those of something else beyond the gap.
+    """
+    strange = np.zeros(asked.shape, dtype=np.uint8)
+    strange[asked] = known < _STRANGE
+    return cv2.morphologyEx(strange, cv2.MORPH_OPEN, disc(WIDEST_LINE // 2 + 1))[asked] > 0
+
+
+def _found_anywhere(colours: FloatImage, side: FloatImage) -> FloatImage:
+    """How well the colours of all of one side explain some colours, 0 to 1, shape [n]."""
+    samples = side[np.random.default_rng(0).integers(len(side), size=_ANYWHERE)]
+    _, first, same = np.unique(np.rint(colours / _ROUGHLY), axis=0, return_index=True, return_inverse=True)
+    away = np.square(colours[first, None] - samples[None]).sum(axis=2)
+    best = np.partition(away, _BEST - 1, axis=1)[:, :_BEST]
+    return np.asarray(np.exp(-best / (2 * _ALIKE**2)).mean(axis=1), dtype=np.float32)[same.ravel()]
 
 
 def _depth(shape: Mask) -> FloatImage:

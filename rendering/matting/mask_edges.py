@@ -67,13 +67,20 @@ def mean_near(values: FloatImage, where: Mask, *, sigma: float = _SIGMA) -> tupl
     return cv2.GaussianBlur(values * weight, (0, 0), sigma) / np.maximum(total, 1e-6), total > 1e-3
 
 
-def edge_strength(image: FloatImage, shape: Mask) -> FloatImage:
+def edge_strength(image: FloatImage, shape: Mask, *, apart_from: Mask | None = None) -> FloatImage:
     """How steeply the picture's colours change across the nearby edge of a shape [per px], shape [h, w].
 
     The change is averaged along the edge with its sign, so that texture cancels.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3], or with further channels.
+        shape: whose edge is meant, shape [h, w].
+        apart_from: another shape: where its edge is the same, the edge does not count; shape [h, w].
     """
     soft = cv2.GaussianBlur(shape.astype(np.float32), (0, 0), 1.0)
-    line = grown(shape, CROSS) & grown(~shape, CROSS)
+    line = _both_sides(shape)
+    if apart_from is not None:
+        line &= ~_both_sides(apart_from)
     on_line = np.flatnonzero(line)
     right, down = (cv2.Sobel(soft, -1, *axes).ravel()[on_line] for axes in _AXES)
     length = np.maximum(np.sqrt(right * right + down * down), np.float32(1e-6))
@@ -85,6 +92,11 @@ def edge_strength(image: FloatImage, shape: Mask) -> FloatImage:
     total = np.maximum(cv2.GaussianBlur(line.astype(np.float32), (0, 0), _ALONG), np.float32(1e-4))
     squares = [mean * mean for mean in cv2.split(cv2.GaussianBlur(across, (0, 0), _ALONG))]
     return np.asarray(np.sqrt(sum(squares[1:], start=squares[0])) / total, dtype=np.float32)
+
+
+def _both_sides(shape: Mask) -> Mask:
+    """The pixels next to the edge of a shape, inside and outside."""
+    return grown(shape, CROSS) & grown(~shape, CROSS)
 
 
 def inner_colour(image: FloatImage, support: Mask) -> FloatImage:

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from ..pictures import window_around
 from .line_fill import filled_behind_lines
-from .mask_edges import FAINT, LEAST_CONTRAST, SOLID, SQUARE, grown, hard_edge, inner_colour, mean_near
+from .mask_edges import FAINT, LEAST_CONTRAST, SOLID, SQUARE, WIDE, grown, hard_edge, inner_colour, mean_near
 from .measured_alpha import measured_alpha
-from .raised_alpha import raised_alpha
+from .raised_alpha import INEXPLICABLE, raised_alpha
 from .solved_alpha import solved_alpha
 
 __all__ = ["fitting_plate", "in_levels", "is_outlined", "mixed_rim", "soft_alpha", "with_outline"]
@@ -30,6 +30,7 @@ _TOLERANCE = 0.055
 _SPECK = 20
 # What decides whether an edge is hard lies within this, where a blur of 5 px ends [px].
 _RIM_MARGIN = 24
+_HALF = 0.5
 # Of colours in 255 levels, those that stay within a little less than half a level of each other round to the same.
 _ROUNDING = 0.49 / 255
 _LEVEL_ERROR = 1e-3
@@ -106,6 +107,9 @@ def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: 
     """
     found = measured_alpha if _is_outlined(image, mask > FAINT, support) else solved_alpha
     alpha = filled_behind_lines(found(image, plate, mask, support), mask, support)
+    # What a mask wants soft where its part shows no edge reaches far in after a wide blur.
+    deep = (alpha > _HALF) & (alpha < 1) & ~grown(~support, WIDE)
+    alpha = raised_alpha(image, plate, alpha, deep, beyond=INEXPLICABLE)
     # The last percents of a mask that nowhere becomes quite white would leave black of the part behind as black.
     return raised_alpha(image, plate, alpha, (alpha > SOLID) & (alpha < 1), beyond=LEAST_CONTRAST)
 

@@ -14,7 +14,7 @@ from .mask_edges import CROSS, SQUARE, edge_strength, grown, mean_near
 from .mask_forms import MaskEdge, edge_of, from_edge
 from .matte import is_outlined
 from .outline_colour import coloured_outline
-from .strand_ends import narrow_strands, strand_ends
+from .strand_ends import coloured_ends, leading_away, narrow_strands, strand_ends
 
 __all__ = [
     "LEAST_STEP",
@@ -47,6 +47,8 @@ LEAST_STEP = 0.04
 _HALF = 0.5
 # And be this much stronger than the mask's own.
 _STRONGER = 1.15
+# Colours this likely are the part's: those of neither side, as of outlines, are less (see found_shape).
+_COLOURED = 0.9
 # So far from an edge its strength is not seen [px].
 _APART = 8.0
 # An edge this strong is a clear one; the middle half of these must lie within this range of distances [px].
@@ -76,16 +78,20 @@ def searched(
     """
     limit = np.asarray(reach + _HALF * np.minimum(edge.width, WIDEST), dtype=np.float32)
     shape, likely = found_shape(image, mask, limit)
+    shape = shape | coloured_ends(shape, likely > _COLOURED, edge.inside)
     changed = shape != edge.inside
     agreed = mean_near(np.where(shape, likely, 1 - likely), changed, sigma=3.0)[0]
     strength = edge_strength(image, shape)
     given = edge_strength(image, edge.inside)
     better = strength > (np.maximum(_STRONGER * given, LEAST_STEP) if exact else LEAST_STEP)
     better |= _closed(shape & ~edge.inside, shape, given)
+    ends = leading_away(shape, edge.inside)
+    if exact and ends.any():
+        better |= ends & _better_ended(image, shape, edge.inside)
     moved = changed & better & (agreed > _HALF)
     # Changes as thin as one pixel are left to the matting.
     thick = cv2.morphologyEx(moved.astype(np.uint8), cv2.MORPH_OPEN, np.ones((2, 2), np.uint8)) > 0
-    moved &= grown(thick, SQUARE)
+    moved &= grown(thick, SQUARE) | grown(ends, SQUARE)
     return np.where(moved, shape, edge.inside), moved
 
 
@@ -169,6 +175,15 @@ def _clear(image: FloatImage, shape: Mask) -> Mask:
 def _outside(given: Mask) -> FloatImage:
     """How far outside of a mask's outermost pixels each pixel lies [px], shape [h, w]."""
     return np.asarray(np.where(given, 1 - from_edge(given), from_edge(given)), dtype=np.float32)
+
+
+def _better_ended(image: FloatImage, shape: Mask, given: Mask) -> Mask:
+    """Where a shape has a stronger edge than a mask, counting only what they do not share, shape [h, w].
+
+    The end of a strand is judged by the cut across it, and not by the mask's good edges on either side of the cut.
+    """
+    strength = edge_strength(image, shape, apart_from=given)
+    return np.asarray(strength > np.maximum(_STRONGER * edge_strength(image, given, apart_from=shape), LEAST_STEP))
 
 
 def _closed(added: Mask, shape: Mask, strength: FloatImage) -> Mask:

@@ -5,10 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["raised_alpha"]
+__all__ = ["INEXPLICABLE", "raised_alpha"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
+
+INEXPLICABLE = 0.4
+"""Further than this from the colour that it would need, what is behind does not explain a pixel of the mask."""
 
 
 def raised_alpha(image: FloatImage, plate: FloatImage, alpha: FloatImage, where: Mask, *, beyond: float) -> FloatImage:

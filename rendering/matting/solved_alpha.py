@@ -10,7 +10,7 @@ from ..pictures import window_around
 from .closed_form import solve_alpha
 from .line_share import share_of_line
 from .mask_edges import FAINT, LEAST_CONTRAST, SOLID, SQUARE, WIDE, grown, hard_edge, inner_colour, trusted
-from .raised_alpha import raised_alpha
+from .raised_alpha import INEXPLICABLE, raised_alpha
 
 __all__ = ["solved_alpha"]
 
@@ -19,8 +19,6 @@ Mask = NDArray[np.bool_]
 
 _HALF = 0.5
 _TRUST_IN_MASK = 0.03
-# Further than this from the colour that it would need, what is behind does not explain a pixel of the mask.
-_INEXPLICABLE = 0.4
 _DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (5, 5))
 
 
@@ -55,7 +53,7 @@ def solved_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support
     solved = _solved(image, alpha, unknown, guess)
     # Where a line behind the part meets its outline, both of the same ink, colours alone say that the outline goes on
     # in the line.
-    raised = raised_alpha(image, plate, solved, body & unknown, beyond=_INEXPLICABLE)
+    raised = raised_alpha(image, plate, solved, body & unknown, beyond=INEXPLICABLE)
     return _corrected(image, plate, raised, support, ~hard)
 
 

@@ -10,7 +10,7 @@ from .drawn_lines import LUMINANCE, OUTLINE_REACH, WIDEST_LINE, disc, lines
 from .like_regions import like_regions
 from .mask_edges import SQUARE, grown
 
-__all__ = ["narrow_strands", "strand_ends"]
+__all__ = ["coloured_ends", "leading_away", "narrow_strands", "strand_ends"]
 
 FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -43,6 +43,38 @@ def strand_ends(image: FloatImage, shape: Mask, strands: Mask) -> Mask:
         goes_on[0] = False
         found |= _continuing(goes_on[labels] & ~shape, strands, shape)
     return found
+
+
+def coloured_ends(shape: Mask, coloured: Mask, given: Mask) -> Mask:
+    """What goes on from the strands of a part in their colours, as they do, to where it ends.
+
+    Along a thin strand what divides is never far, and the further from the part's body, the more it outweighs what the
+    strand hangs together with.
+
+    Args:
+        shape: the part as far as it is known, shape [h, w].
+        coloured: what is of the part's colours, shape [h, w].
+        given: the mask; whoever left a strand out of it altogether may have meant to; shape [h, w].
+
+    Returns:
+        Pixels of strands beyond ``shape``, shape [h, w].
+    """
+    beyond = coloured & ~shape
+    beyond = narrow_strands(beyond, beyond)
+    if not beyond.any():
+        return beyond
+    strands = narrow_strands(shape | beyond, shape | beyond) & shape
+    _, labels = cv2.connectedComponents(strands.astype(np.uint8), connectivity=8)
+    # A strand is so narrow that what the mask has of it is near to all of it.
+    near = grown(given, disc(WIDEST_LINE))
+    whole, known = (np.bincount(labels.ravel(), each.ravel(), int(labels.max()) + 1) for each in (strands, near))
+    return _continuing(beyond, strands & (2 * known > whole)[labels], shape)
+
+
+def leading_away(shape: Mask, given: Mask) -> Mask:
+    """What a shape has beyond a mask's ends and corners, as narrow as strands, going on as they do, shape [h, w]."""
+    beyond = narrow_strands(shape, shape & ~given)
+    return _continuing(beyond, given, given) if beyond.any() else beyond
 
 
 def narrow_strands(shape: Mask, beyond: Mask) -> Mask:
