@@ -143,14 +143,19 @@ def _carried(
 
     Where those do not, a border is as sharp as that of the sharper one: what lies in front has its own edge.
     """
-    nearness = 1 / (np.square(wanted[0][:, None] - known[0]) + np.square(wanted[1][:, None] - known[1]) + 1.0)
+    far = np.square(wanted[0][:, None] - known[0]) + np.square(wanted[1][:, None] - known[1]) + 1.0
+    nearness = 1 / far**2
     same = (wanted_pairs[:, None] == known_pairs).all(axis=2)
-    carried = _weighted(nearness * same, soft)
+    carried = _middle(nearness * same, soft)
     alone = ~same.any(axis=1)
     either = ((known_pairs == wanted_pairs[alone, None, k, None]).any(axis=2) for k in (0, 1))
-    carried[alone] = np.minimum(*(_weighted(nearness[alone] * each, soft) for each in either))
+    carried[alone] = np.minimum(*(_middle(nearness[alone] * each, soft) for each in either))
     return carried
 
 
-def _weighted(weight: FloatArray, values: FloatArray) -> FloatArray:
-    return np.asarray(weight @ values / np.maximum(weight.sum(axis=1), 1e-12))
+def _middle(weight: FloatArray, values: FloatArray) -> FloatArray:
+    """Medians, which a few profiles that met something else do not change, shape [n]; 0 without weight."""
+    order = np.argsort(values)
+    total = np.cumsum(weight[:, order], axis=1)
+    half = total[:, -1:] / 2
+    return np.where(half[:, 0] > 0, values[order][(total >= half).argmax(axis=1)], 0)
