@@ -30,10 +30,8 @@ _TOUCH = 8.0
 _MOST_REGIONS = 48
 # Borders are rounded over this [px].
 _ROUNDED = 3.0
-# They may be off by this share of what the directions of those around would let them be off by, and look no less sure
-# than the second says [px]: a border of the wrong course is a drawing, a haze is none.
+# They may be off by this share of what the directions of those around would let them be off by.
 _OFF = 0.25
-_MOST_OFF = 1.5
 # Areas whose colours differ by less are one; a line that is continued through the hole has an area's colours at its
 # sides if they differ by less than the second.
 _ALIKE = 0.06
@@ -43,6 +41,8 @@ _BESIDE = 0.2
 _DARKER = 0.15
 _ALL_ALONG = 0.8
 _SELDOM = 0.5
+# Areas are seen in narrow gaps where two thirds of what is around are flat: texture has each colour somewhere.
+_MOSTLY_FLAT = 1 / 3
 # Areas are looked for within this of the hole [px].
 _MARGIN = 48
 
@@ -97,7 +97,8 @@ def flat_regions(picture: FloatImage, hole: Mask, flat: FlatSurroundings, lines:
         The areas; None where none that is flat touches the hole.
     """
     window = window_around(hole | lines, margin=_MARGIN)
-    known = (each[window] for each in (picture, hole, flat.flat, flat.smooth, lines))
+    plain = flat.smooth & (flat.share > _MOSTLY_FLAT)
+    known = (each[window] for each in (picture, hole, flat.flat, plain, lines))
     near = _regions(*known)
     if near is None:
         return None
@@ -146,8 +147,7 @@ def _continued(labels: IntImage, hole: Mask, rim: Mask) -> tuple[IntImage, Float
     directions = border_directions(labels, hole)
     continued = elected_areas(labels, hole, rim, directions)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    unsure = np.minimum(np.float32(_OFF) * depth * directions.dispersion, np.float32(_MOST_OFF))
-    return np.where(hole, continued, labels), unsure
+    return np.where(hole, continued, labels), np.float32(_OFF) * depth * directions.dispersion
 
 
 def _enclosed(picture: FloatImage, rim: Mask, labels: IntImage, nearest: IntImage) -> Mask:
