@@ -40,7 +40,7 @@ _PIECES = 300
 # drawing, and a blurred one a haze. Deep in the hole, where hardly anything is ever seen, it may look less sure by this
 # share of the depth, and a soft one by as much as it is soft.
 _UNSURE = 1.5
-_DEEP = 1 / 15
+_DEEP = 0.1
 
 # A blur changes nothing farther from the border than this [deviations].
 _SEEN = 3
