@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..pictures import window_around
+from .border_softness import most_unsure
 from .flat_regions import FlatRegions
 
 __all__ = ["draw_outlines"]
@@ -98,8 +99,9 @@ def draw_outlines(
         RGB, shape [h, w, 3]; unchanged outside the hole.
     """
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    unsure = np.minimum(regions.unsure, most_unsure(hole))
     around = _Surroundings(
-        picture, *lines, hole, depth, contrast, regions.number, regions.second, regions.aside, regions.unsure
+        picture, *lines, hole, depth, contrast, regions.number, regions.second, regions.aside, unsure
     )
     closed = _closed(around, regions.count)
     drawn = filled.copy()

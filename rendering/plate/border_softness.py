@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from .flat_regions import FlatRegions
 from .flatness import nearest_of
 
-__all__ = ["border_widths"]
+__all__ = ["border_widths", "most_unsure"]
 
 FloatImage = NDArray[np.float32]
 FloatArray = NDArray[np.float64]
@@ -31,9 +31,17 @@ _END = 0.4
 _CONTRAST = 0.06
 # What lies farther beyond both colours than this share of their difference is neither.
 _BEYOND = 0.25
+# Steepness is measured over so many pixels.
+_STEEP = 4
 # Borders are looked at within this of the hole [px], so many pieces of them, and carried on to as many in the hole.
 _NEAR = 32.0
 _PIECES = 300
+# A border that is sharp where it is known looks no less sure than this [px]: of two wrong courses a sharp one is a
+# drawing, and a blurred one a haze. Deep in the hole, where hardly anything is ever seen, it may look less sure by this
+# share of the depth, and a soft one by as much as it is soft.
+_UNSURE = 1.5
+_DEEP = 0.1
+
 # A blur changes nothing farther from the border than this [deviations].
 _SEEN = 3
 
@@ -57,9 +65,16 @@ def border_widths(picture: FloatImage, hole: Mask, regions: FlatRegions) -> Floa
     soft[wanted] = _softness(picture, hole, regions, on_border, wanted)
     chosen = np.zeros(hole.shape, dtype=bool)
     chosen[wanted] = True
-    width = np.hypot(soft.ravel()[nearest_of(chosen)[1]], regions.unsure)
+    soft = soft.ravel()[nearest_of(chosen)[1]]
+    width = np.hypot(soft, np.minimum(regions.unsure, np.maximum(most_unsure(hole), soft)))
     away = cv2.distanceTransform((~within).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     return np.where(hole & (away < _SEEN * width), width, 0).astype(np.float32)
+
+
+def most_unsure(hole: Mask) -> FloatImage:
+    """How unsure sharp borders may look in a hole [px], shape [h, w]."""
+    depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    return np.maximum(np.float32(_UNSURE), np.float32(_DEEP) * depth)
 
 
 def _softness(picture: FloatImage, hole: Mask, regions: FlatRegions, on_border: Mask, wanted: Places) -> FloatArray:
@@ -110,8 +125,14 @@ def _measured(picture: FloatImage, hole: Mask, regions: FlatRegions, at: Places)
         ((mixed - _mean(mixed, end)[:, None])[..., 0] * side).sum(axis=1) for side, end in zip(sides, ends, strict=True)
     )
     even = (share[:, 2:] + share[:, 1:-1] + share[:, :-2]) / 3
-    neither = (np.abs(even - 0.5) > 0.5 + _BEYOND) & (sides[0] | sides[1])[:, 1:-1]
+    shown = sides[0] | sides[1]
+    neither = (np.abs(even - 0.5) > 0.5 + _BEYOND) & shown[:, 1:-1]
     soft = np.where(neither.any(axis=1), 0, np.maximum(total, 0) * np.sqrt(np.pi))
+    # What is not flat is not one colour: there a border is as soft as it is where it is steepest.
+    steepest = (np.abs(share[:, _STEEP:] - share[:, :-_STEEP]) * shown[:, _STEEP:] * shown[:, :-_STEEP]).max(axis=1)
+    mixed_side = (_pairs(regions, at) == 0).any(axis=1)
+    steep = _STEEP / (np.sqrt(2 * np.pi) * np.maximum(steepest, 1e-6))
+    soft = np.where(mixed_side, np.minimum(soft, steep), soft)
     return soft, (np.minimum(*lengths) > _SHORTEST) & (contrast > _CONTRAST)
 
 
@@ -143,14 +164,19 @@ def _carried(
 
     Where those do not, a border is as sharp as that of the sharper one: what lies in front has its own edge.
     """
-    nearness = 1 / (np.square(wanted[0][:, None] - known[0]) + np.square(wanted[1][:, None] - known[1]) + 1.0)
+    far = np.square(wanted[0][:, None] - known[0]) + np.square(wanted[1][:, None] - known[1]) + 1.0
+    nearness = 1 / far**2
     same = (wanted_pairs[:, None] == known_pairs).all(axis=2)
-    carried = _weighted(nearness * same, soft)
+    carried = _middle(nearness * same, soft)
     alone = ~same.any(axis=1)
     either = ((known_pairs == wanted_pairs[alone, None, k, None]).any(axis=2) for k in (0, 1))
-    carried[alone] = np.minimum(*(_weighted(nearness[alone] * each, soft) for each in either))
+    carried[alone] = np.minimum(*(_middle(nearness[alone] * each, soft) for each in either))
     return carried
 
 
-def _weighted(weight: FloatArray, values: FloatArray) -> FloatArray:
-    return np.asarray(weight @ values / np.maximum(weight.sum(axis=1), 1e-12))
+def _middle(weight: FloatArray, values: FloatArray) -> FloatArray:
+    """Medians, which a few profiles that met something else do not change, shape [n]; 0 without weight."""
+    order = np.argsort(values)
+    total = np.cumsum(weight[:, order], axis=1)
+    half = total[:, -1:] / 2
+    return np.where(half[:, 0] > 0, values[order][(total >= half).argmax(axis=1)], 0)

@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..pictures import window_around
-from .area_kinds import ending_at_edges, wide_areas
+from .area_kinds import ending_at_edges, glimpses, wide_areas
 from .area_votes import elected_areas
 from .border_directions import border_directions
-from .flatness import nearest_of
+from .channels import over_channels
+from .flatness import FlatSurroundings, nearest_of
 
 __all__ = ["FlatRegions", "flat_regions"]
 
@@ -35,6 +36,13 @@ _OFF = 0.25
 # sides if they differ by less than the second.
 _ALIKE = 0.06
 _BESIDE = 0.2
+# A line between an area and the rim is darker than the area by this. It is the area's own where it runs along more than
+# the first share of where they meet, and such lines along less than the second of the whole rim.
+_DARKER = 0.15
+_ALL_ALONG = 0.8
+_SELDOM = 0.5
+# Areas are seen in narrow gaps where two thirds of what is around are flat: texture has each colour somewhere.
+_MOSTLY_FLAT = 1 / 3
 # Areas are looked for within this of the hole [px].
 _MARGIN = 48
 
@@ -49,6 +57,7 @@ class FlatRegions:
         aside: how far that border is [px], shape [h, w].
         unsure: how far off the borders may be [px], shape [h, w].
         flat: where the areas themselves are, their numbers, shape [h, w]; 0 elsewhere.
+        enclosed: known areas that end at the hole with an outline of their own, shape [h, w].
     """
 
     number: IntImage
@@ -56,11 +65,12 @@ class FlatRegions:
     aside: FloatImage
     unsure: FloatImage
     flat: IntImage
+    enclosed: Mask
 
     @property
     def apart(self) -> Mask:
         """Where nothing is seen but flat areas, shape [h, w]."""
-        return (self.number > 0) & ~((self.second == 0) & (self.aside < 1))
+        return self.enclosed | ((self.number > 0) & ~((self.second == 0) & (self.aside < 1)))
 
     @property
     def flat_share(self) -> FloatImage:
@@ -74,20 +84,22 @@ class FlatRegions:
         return int(self.flat.max()) + 1
 
 
-def flat_regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> FlatRegions | None:
+def flat_regions(picture: FloatImage, hole: Mask, flat: FlatSurroundings, lines: Mask) -> FlatRegions | None:
     """Continue the numbers of flat areas into a hole.
 
     Args:
         picture: RGB in 0 to 1, shape [h, w, 3].
         hole: true where colours are unknown, shape [h, w].
-        flat: where what is known is flat, shape [h, w].
+        flat: where what is known is flat.
         lines: where lines have been continued through the hole, shape [h, w]: borders follow them.
 
     Returns:
         The areas; None where none that is flat touches the hole.
     """
     window = window_around(hole | lines, margin=_MARGIN)
-    near = _regions(picture[window], hole[window], flat[window], lines[window])
+    plain = flat.smooth & (flat.share > _MOSTLY_FLAT)
+    known = (each[window] for each in (picture, hole, flat.flat, plain, lines))
+    near = _regions(*known)
     if near is None:
         return None
     return FlatRegions(
@@ -96,6 +108,7 @@ def flat_regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> Fl
         _placed(near.aside, window, hole.shape, np.inf),
         _placed(near.unsure, window, hole.shape, 0),
         _placed(near.flat, window, hole.shape, 0),
+        _placed(near.enclosed, window, hole.shape, False),
     )
 
 
@@ -105,25 +118,28 @@ def _placed(part: NDArray[Any], window: tuple[slice, slice], shape: tuple[int, .
     return whole
 
 
-def _regions(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> FlatRegions | None:
+def _regions(picture: FloatImage, hole: Mask, flat: Mask, smooth: Mask, lines: Mask) -> FlatRegions | None:
     """The same, within a window."""
-    seeds = _seeds(picture, hole, flat, lines)
+    seeds = _seeds(picture, hole, flat, smooth, lines)
     if seeds is None:
         return None
-    labels = seeds.ravel()[nearest_of(seeds >= 0)[1]]
+    nearest = nearest_of(seeds >= 0)[1]
+    labels = seeds.ravel()[nearest]
     ending = ending_at_edges(picture, hole, flat, labels)
     seeds, labels = np.where(seeds > 0, ending[seeds], seeds), ending[labels]
     rim = _rim(hole)
     if not labels[rim].any():
         return None
     wide = wide_areas(picture, seeds, labels, hole)
-    labels, unsure = _continued(labels, hole, rim & wide if (rim & wide).any() else rim)
+    enclosed = _enclosed(picture, rim, labels, nearest)[labels] & ~hole
+    voting = next(each for each in (rim & wide & ~enclosed, rim & wide, rim) if each.any())
+    labels, unsure = _continued(labels, hole, voting)
     # A strip between two areas that belongs to neither is the soft border of both.
     strip = (labels == 0) & ~hole & ~wide
     if not strip[~hole].all():
         labels = np.where(strip, labels.ravel()[nearest_of(~hole & ~strip)[1]], labels)
     number, second, aside = _borders(labels, int(seeds.max()) + 1)
-    return FlatRegions(number, second, aside, unsure, np.maximum(seeds, 0) * flat)
+    return FlatRegions(number, second, aside, unsure, np.maximum(seeds, 0) * flat, enclosed)
 
 
 def _continued(labels: IntImage, hole: Mask, rim: Mask) -> tuple[IntImage, FloatImage]:
@@ -132,6 +148,25 @@ def _continued(labels: IntImage, hole: Mask, rim: Mask) -> tuple[IntImage, Float
     continued = elected_areas(labels, hole, rim, directions)
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     return np.where(hole, continued, labels), np.float32(_OFF) * depth * directions.dispersion
+
+
+def _enclosed(picture: FloatImage, rim: Mask, labels: IntImage, nearest: IntImage) -> Mask:
+    """Which areas meet the rim with their own outline, in front of what has been cut out, shape [k].
+
+    A line between rim and area may be a rest of the part's outline as well: that runs along all of the rim.
+    """
+    row, column = np.nonzero(rim)
+    lightness = over_channels(picture) / np.float32(3)
+    there = np.divmod(nearest[row, column], rim.shape[1])
+    lined = np.zeros(len(row), dtype=bool)
+    for share in (0.0, 0.25, 0.5, 0.75):
+        on_way = (np.rint(a + share * (b - a)).astype(np.int64) for a, b in zip((row, column), there, strict=True))
+        lined |= lightness[tuple(on_way)] < lightness[there] - np.float32(_DARKER)
+    own = labels[row, column]
+    lined &= own > 0
+    count = int(labels.max()) + 1
+    share = np.bincount(own, weights=lined, minlength=count) / np.maximum(np.bincount(own, minlength=count), 1)
+    return np.asarray((share > _ALL_ALONG) & (lined.mean() < _SELDOM))
 
 
 def _rim(hole: Mask) -> Mask:
@@ -153,7 +188,7 @@ def _borders(labels: IntImage, count: int) -> tuple[IntImage, IntImage, FloatIma
     return first.astype(np.int32), second.astype(np.int32), (most - next_most) / slope
 
 
-def _seeds(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> IntImage | None:
+def _seeds(picture: FloatImage, hole: Mask, flat: Mask, smooth: Mask, lines: Mask) -> IntImage | None:
     """Numbers of the areas where they are known, 0 what is not flat, and -1 what is not known."""
     if not flat.any():
         return None
@@ -168,9 +203,19 @@ def _seeds(picture: FloatImage, hole: Mask, flat: Mask, lines: Mask) -> IntImage
     sums = [np.bincount(own, weights=plane[flat], minlength=count)[chosen] for plane in cv2.split(picture)]
     colours = (np.stack(sums, axis=1) / np.bincount(own, minlength=count)[chosen, None]).astype(np.float32)
     merged = _merged(colours)
-    numbers = np.zeros(count, dtype=np.int32)
-    numbers[chosen] = merged + 1
-    seeds = np.where(hole | lines | ((away > 0) & (away <= _LINE)), -1, numbers[parts])
+    numbers, positions = np.zeros(count, dtype=np.int32), np.full(count, -1, dtype=np.int32)
+    numbers[chosen], positions[chosen] = merged + 1, np.arange(len(chosen))
+    areas = numbers[parts]
+    beside = (
+        smooth
+        & ~flat
+        & (cv2.distanceTransform((~(hole | lines)).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5) <= _TOUCH)
+    )
+    seen = glimpses(picture, beside, np.where(flat, positions[parts], -1), colours)
+    if (seen >= 0).any():
+        areas = np.where(seen >= 0, merged[seen] + 1, areas)
+        away = cv2.distanceTransform((~(flat | (seen >= 0))).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    seeds = np.where(hole | lines | ((away > 0) & (away <= _LINE)), -1, areas)
     if lines.any():
         apart = np.linalg.norm(picture[lines][:, None] - colours, axis=2)
         seeds[lines] = np.where(apart.min(axis=1) < _BESIDE, merged[apart.argmin(axis=1)] + 1, -1)

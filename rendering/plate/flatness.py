@@ -39,12 +39,14 @@ class FlatSurroundings:
         share: how much of what is nearest is flat, 0..1, shape [h, w]; 0 in photographs and brushwork.
         plain: the picture with lines beside flat areas painted over by the nearest of them, RGB, shape [h, w, 3].
         flat: what is flat itself, shape [h, w].
+        smooth: what is even over three pixels, flat or in a narrow gap, shape [h, w].
         noise: deviation of what is flat, in 0 to 1.
     """
 
     share: FloatImage
     plain: FloatImage
     flat: Mask
+    smooth: Mask
     noise: float
 
     @property
@@ -62,20 +64,21 @@ def flat_surroundings(picture: FloatImage, hole: Mask) -> FlatSurroundings:
     """
     known = cv2.erode((~hole).astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     if not known.any():
-        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, np.zeros(hole.shape, bool), 0.0)
+        nothing = np.zeros(hole.shape, bool)
+        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, nothing, nothing, 0.0)
     squares = picture * picture
     deviation = _deviation(picture, squares, 3)
     noise = float(np.quantile(deviation[known], _QUIET))
     most = _DEVIATIONS * noise + _LEVEL
     smooth = known & (deviation <= most + _LEVEL)
     if not smooth.any():
-        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, smooth, noise)
+        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, smooth, smooth, noise)
     # Squares that reach into the hole see there what is beside it.
     continued = np.where(hole[..., None], picture.reshape(-1, 3)[nearest_of(smooth)[1]], picture)
     even = (_unevenness(continued, _WIDE) <= most).astype(np.uint8)
     flat = _large(smooth & (cv2.dilate(even, np.ones((_WIDE, _WIDE), np.uint8)) > 0))
     if not flat.any():
-        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, flat, noise)
+        return FlatSurroundings(np.zeros(hole.shape, np.float32), picture, flat, smooth, noise)
     away, nearest = nearest_of(flat)
     beside = ~hole & ~flat & (away <= _LINE)
     weight = np.maximum(cv2.blur(flat.astype(np.float32), (3, 3)), np.float32(1e-6))
@@ -86,7 +89,7 @@ def flat_surroundings(picture: FloatImage, hole: Mask) -> FlatSurroundings:
     plain -= picture
     plain *= share[..., None]
     plain += picture
-    return FlatSurroundings(share, plain, flat, noise)
+    return FlatSurroundings(share, plain, flat, smooth, noise)
 
 
 def nearest_of(mask: Mask) -> tuple[FloatImage, IntImage]:

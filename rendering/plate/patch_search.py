@@ -29,6 +29,8 @@ _SAMPLES = 4000
 _SWEEPS = 2
 # Weight of a deviation from the smooth guide's colour beside that of the patch's own pixels.
 _GUIDE_WEIGHT = 0.1
+# Cost of a match of the other kind.
+_OTHER_KIND = 2.0
 # Cost of a match's squared distance [1/px^2] beside the patch's squared colour difference (colours in 0 to 1).
 _NEARNESS = 1e-4
 # The trust in a patch fades by this factor for each pixel that it lies deeper in the hole.
@@ -45,6 +47,7 @@ class Level:
         wanted: where of that patches are to be found, shape [h, w].
         guide: smooth colours for the hole, shape [h, w, 3].
         smooth: the picture as blurred as the guide, shape [h, w, 3].
+        kind: 0..1, shape [h, w]: patches are of one kind if they have the same. None: all are.
     """
 
     picture: FloatImage
@@ -52,6 +55,7 @@ class Level:
     wanted: Mask
     guide: FloatImage
     smooth: FloatImage
+    kind: FloatImage | None = None
 
     @cached_property
     def unknown(self) -> IndexArray:
@@ -67,7 +71,8 @@ class Level:
         guide, smooth = (cv2.resize(image, size, interpolation=cv2.INTER_AREA) for image in (self.guide, self.smooth))
         hole = known < 0.6
         wanted = hole & (cv2.resize(self.wanted.astype(np.float32), size, interpolation=cv2.INTER_AREA) > 0)
-        return Level(total / np.maximum(known, 1e-6)[..., None], hole, wanted, guide, smooth)
+        kind = None if self.kind is None else cv2.resize(self.kind, size, interpolation=cv2.INTER_AREA)
+        return Level(total / np.maximum(known, 1e-6)[..., None], hole, wanted, guide, smooth, kind)
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +124,7 @@ class PatchSearch:
         self.mean = patches.mean(axis=0)
         sample = patches[random.integers(0, len(patches), _SAMPLES)] - self.mean
         self.axes = np.linalg.eigh(sample.T @ sample)[1][:, -_COMPONENTS:].astype(np.float32)
-        self.features = np.zeros((self.usable.size, _COMPONENTS + 3), dtype=np.float32)
+        self.features = np.zeros((self.usable.size, _COMPONENTS + 3 + (level.kind is not None)), dtype=np.float32)
         self.features[sources] = self._described(patches, level.smooth, sources)
         depth = cv2.distanceTransform(level.hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
         self.fading = (_FADING ** -depth.reshape(-1)[self.targets]).astype(np.float32)
@@ -144,10 +149,13 @@ class PatchSearch:
         return Finds(source.reshape(self.shape), trust.reshape(self.shape))
 
     def _described(self, patches: FloatImage, smooth: FloatImage, at: IndexArray) -> FloatImage:
-        """What patches are compared by, shape [n, components + 3]; overwrites them."""
+        """What patches are compared by, shape [n, features]; overwrites them."""
         weight = np.float32(np.sqrt(_GUIDE_WEIGHT) * _SIDE)
         patches -= self.mean
-        return np.concatenate([patches @ self.axes, smooth.reshape(-1, 3)[at] * weight], axis=1)
+        features = [patches @ self.axes, smooth.reshape(-1, 3)[at] * weight]
+        if self.level.kind is not None:
+            features.append(self.level.kind.reshape(-1, 1)[at] * np.float32(np.sqrt(_OTHER_KIND)))
+        return np.concatenate(features, axis=1)
 
     def _differing(self, source: IndexArray, of: IndexArray) -> FloatImage:
         """How much patches differ from those of some targets, given by their numbers."""

@@ -40,6 +40,7 @@ def continue_texture(
     guide: FloatImage,
     *,
     wanted: Mask | None = None,
+    kind: FloatImage | None = None,
     matched: tuple[int, ...] = (3, 2, 1),
     seed: int = 0,
 ) -> FloatImage:
@@ -50,6 +51,7 @@ def continue_texture(
         hole: true where colours are unknown, shape [h, w]; its surroundings should contain whole patches.
         guide: smooth colours for the hole, shape [h, w, 3].
         wanted: where in the hole patches are wanted, shape [h, w]; elsewhere it keeps the guide's colours. None: all.
+        kind: 0..1, shape [h, w]; patches are taken from what is of the same kind, if anything fits. None: from all.
         matched: scales at which patches are matched, from coarse to fine; scale k is 2^-k of the size.
         seed: of the random guesses.
 
@@ -58,7 +60,9 @@ def continue_texture(
     """
     filled = np.where(hole[..., None], guide, picture)
     levels = [
-        Level(picture, hole, hole if wanted is None else hole & wanted, guide, cv2.GaussianBlur(filled, (0, 0), 3.0))
+        Level(
+            picture, hole, hole if wanted is None else hole & wanted, guide, cv2.GaussianBlur(filled, (0, 0), 3.0), kind
+        )
     ]
     while len(levels) <= matched[0]:
         levels.append(levels[-1].halved())

@@ -104,7 +104,7 @@ def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
     flat = flat_surroundings(lined, inside & ~lines)
     unlined = np.where(lines[..., None], lined, flat.plain)
     unknown = inside & ~lines
-    regions = flat_regions(lined, unknown, flat.flat, lines)
+    regions = flat_regions(lined, unknown, flat, lines)
     if regions is None:
         smooth = smooth_fill(unlined, unknown, continued=lines)
     else:
@@ -114,11 +114,13 @@ def fill_hole(picture: FloatImage, hole: Mask) -> FloatImage:
     finest = max(0, int(np.ceil(np.log2(inside.sum() / _MATCHED_PIXELS) / 2)))
     scales = tuple(range(max(3, finest + 2), finest - 1, -1))
     depth = cv2.distanceTransform(inside.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    kind = None
     share = np.float32(_TEXTURE) * np.exp(-depth / np.float32(_TEXTURE_DEPTH))
     if regions is not None:
-        share *= 1 - np.float32(flat.cleanness) * regions.flat_share
+        kind = regions.flat_share
+        share *= 1 - np.float32(flat.cleanness) * kind
     share[lines] = 0  # patches from elsewhere would break them up
-    textured = continue_texture(around, inside, smooth, wanted=share > _UNSEEN, matched=scales)
+    textured = continue_texture(around, inside, smooth, wanted=share > _UNSEEN, kind=kind, matched=scales)
     blended = np.where(inside[..., None], smooth + share[..., None] * (textured - smooth), around)
     if regions is not None:
         blended = draw_outlines(lined, blended, unknown, regions, contrast, ink_lines(lined, ~unknown, flat.noise))
