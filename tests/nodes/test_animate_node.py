@@ -127,6 +127,20 @@ def test_parts_on_the_same_pixels_have_the_names_that_the_node_shows(standin: An
     assert told == "Part 1 and Part 3 must not be at the same pixel. Got: both at (60, 40)"
 
 
+def test_what_is_too_small_to_move_is_said_in_the_words_of_who_clicked_and_the_rest_moves(standin: Any) -> None:
+    drawn = np.full((120, 200, 3), PAPER, np.uint8)
+    drawn[26:100, 50:74], drawn[60, 150] = RED, BLUE
+    Image.fromarray(drawn).save(standin.folder / "input" / "dot.png")
+    dot = [150, 60, 1]
+    told = standin.error_of(animate("dot.png", [dot]))
+    assert "cut out hardly more than itself" in told
+    assert "mask" not in told
+    outputs = standin.run(seen(animate("dot.png", [dot, [*ON_RED, 1]])))
+    (mask,) = pictures(standin, outputs["masks"])
+    assert mask[60, 60].all()
+    assert not mask[60, 150].any()
+
+
 def test_a_file_is_named_by_its_place_in_the_host_s_folders(standin: Any) -> None:
     (standin.folder / "input" / "broken.psd").write_bytes(b"no psd")
     for prompt in (animate("broken.psd", ""), animate("PhysAnimator example.png", "", scene="{}")):

@@ -228,7 +228,11 @@ export class Picking {
         this.#take(await this.#post({ ...wanted, move: null }, mine));
         if (wanted.move && !this.viewed) this.#tell(say("Preparing the motion…"));
       }
-      if (wanted.move && this.cuts?.length) await this.#move(await this.#post(wanted, mine), mine);
+      if (wanted.move && this.cuts?.length) {
+        const moving = await this.#post(wanted, mine);
+        // What is too small to move is cut all the same, and the advice says so.
+        if (moving.key) await this.#move(moving, mine);
+      }
       if (this.running === mine) this.#tell("");
     } catch (error) {
       if (this.running !== mine || mine.signal.aborted) return;
