@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { along, areaOf, distanceToPath, fittingView, isInside, simplified, startingView, toPicture, toStage, zoomed } from "../../nodes/web/js/scene/geometry.js";
+import { workOf } from "../../nodes/web/js/scene/document.js";
 import { hitTest } from "../../nodes/web/js/scene/hit_testing.js";
 import { bitmapOf, brush, emptyBitmap, measured, regionOf, shifted } from "../../nodes/web/js/scene/masks.js";
 import { handlesOf, moved, verticesOf, withHandle, withVertex } from "../../nodes/web/js/scene/shapes.js";
@@ -161,4 +162,12 @@ test("a long page begins with a piece of it, full across, around what was drawn 
   for (const size of /** @type {[number, number][]} */ ([[1280, 720], [720, 1280], [1000, 2000], [64, 64]])) {
     assert.deepEqual(startingView(...size, ...stage, [0, 0]), fittingView(...size, ...stage));
   }
+});
+
+test("the work is where something was drawn last", () => {
+  const document = { version: 2, width: 800, height: 6000 };
+  assert.deepEqual(workOf(document), [0, 0]);
+  assert.deepEqual(workOf({ ...document, strokes: [{ path: [[5, 900], [7, 950]] }] }), [5, 900]);
+  const points = [{ x: 1, y: 2 }, { x: 30, y: 4000, positive: false }];
+  assert.deepEqual(workOf({ ...document, strokes: [{ path: [[5, 900], [7, 950]] }], query_points: points }), [30, 4000]);
 });
