@@ -87,6 +87,10 @@ class Host:
         """Everything the server has printed."""
         return (self.folder / "server.log").read_text(errors="replace")
 
+    @property
+    def stopped(self) -> bool:
+        return self._process.poll() is not None
+
     def wait_until_ready(self) -> None:
         end = time.monotonic() + _START_SECONDS
         while time.monotonic() < end:

@@ -23,7 +23,7 @@
 import { say } from "../host/words.js";
 import { element } from "../panels/elements.js";
 import { PartsStrip } from "../panels/parts_strip.js";
-import { Refusal } from "../preview/client.js";
+import { failed, Refusal, Unanswered } from "../preview/client.js";
 import { isLong } from "../scene/geometry.js";
 import { partCount, pointsOn, presetOf, withoutPart, withPartPreset } from "../scene/parts.js";
 import { partColour } from "../stage/colours.js";
@@ -236,6 +236,7 @@ export class Picking {
     try {
       if (!again) {
         this.#take(await this.#post({ ...wanted, move: null }, mine));
+        editor.backdrop.trouble(null);
         if (wanted.move && !this.viewed) this.#tell(say("Preparing the motion…"));
       }
       if (wanted.move && this.cuts?.length) {
@@ -246,7 +247,9 @@ export class Picking {
       if (this.running === mine) this.#tell("");
     } catch (error) {
       if (this.running !== mine || mine.signal.aborted) return;
-      editor.notes.show("pick", /** @type {Error} */ (error).message, { kind: "error", closes: true });
+      this.#tell("");
+      if (error instanceof Unanswered) editor.backdrop.trouble(error);
+      else editor.notes.show("pick", /** @type {Error} */ (error).message, { kind: "error", closes: true });
     } finally {
       clearTimeout(telling);
     }
@@ -262,7 +265,7 @@ export class Picking {
       headers: { "Content-Type": "application/json" },
       body: JSON.stringify(body),
       signal: mine.signal,
-    });
+    }).catch(failed);
     const said = await answer.json().catch(() => null);
     if (this.running !== mine) throw new Refusal("", 0);
     if (!answer.ok) throw new Refusal(said?.error ?? say("The server answered {status}.", { status: `${answer.status} ${answer.statusText}` }), answer.status);
