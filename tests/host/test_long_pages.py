@@ -30,7 +30,7 @@ _DROP = """
 }
 """
 # First and last row or column of the picture that is on the stage, and how much of the stage the shorter side fills.
-_SEEN = """
+_SEEN = """\
 (({ view, across, down, size }) => {
   const tall = size.height > size.width;
   const [begin, room, other, length] = tall ? [view.y, down, across, size.width] : [view.x, across, down, size.height];

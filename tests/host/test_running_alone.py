@@ -38,7 +38,7 @@ _COUNTED = """
   };
 }
 """
-_TOLD = "() => [...document.querySelectorAll('.p-toast-message, .p-dialog')].map((one) => one.innerText)"
+_TOLD = "() => [...document.querySelectorAll('.p-toast-message, [data-toast-kind], .p-dialog')].map((one) => one.innerText)"
 
 
 @pytest.fixture(params=sorted(CANVASES))

@@ -2,7 +2,8 @@
 
 const EVENT = "physanimator.advice";
 const LIFE = 30_000; // [ms]
-const TOAST = ".p-toast-message";
+/** Toasts of older and newer frontends. */
+const TOAST = ".p-toast-message, [data-toast-kind]";
 
 /**
  * @param {any} app the host's application
