@@ -54,8 +54,9 @@ class PickedParts:
             masks: one for each part, shape [h, w] each.
         """
         large = [largest_area(mask) >= SMALLEST_PART for mask in masks]
-        own = (tuple(compress(each, large)) for each in (self.prompts, self.numbers, self.presets))
-        return PickedParts(*own), list(compress(masks, large))
+        prompts, numbers = compress(self.prompts, large), compress(self.numbers, large)
+        presets = compress(self.presets, large)
+        return PickedParts(tuple(prompts), tuple(numbers), tuple(presets)), list(compress(masks, large))
 
 
 def picked_parts(points: str | Mapping[str, Any], *, width: int, height: int, boxes: Sequence[Box] = ()) -> PickedParts:

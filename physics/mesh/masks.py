@@ -141,11 +141,11 @@ def refuse_noise(coverage: Coverage) -> None:
             )
 
 
-def largest_area(coverage: Coverage) -> int:
+def largest_area(coverage: NDArray[Any]) -> int:
     """Area of the largest connected part of a mask [px^2], 0 where nothing is white.
 
     Args:
-        coverage: what is above one half is white, shape [h, w].
+        coverage: bool, or 0 to 1 of which what is above one half is white; shape [h, w].
     """
     inside = coverage > 0.5
     return int(_parts(inside, connectivity=8)[1].max()) if inside.any() else 0

@@ -38,7 +38,9 @@ _COUNTED = """
   };
 }
 """
-_TOLD = "() => [...document.querySelectorAll('.p-toast-message, [data-toast-kind], .p-dialog')].map((one) => one.innerText)"
+_TOLD = (
+    "() => [...document.querySelectorAll('.p-toast-message, [data-toast-kind], .p-dialog')].map((one) => one.innerText)"
+)
 
 
 @pytest.fixture(params=sorted(CANVASES))
@@ -64,6 +66,8 @@ def test_a_list_of_layers_appears_in_a_graph_without_an_output(host: Any, page: 
 @pytest.mark.parametrize("mode", [2, 4], ids=["muted", "bypassed"])
 def test_a_node_that_is_left_out_says_so_and_runs_nothing(page: Any, canvas: str, mode: int) -> None:
     editor = EditorPage.opened(page, canvas)
+    page.run("() => app.extensionManager.toast.removeAll?.()")
+    page.page.wait_for_timeout(600)
     editor.ask(f"(node.mode = {mode})")
     page.run(_COUNTED)
     editor.press("run")

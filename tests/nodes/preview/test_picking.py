@@ -116,7 +116,9 @@ def test_what_is_too_small_to_move_is_said_once_and_the_rest_moves(standin: Any)
         status, found = await pick(server, asked("dot.png", [dot], move=MOVE))
         assert (status, len(found["cuts"]), mask_of(found["cuts"][0]).sum()) == (200, 1, 1)
         assert "key" not in found
-        assert [each.startswith("The point on the part cut out hardly more than itself") for each in found["advice"]] == [True]
+        assert [
+            each.startswith("The point on the part cut out hardly more than itself") for each in found["advice"]
+        ] == [True]
         status, found = await pick(server, asked("dot.png", [dot, bar | {"part": 1}], move=MOVE))
         assert (status, len(found["cuts"]), len(found["scene"]["bodies"])) == (200, 2, 1)
         assert sum("hardly more than itself" in each for each in found["advice"]) == 1

@@ -9,6 +9,11 @@ import { element } from "../panels/elements.js";
 /** Shortest handle that can be taken hold of, in lengths of its bar. */
 const SHORTEST = 0.08;
 
+const WAYS = /** @type {const} */ ({
+  across: { position: "clientX", side: "width", edge: "left", size: "offsetWidth" },
+  down: { position: "clientY", side: "height", edge: "top", size: "offsetHeight" },
+});
+
 export class ScrollBars {
   /** @param {(dx: number, dy: number) => void} onScroll  by so much of the stage [CSS px], to the right and down */
   constructor(onScroll) {
@@ -36,7 +41,7 @@ export class ScrollBars {
  * @param {(distance: number) => void} onScroll
  */
 function bar(way, onScroll) {
-  const [position, side, edge, size] = /** @type {const} */ (way === "across" ? ["clientX", "width", "left", "offsetWidth"] : ["clientY", "height", "top", "offsetHeight"]);
+  const { position, side, edge, size } = WAYS[way];
   const handle = element("div", { className: "physanimator-handle" });
   /** @type {HTMLElement} */
   const root = element("div", { className: "physanimator-scroll", "data-way": way, "aria-hidden": "true", hidden: true }, [handle]);
