@@ -162,7 +162,8 @@ def test_what_several_runs_say_alike_is_one_toast(page: Any, host: Any) -> None:
     for title in ["Simulate", "Render", "Simulate"]:
         page.run(tell, [title, "it is said here in one toast for each node"])
         page.page.wait_for_timeout(400)
-    said = page.page.get_by_text("it is said here in one toast for each node")
+    toasts = page.page.locator(".p-toast-message, [data-toast-kind]")
+    said = toasts.filter(has_text="it is said here in one toast for each node")
     assert said.count() == 2
     page.run("() => app.extensionManager.toast.removeAll?.()")
     page.page.wait_for_timeout(800)

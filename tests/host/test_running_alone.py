@@ -59,7 +59,7 @@ def test_a_list_of_layers_appears_in_a_graph_without_an_output(host: Any, page: 
     listed = "([id]) => app.graph.getNodeById(id).physanimatorLayers.list.layers.length"
     page.run("([id]) => app.graph.getNodeById(id).physanimatorLayers.run.click()", [node])
     page.page.wait_for_function(f"(given) => ({listed})(given) === 4", arg=[node], timeout=60_000)
-    assert page.run(_TOLD) == []
+    assert not any("no outputs" in each for each in page.run(_TOLD))
     assert page.problems == []
 
 
@@ -72,8 +72,9 @@ def test_a_node_that_is_left_out_says_so_and_runs_nothing(page: Any, canvas: str
     page.run(_COUNTED)
     editor.press("run")
     page.page.wait_for_timeout(800)
-    (told,) = page.run(_TOLD)
-    assert "muted or bypassed" in told
+    told = page.run(_TOLD)
+    assert sum("muted or bypassed" in each for each in told) == 1
+    assert not any("no outputs" in each for each in told), "that is the host's word for it"
     assert page.run("() => window.queued") == 0
     assert "Run this node" in editor.ask("editor.root.innerText"), "it can be tried again"
     editor.ask("(node.mode = 0)")
