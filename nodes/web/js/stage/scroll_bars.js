@@ -10,8 +10,8 @@ import { element } from "../panels/elements.js";
 const SHORTEST = 0.08;
 
 const WAYS = /** @type {const} */ ({
-  across: { position: "clientX", side: "width", edge: "left", size: "offsetWidth" },
-  down: { position: "clientY", side: "height", edge: "top", size: "offsetHeight" },
+  across: { position: "clientX", side: "width", edge: "left" },
+  down: { position: "clientY", side: "height", edge: "top" },
 });
 
 export class ScrollBars {
@@ -41,14 +41,16 @@ export class ScrollBars {
  * @param {(distance: number) => void} onScroll
  */
 function bar(way, onScroll) {
-  const { position, side, edge, size } = WAYS[way];
+  const { position, side, edge } = WAYS[way];
   const handle = element("div", { className: "physanimator-handle" });
   /** @type {HTMLElement} */
   const root = element("div", { className: "physanimator-scroll", "data-way": way, "aria-hidden": "true", hidden: true }, [handle]);
-  /** Distances on the stage for one on the bar, and where the pointer was [px of the window]. */
-  let [times, last, held] = [1, 0, -1];
+  /** Distance on the stage for the whole bar, and for a pixel of the window while it is held; where the pointer was. */
+  let [far, times, last, held] = [1, 1, 0, -1];
   root.addEventListener("pointerdown", (event) => {
     if (event.button) return;
+    // The window shows the graph larger or smaller than it is laid out.
+    times = far / (root.getBoundingClientRect()[side] || 1);
     const { [edge]: begin, [side]: end } = handle.getBoundingClientRect();
     // Beside the handle: there at once.
     if (event.target !== handle) onScroll((event[position] - begin - end / 2) * times);
@@ -74,11 +76,10 @@ function bar(way, onScroll) {
       if (root.hidden) return;
       const share = Math.max(room / length, SHORTEST);
       const at = Math.min(Math.max(from / (length - room), 0), 1) * (1 - share);
-      handle.style[side] = `${100 * share}%`;
-      handle.style[edge] = `${100 * at}%`;
-      // The window shows the graph larger or smaller than it is laid out.
-      const shown = root.getBoundingClientRect()[side] / (root[size] || 1);
-      times = (length - room) / ((1 - share) * room * (shown || 1));
+      far = (length - room) / (1 - share);
+      const [long, begin] = [`${100 * share}%`, `${100 * at}%`];
+      if (handle.style[side] !== long) handle.style[side] = long;
+      if (handle.style[edge] !== begin) handle.style[edge] = begin;
     },
   };
 }
