@@ -62,6 +62,20 @@ def test_what_is_picked_moves_and_what_is_not_stands_still(standin: Any, bars: s
     assert mask[40, 140].max() < 5
 
 
+@pytest.mark.parametrize(
+    ("size", "shown"), [((1280, 720), (960, 540)), ((60, 1200), (60, 1200)), ((9000, 16), (4096, 8))]
+)
+def test_of_long_pages_as_much_is_shown_as_can_be_seen(
+    standin: Any, size: tuple[int, int], shown: tuple[int, int]
+) -> None:
+    drawn = np.full((*size[::-1], 3), PAPER, np.uint8)
+    drawn[4:12, 10:40] = RED
+    Image.fromarray(drawn).save(standin.folder / "input" / "long.png")
+    outputs = standin.run(animate("long.png", [[20, 8, 1]], frames=2))
+    frame = next(iter(read_clip(standin.file(outputs["animate"]["images"][0]))))
+    assert frame.shape[1::-1] == shown
+
+
 def test_it_shows_a_small_video_and_makes_no_batch_that_nobody_takes(standin: Any, bars: str) -> None:
     shown = standin.run(animate(bars, [ON_RED], frames=5))["animate"]
     (saved,) = shown["images"]
