@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 from typing import Any
 
 import cv2
@@ -11,24 +10,6 @@ import pytest
 from editor_page import CANVASES, EditorPage
 
 LONG, SHORT = 6000, 800
-_ADD = """
-() => {
-  app.graph.clear();
-  app.nodeOutputs = {};
-  const node = LiteGraph.createNode('PhysAnimator_AnimateIllustration');
-  app.graph.add(node);
-  return node.id;
-}
-"""
-_DROP = """
-([id, text, name]) => {
-  const { keys } = app.graph.getNodeById(id).physanimatorEditor.stage;
-  const bytes = Uint8Array.from(atob(text), (one) => one.charCodeAt(0));
-  const dataTransfer = new DataTransfer();
-  dataTransfer.items.add(new File([bytes], name, { type: 'image/png' }));
-  keys.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
-}
-"""
 # First and last row or column of the picture that is on the stage, and how much of the stage the shorter side fills.
 _SEEN = """\
 (({ view, across, down, size }) => {
@@ -52,12 +33,9 @@ def page_of_panels(wide: bool) -> bytes:
 def editor(request: pytest.FixtureRequest, page: Any) -> EditorPage:
     canvas, wide = request.param
     page.problems.clear()
-    EditorPage.choose_canvas(page, canvas)
-    shown = EditorPage(page, page.run(_ADD))
-    shown.look(scale=1)
-    shown.wait("editor.backdrop.picture !== null")
+    shown = EditorPage.animating(page, canvas)
     name = "wide.png" if wide else "tall.png"
-    page.run(_DROP, [shown.node, base64.b64encode(page_of_panels(wide)).decode(), name])
+    shown.drop(page_of_panels(wide), name)
     shown.wait(f"Math.max(editor.document.width, editor.document.height) === {LONG}")
     page.page.wait_for_timeout(400)
     return shown

@@ -10,15 +10,6 @@ from editor_page import CANVASES, EditorPage
 
 HAIR, MORE_HAIR = (700, 300), (640, 250)
 GONE = "The server does not answer. Is ComfyUI still running?"
-_ADD = """
-() => {
-  app.graph.clear();
-  app.nodeOutputs = {};
-  const node = LiteGraph.createNode('PhysAnimator_AnimateIllustration');
-  app.graph.add(node);
-  return node.id;
-}
-"""
 _NOTES = "[...editor.notes.shown.values()].map((note) => note.firstChild.textContent)"
 
 
@@ -28,9 +19,8 @@ def canvas(request: pytest.FixtureRequest) -> str:
 
 
 @pytest.fixture
-def restarted(host: Any, page: Any, canvas: str) -> Iterator[Any]:
-    """The page, in one of the canvases; the server runs again afterwards."""
-    EditorPage.choose_canvas(page, canvas)
+def restarted(host: Any, page: Any) -> Iterator[Any]:
+    """The page; the server runs again afterwards."""
     yield page
     if host.stopped:
         host.start()
@@ -39,10 +29,8 @@ def restarted(host: Any, page: Any, canvas: str) -> Iterator[Any]:
     page.problems.clear()  # the host's own about the server that was gone
 
 
-def test_the_picker_asks_again_once_the_server_is_back(restarted: Any, host: Any) -> None:
-    editor = EditorPage(restarted, restarted.run(_ADD))
-    editor.look(scale=1)
-    editor.wait("editor.backdrop.picture !== null")
+def test_the_picker_asks_again_once_the_server_is_back(restarted: Any, host: Any, canvas: str) -> None:
+    editor = EditorPage.animating(restarted, canvas)
     editor.click(*HAIR)
     editor.wait("editor.live.measured.drawn > 0")
     host.stop()
