@@ -155,8 +155,6 @@ def test_advice_appears_as_a_toast(page: Any, host: Any) -> None:
 
 
 def test_what_several_runs_say_alike_is_one_toast(page: Any, host: Any) -> None:
-    page.run("() => app.extensionManager.toast.removeAll?.()")
-    page.page.wait_for_timeout(500)
     tell = """([title, sentence]) => app.api.dispatchEvent(
       new CustomEvent('physanimator.advice', { detail: { title, sentences: [sentence] } }))"""
     for title in ["Simulate", "Render", "Simulate"]:
@@ -165,9 +163,8 @@ def test_what_several_runs_say_alike_is_one_toast(page: Any, host: Any) -> None:
     toasts = page.page.locator(".p-toast-message, [data-toast-kind]")
     said = toasts.filter(has_text="it is said here in one toast for each node")
     assert said.count() == 2
-    page.run("() => app.extensionManager.toast.removeAll?.()")
-    page.page.wait_for_timeout(800)
+    page.reload()
     page.run(tell, ["Simulate", "it is said here in one toast for each node"])
     page.page.wait_for_timeout(400)
     assert said.count() == 1, "it is said again once it has gone"
-    page.run("() => app.extensionManager.toast.removeAll?.()")
+    page.reload()
