@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Drawn", "draw"]
 
-_SIDE = 960
-"""Longest side of what is shown [px]."""
+_LONGER, _SHORTER, _LONGEST = 960, 480, 4096
+"""Sides of what is shown [px]: of a page that is very long or wide the shorter one counts, as far as videos reach."""
 
 
 class Drawn(NamedTuple):
@@ -87,7 +87,8 @@ def _frames(
         if batch is not None:
             batch.put(frame)
         height, width = frame.shape[:2]
-        scale = min(1.0, _SIDE / max(width, height))
+        longer, shorter = max(width, height), min(width, height)
+        scale = min(1.0, _LONGEST / longer, max(_LONGER / longer, _SHORTER / shorter))
         size = max(1, round(width * scale)), max(1, round(height * scale))
         yield frame if scale == 1 else resized(frame, *size, nearest=exact)
         report(len(renderer) + number + 1, 2 * len(renderer))

@@ -196,8 +196,13 @@ def chosen_parts(node: Any, picture: NDArray[Any], points: str, masks: torch.Ten
         height, width = picture.shape[:2]
         picked = picked_parts(points, width=width, height=height)
         seen = as_uint8(over(picture))
-        cut, own = segment_parts(seen, picked.prompts), picked.presets
-        told = tell_user(node, picked.judged(cut, seen))
+        cut = segment_parts(seen, picked.prompts)
+        judged = picked.judged(cut, seen)
+        told = tell_user(node, judged)
+        picked, cut = picked.that_move(cut)
+        own = picked.presets
+        if not given and not cut:
+            raise InvalidInputError(" ".join(judged))
         names += [f"Part {number + 1}" for number in picked.numbers]
     if not given and not cut:
         raise InvalidInputError(NOTHING_PICKED)

@@ -33,6 +33,7 @@ class ArtworkToBodies(io.ComfyNode):
             category="PhysAnimator/layers",
             description="Makes layers bodies that move: those whose names say hair, ribbon, skirt and so on, or those"
             " that you name. All other layers stand still where they are, behind, between and in front.",
+            is_output_node=True,
             inputs=[
                 LayersWire.Input("layers", tooltip="From Load Layers or any other node with layers."),
                 io.String.Input(

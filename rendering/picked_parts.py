@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import compress
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..physics.document import parse_points
 from ..physics.material import PRESETS
+from ..physics.mesh import SMALLEST_PART, largest_area
 from .segmentation import Prompt, judge_cuts, prompts_of
 
 __all__ = ["AUTO", "PickedParts", "picked_parts", "presets_in", "presets_of"]
@@ -44,6 +46,17 @@ class PickedParts:
             image: what they were cut from, RGB, shape [h, w, 3].
         """
         return judge_cuts(masks, self.prompts, image=image)
+
+    def that_move(self, masks: Sequence[NDArray[np.bool_]]) -> tuple[PickedParts, list[NDArray[np.bool_]]]:
+        """The parts and masks without those that are too small to become bodies, of which ``judged`` says so.
+
+        Args:
+            masks: one for each part, shape [h, w] each.
+        """
+        large = [largest_area(mask) >= SMALLEST_PART for mask in masks]
+        prompts, numbers = compress(self.prompts, large), compress(self.numbers, large)
+        presets = compress(self.presets, large)
+        return PickedParts(tuple(prompts), tuple(numbers), tuple(presets)), list(compress(masks, large))
 
 
 def picked_parts(points: str | Mapping[str, Any], *, width: int, height: int, boxes: Sequence[Box] = ()) -> PickedParts:

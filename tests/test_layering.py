@@ -66,7 +66,7 @@ MAY_IMPORT = {
     ),
     "rendering/inbetweens": "physics physics/mesh physics/motion rendering/pictures rendering/sketch",
     "rendering/metrics": "physics physics/mesh physics/motion rendering/pictures rendering/sketch",
-    "rendering/segmentation": "physics physics/document physics/scene rendering/pictures rendering/sketch",
+    "rendering/segmentation": "physics physics/document physics/mesh physics/scene rendering/pictures rendering/sketch",
     "rendering/sketch/drawings": "physics rendering/networks rendering/pictures rendering/sketch",
     "rendering/segmentation/sam": (
         "physics rendering/files rendering/networks rendering/pictures rendering/segmentation"

@@ -121,6 +121,8 @@ class Picker:
     def answer(self, wanted: PickRequest) -> dict[str, Any]:
         """What the page gets: the size of the picture, a mask for each part, and what moves them where that is asked.
 
+        Nothing moves where all that is cut is too small for it, which the advice says.
+
         Raises:
             InvalidInputError: the picture, a point or a value is none that may be.
         """
@@ -158,8 +160,9 @@ class Picker:
         masks, judged = self._cuts.get((of_file, asked), cut)
         made: dict[str, Any] = {"width": width, "height": height, "cuts": _told(masks, picked.numbers)}
         made["advice"] = judged
-        if wanted.move is not None:
-            moving, told = self._moving(picture, masks, (of_file, asked), picked, wanted.move)
+        picked, large = picked.that_move(masks)
+        if wanted.move is not None and large:
+            moving, told = self._moving(picture, large, (of_file, asked), picked, wanted.move)
             made |= moving
             made["advice"] = [*made["advice"], *told]
         return made

@@ -5,8 +5,8 @@ from __future__ import annotations
 from .boundary import boundary_edges, half_edges, on_boundary
 from .contours import area_of, contours_at_half, resampled
 from .cutting import cut_along
-from .masks import coverage_of, fitted, may_be_inverted, refuse_noise
-from .meshing import LEAST_SPACING, mesh_from_mask
+from .masks import coverage_of, fitted, largest_area, may_be_inverted, refuse_noise
+from .meshing import LEAST_SPACING, SMALLEST_PART, mesh_from_mask
 from .outline_distances import signed_distances, within_reach
 from .pixel_box import PixelBox, bounding_box
 from .raster import AffinePerTriangle, Fragments, affine_per_triangle, barycentric, interpolate, rasterise, triangle_ids
@@ -16,6 +16,7 @@ from .ways import ways_along, ways_from
 
 __all__ = [
     "LEAST_SPACING",
+    "SMALLEST_PART",
     "UNITS_ACROSS",
     "AffinePerTriangle",
     "Fragments",
@@ -32,6 +33,7 @@ __all__ = [
     "fitted",
     "half_edges",
     "interpolate",
+    "largest_area",
     "mask_of",
     "may_be_inverted",
     "mesh_from_mask",

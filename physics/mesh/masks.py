@@ -16,6 +16,7 @@ __all__ = [
     "coverage_of",
     "distance_to_zero",
     "fitted",
+    "largest_area",
     "may_be_inverted",
     "refuse_noise",
     "with_sound_details",
@@ -140,8 +141,12 @@ def refuse_noise(coverage: Coverage) -> None:
             )
 
 
-def largest_area(coverage: Coverage) -> int:
-    """Area of the largest connected part of a mask [px^2], 0 where nothing is white."""
+def largest_area(coverage: NDArray[Any]) -> int:
+    """Area of the largest connected part of a mask [px^2], 0 where nothing is white.
+
+    Args:
+        coverage: bool, or 0 to 1 of which what is above one half is white; shape [h, w].
+    """
     inside = coverage > 0.5
     return int(_parts(inside, connectivity=8)[1].max()) if inside.any() else 0
 

@@ -15,7 +15,7 @@ from .spacing import GAP_FACTOR, SpacingField, spacing_field
 from .triangle_mesh import UNITS_ACROSS, TriangleMesh
 from .triangulation import CrossingEdgesError, interior_seeds, morton_order, triangulate
 
-__all__ = ["LEAST_SPACING", "MOST_TRIANGLES", "mesh_from_mask"]
+__all__ = ["LEAST_SPACING", "MOST_TRIANGLES", "SMALLEST_PART", "mesh_from_mask"]
 
 FloatArray = NDArray[np.float64]
 
@@ -24,6 +24,9 @@ MOST_TRIANGLES = 200_000
 
 LEAST_SPACING = 2.0
 """The least distance of vertices that can be asked for [px]."""
+
+SMALLEST_PART = 4
+"""The least area of a white part that becomes a mesh, unless another is asked for [px^2]."""
 
 _WANTED_TRIANGLES = 2000
 _MOST_PIXELS = 2**27  # of a mask that is continued past the border, with room around it
@@ -37,7 +40,7 @@ _MARGIN = 0.04
 # White that is smaller is meshed in so much larger pixels, in which triangles follow it as they follow larger parts.
 _SMALL = 64.0  # [px], the diagonal of its box
 # White parts below so many px^2 are specks, or below this share of the largest part if it is small.
-_SPECK, _SMALLEST, _SPECK_SHARE = 16.0, 4.0, 0.05
+_SPECK, _SPECK_SHARE = 16.0, 0.05
 # Thinnest part and smoothing of outlines, in smallest spacings.
 _THINNEST = 0.9
 _SMOOTHING = 0.35
@@ -143,7 +146,7 @@ def _require_bounded(options: _Options, sides: NDArray[np.int64], times: int) ->
 
 def _without_specks(coverage: NDArray[np.float32], smallest_part: float | None) -> NDArray[np.float32]:
     if smallest_part is None:
-        smallest_part = max(_SMALLEST, min(_SPECK, _SPECK_SHARE * largest_area(coverage)))
+        smallest_part = max(SMALLEST_PART, min(_SPECK, _SPECK_SHARE * largest_area(coverage)))
     return without_specks(coverage, smallest_part)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...physics.document import parse_points
+from ...physics.mesh import SMALLEST_PART, largest_area
 from .parts_beyond import parts_beyond
 from .prompts import Box, Prompt
 from .speck_clicks import REACH
@@ -61,6 +62,8 @@ def judge_cut(
         )
     if image is not None and not any(found) and box is None:
         found.append(_across(image, mask, cells[~positive], others))
+    if not any(found) and (area := largest_area(mask)) < SMALLEST_PART:
+        found.append(f"The cut is too small to move, {area} px: put more points on the part, or draw a larger box.")
     return [each for each in found if each]
 
 

@@ -70,18 +70,26 @@ class Host:
             for name, text in files.items():
                 (folder / "custom_nodes" / pack / name).parent.mkdir(parents=True, exist_ok=True)
                 (folder / "custom_nodes" / pack / name).write_text(text, encoding="utf-8")
-        self._log = (folder / "server.log").open("wb")
+        self.start()
+
+    def start(self) -> None:
+        """Start the server, at the same address as before if it has been stopped."""
+        self._log = (self.folder / "server.log").open("ab")
         self._process = subprocess.Popen(
-            [python, "main.py", "--cpu", "--port", str(self.port), "--disable-auto-launch", "--disable-api-nodes",
-             "--base-directory", str(folder), "--database-url", f"sqlite:///{folder / 'comfyui.db'}",
+            [self.python, "main.py", "--cpu", "--port", str(self.port), "--disable-auto-launch", "--disable-api-nodes",
+             "--base-directory", str(self.folder), "--database-url", f"sqlite:///{self.folder / 'comfyui.db'}",
              *shlex.split(os.environ.get("COMFYUI_ARGUMENTS", ""))],
-            cwd=checkout, stdout=self._log, stderr=subprocess.STDOUT, start_new_session=True,
+            cwd=self.checkout, stdout=self._log, stderr=subprocess.STDOUT, start_new_session=True,
         )  # fmt: skip
 
     @property
     def log(self) -> str:
         """Everything the server has printed."""
         return (self.folder / "server.log").read_text(errors="replace")
+
+    @property
+    def stopped(self) -> bool:
+        return self._process.poll() is not None
 
     def wait_until_ready(self) -> None:
         end = time.monotonic() + _START_SECONDS

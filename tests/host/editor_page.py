@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 from typing import Any
 
@@ -47,6 +48,27 @@ _VIEW = """
   app.canvas.setDirty(true, true);
 }
 """
+_ALONE = """
+(type) => {
+  app.graph.clear();
+  app.nodeOutputs = {};
+  const node = LiteGraph.createNode(type);
+  app.graph.add(node);
+  return node.id;
+}
+"""
+# A file that is dropped where the pointer is, as the browser tells the page.
+_DROP = """
+([id, text, name]) => {
+  const { keys } = app.canvas.graph.getNodeById(id).physanimatorEditor.stage;
+  const bytes = Uint8Array.from(atob(text), (one) => one.charCodeAt(0));
+  const dataTransfer = new DataTransfer();
+  dataTransfer.items.add(new File([bytes], name, { type: 'image/png' }));
+  for (const kind of ['dragover', 'drop']) {
+    keys.dispatchEvent(new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true }));
+  }
+}
+"""
 # In the graph that is open, which may be a subgraph.
 _NODE = "app.canvas.graph.getNodeById(id)"
 _PLACE = f"""
@@ -83,6 +105,15 @@ class EditorPage:
         cls.choose_canvas(page, canvas)
         editor = cls(page, page.run(_BUILD))
         editor.look()
+        return editor
+
+    @classmethod
+    def animating(cls, page: Any, canvas: str) -> EditorPage:
+        """A graph of nothing but Animate Illustration with the example, in one of the two canvases."""
+        cls.choose_canvas(page, canvas)
+        editor = cls(page, page.run(_ALONE, "PhysAnimator_AnimateIllustration"))
+        editor.look(scale=1)
+        editor.wait("editor.backdrop.picture !== null")
         return editor
 
     @staticmethod
@@ -144,6 +175,10 @@ class EditorPage:
 
     def click(self, x: float, y: float) -> None:
         self.page.page.mouse.click(*self.place(x, y))
+
+    def drop(self, content: bytes, name: str) -> None:
+        """Drop a picture file on the editor."""
+        self.page.run(_DROP, [self.node, base64.b64encode(content).decode(), name])
 
     def keys(self, *keys: str) -> None:
         for key in keys:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import json
 from pathlib import Path
 from typing import Any
@@ -16,18 +15,6 @@ ILLUSTRATION = Path(__file__).resolve().parents[2] / "workflows" / "example" / "
 HAIR, CAPE = (700, 300), (680, 540)
 MOST_CLICKS = 6
 
-# A file that is dropped where the pointer is, as the browser tells the page.
-_DROP = """
-([id, text, name]) => {
-  const { keys } = app.canvas.graph.getNodeById(id).physanimatorEditor.stage;
-  const bytes = Uint8Array.from(atob(text), (one) => one.charCodeAt(0));
-  const dataTransfer = new DataTransfer();
-  dataTransfer.items.add(new File([bytes], name, { type: 'image/png' }));
-  for (const kind of ['dragover', 'drop']) {
-    keys.dispatchEvent(new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true }));
-  }
-}
-"""
 _LOAD = """
 async (workflow) => {
   await app.loadGraphData(JSON.parse(workflow), true, true);
@@ -101,7 +88,7 @@ def test_a_newcomer_gets_from_a_dropped_picture_to_a_moving_one(page: Any, canva
     (number,) = page.run("() => app.graph.nodes.map((node) => node.id)")
     editor = EditorPage(page, number)
     editor.look(*page.run("(id) => [...app.graph.getNodeById(id).pos]", number), scale=1.0)
-    page.run(_DROP, [number, base64.b64encode(ILLUSTRATION.read_bytes()).decode(), "mine.png"])
+    editor.drop(ILLUSTRATION.read_bytes(), "mine.png")
     editor.wait("/^mine/.test(node.widgets.find((one) => one.name === 'picture').value)")
     editor.wait("editor.backdrop.picture?.src.includes('mine')")
     assert editor.selector('[data-note="empty"]').inner_text() == "Click on what shall move."

@@ -152,3 +152,19 @@ def test_advice_appears_as_a_toast(page: Any, host: Any) -> None:
     assert said.first.is_visible()
     assert page.problems == []
     page.run("() => app.extensionManager.toast.removeAll?.()")
+
+
+def test_what_several_runs_say_alike_is_one_toast(page: Any, host: Any) -> None:
+    tell = """([title, sentence]) => app.api.dispatchEvent(
+      new CustomEvent('physanimator.advice', { detail: { title, sentences: [sentence] } }))"""
+    for title in ["Simulate", "Render", "Simulate"]:
+        page.run(tell, [title, "it is said here in one toast for each node"])
+        page.page.wait_for_timeout(400)
+    toasts = page.page.locator(".p-toast-message, [data-toast-kind]")
+    said = toasts.filter(has_text="it is said here in one toast for each node")
+    assert said.count() == 2
+    page.reload()
+    page.run(tell, ["Simulate", "it is said here in one toast for each node"])
+    page.page.wait_for_timeout(400)
+    assert said.count() == 1, "it is said again once it has gone"
+    page.reload()

@@ -56,6 +56,28 @@ async () => {
 }
 """
 
+# Buttons and lists of a narrow picker that reach beyond it, or cut off their words.
+_CUT = """
+async () => {
+  app.graph.clear();
+  const node = LiteGraph.createNode('PhysAnimator_AnimateIllustration');
+  app.graph.add(node);
+  await new Promise((done) => setTimeout(done, 800));
+  node.setSize([250, 800]);
+  app.canvas.ds.scale = 1;
+  app.canvas.setDirty(true, true);
+  await new Promise((done) => setTimeout(done, 800));
+  const { frame, root } = node.physanimatorEditor;
+  const edge = frame.getBoundingClientRect();
+  const seen = [...frame.querySelectorAll('button, select')].filter((one) => one.checkVisibility());
+  const beyond = (one) => {
+    const box = one.getBoundingClientRect();
+    return box.left < edge.left - 1 || box.right > edge.right + 1 || one.scrollWidth > one.clientWidth + 1;
+  };
+  return [root.offsetWidth, seen.length, seen.filter(beyond).map((one) => one.outerHTML.slice(0, 120))];
+}
+"""
+
 
 @pytest.fixture(scope="module", params=["ja", "zh-TW"])
 def language(page: Any, request: Any) -> Iterator[str]:
@@ -122,6 +144,13 @@ def test_the_editor_speaks_the_language(page: Any, language: str) -> None:
     assert ["vertex_force", _word(language, "vertex_force")] in editor["options"]
     assert _word(language, "Run this node") in editor["text"]
     assert page.problems == []
+
+
+def test_a_narrow_picker_cuts_off_no_word(page: Any, language: str) -> None:
+    across, seen, cut = page.run(_CUT)
+    assert 200 < across < 260
+    assert seen > 15
+    assert cut == []
 
 
 def test_help_is_shown_in_the_language(page: Any, language: str) -> None:

@@ -10,8 +10,8 @@ from __future__ import annotations
 import copy
 import json
 import sys
-from collections.abc import Callable, Sequence
-from functools import cache
+from collections.abc import Callable
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT.parent))
+sys.path[:0] = [str(ROOT.parent), str(Path(__file__).parent)]
 
 from physanimator.physics.motion import tracks  # noqa: E402
 from physanimator.physics.scene import Contact  # noqa: E402
@@ -34,16 +34,28 @@ from physanimator.rendering.overlays import draw_tracks, preview  # noqa: E402
 from physanimator.rendering.pictures import load_image, load_mask  # noqa: E402
 from physanimator.rendering.pipeline import animate  # noqa: E402
 from physanimator.rendering.sketch import extract_sketch  # noqa: E402
-
-Picture = NDArray[np.uint8]
-Clip = list[Picture]
+from thumbnail_clips import (  # noqa: E402
+    COUNT,
+    INK,
+    LIGHT,
+    SIZE,
+    Clip,
+    Picture,
+    arrow,
+    badged,
+    bars,
+    beside,
+    closer,
+    evenly,
+    grid,
+    put,
+    round_and_round,
+    sized,
+)
 
 EXAMPLE = ROOT / "workflows" / "example"
-SIZE, SMALL = (640, 360), (352, 198)
-COUNT, RATE = 24, 12
-"""Frames of a thumbnail, and of its second."""
+SMALL, RATE = (352, 198), 12
 PARTS = ("hair", "cape", "ribbon", "plant")
-_INK, _LIGHT = (32, 32, 38), (250, 250, 250)
 
 
 def _illustration() -> Picture:
@@ -78,33 +90,14 @@ def _layers() -> Animation:
     return animate(load_artwork(EXAMPLE / "illustration.psd"), timing=Timing(loop=COUNT / RATE))
 
 
-def _sized(picture: NDArray[Any], size: tuple[int, int] = SIZE) -> Picture:
-    """Any picture as RGB of a size, whatever stands over cut off at both sides."""
-    if picture.dtype != np.uint8:
-        picture = (np.clip(picture, 0, 1) * 255).astype(np.uint8)
-    if picture.ndim == 2:
-        picture = np.repeat(picture[..., None], 3, axis=2)
-    scale = max(size[0] / picture.shape[1], size[1] / picture.shape[0])
-    width, height = round(picture.shape[1] * scale), round(picture.shape[0] * scale)
-    grown = cv2.resize(np.ascontiguousarray(picture[..., :3]), (width, height), interpolation=cv2.INTER_AREA)
-    left, top = (width - size[0]) // 2, (height - size[1]) // 2
-    return grown[top : top + size[1], left : left + size[0]]
-
-
-def _every(pictures: Any) -> Clip:
-    """So many of them, at even distances."""
-    found = list(pictures)
-    return [_sized(found[round(k * len(found) / COUNT)]) for k in range(COUNT)]
-
-
 @cache
 def _frames() -> Clip:
-    return _every(_example().frames())
+    return evenly(_example().frames())
 
 
 @cache
 def _sketches() -> Clip:
-    return _every(_example().sketches())
+    return evenly(_example().sketches())
 
 
 def _over(**shown: bool) -> Clip:
@@ -112,54 +105,13 @@ def _over(**shown: bool) -> Clip:
     example = _example()
     drawn = enumerate(example.frames())
     said = {"wireframe": False, "rig": False, "strokes": False, **shown}
-    return _every(preview(frame, example.motion, example.scene, t, **said) for t, frame in drawn)
-
-
-def _beside(*clips: Clip, same: bool = False) -> Clip:
-    """Slanted strips, one of each clip, with a light line between them; the same part of each, or as they lie."""
-    across, slant = SIZE[0] / len(clips), 60
-    if same:
-        hair = 0.55 * SIZE[0]
-        clips = tuple(
-            [np.roll(picture, round((number + 0.5) * across - hair), axis=1) for picture in clip]
-            for number, clip in enumerate(clips)
-        )
-    shown = [picture.copy() for picture in clips[0]]
-    for number, clip in enumerate(clips[1:], start=1):
-        top, foot = round(number * across + slant / 2), round(number * across - slant / 2)
-        corners = np.array([(top, 0), (SIZE[0], 0), (SIZE[0], SIZE[1]), (foot, SIZE[1])], dtype=np.int32)
-        where = np.zeros(SIZE[::-1], dtype=np.uint8)
-        cv2.fillPoly(where, [corners], 255)
-        for picture, other in zip(shown, clip, strict=True):
-            picture[where > 0] = other[where > 0]
-            cv2.line(picture, (top, 0), (foot, SIZE[1]), _LIGHT, 4, cv2.LINE_AA)
-    return shown
-
-
-def _grid(clips: Sequence[Clip]) -> Clip:
-    """Four clips, two beside two."""
-    small = [[_sized(picture, (SIZE[0] // 2 - 2, SIZE[1] // 2 - 2)) for picture in clip] for clip in clips]
-    shown = []
-    for pictures in zip(*small, strict=True):
-        sheet = np.full((SIZE[1], SIZE[0], 3), 255, dtype=np.uint8)
-        for number, picture in enumerate(pictures):
-            x, y = (number % 2) * (SIZE[0] // 2 + 1), (number // 2) * (SIZE[1] // 2 + 1)
-            sheet[y : y + picture.shape[0], x : x + picture.shape[1]] = picture
-        shown.append(sheet)
-    return shown
-
-
-def _cut(clip: Clip, x: float, y: float, part: float) -> Clip:
-    """A closer look: so large a part of the pictures, from a corner of its own."""
-    width, height = round(SIZE[0] * part), round(SIZE[1] * part)
-    left, top = round(SIZE[0] * x), round(SIZE[1] * y)
-    return [_sized(picture[top : top + height, left : left + width]) for picture in clip]
+    return evenly(preview(frame, example.motion, example.scene, t, **said) for t, frame in drawn)
 
 
 def _gust(scene: dict[str, Any]) -> Clip:
     """The hair in a gust of its own, there and back."""
     moved = animate(_illustration(), [_mask("hair")], scene=scene, timing=Timing(frames=2 * COUNT))
-    return _every(picture[:560, 300:1296] for picture in moved.frames())
+    return evenly(picture[:560, 300:1296] for picture in moved.frames())
 
 
 def _strokes() -> Clip:
@@ -169,8 +121,15 @@ def _strokes() -> Clip:
         for strength in (1.5, 5.0):
             scene = copy.deepcopy(_hair())
             scene["strokes"][0].update(path=path, strength=strength, radius=260)
-            clips.append(_gust(scene))
-    return _grid(clips)
+            way = np.sign(np.subtract(path[1], path[0]))
+            clips.append(badged(_gust(scene), partial(arrow, way=way, strength=strength)))
+    return grid(clips)
+
+
+def _stiffness() -> Clip:
+    """The hair from soft to stiff, with as many of four bars."""
+    clips = [_gust(_hair(sway_frequency=rate)) for rate in (0.4, 0.8, 1.6, 3.2)]
+    return grid([badged(clip, partial(bars, full=number)) for number, clip in enumerate(clips, start=1)])
 
 
 def _contact() -> Clip:
@@ -180,7 +139,7 @@ def _contact() -> Clip:
     moved = animate(
         _illustration(), masks, preset=("hair", "leaf"), wind=wind, touching=touching, timing=Timing(frames=2 * COUNT)
     )
-    return _cut(_every(moved.frames()), 0.42, 0.0, 0.58)
+    return closer(evenly(moved.frames()), 0.42, 0.0, 0.58)
 
 
 def _painted() -> Clip:
@@ -192,7 +151,7 @@ def _painted() -> Clip:
     tinted = picture * (1 - 0.6 * mask) + colours * 0.6 * mask
     scene = _hair(root_stiffness=60)
     moved = animate(tinted.astype(np.uint8), [_mask("hair")], scene=scene, timing=Timing(frames=2 * COUNT))
-    return _cut(_every(moved.frames()), 0.25, 0.0, 0.7)
+    return closer(evenly(moved.frames()), 0.25, 0.0, 0.7)
 
 
 def _holes() -> tuple[Clip, Clip]:
@@ -201,9 +160,16 @@ def _holes() -> tuple[Clip, Clip]:
     form = ModelFormat(frames=COUNT + 1, width=832, height=464)
     grey, pink = [], []
     for frame, hole in list(warped_frames(example.image, example.masks, example.motion, form, grow=8))[:COUNT]:
-        grey.append(_sized(frame))
-        pink.append(_sized(np.where(hole[..., None] > 0, np.float32([1.0, 0.2, 0.6]), frame)))
+        grey.append(sized(frame))
+        pink.append(sized(np.where(hole[..., None] > 0, np.float32([1.0, 0.2, 0.6]), frame)))
     return grey, pink
+
+
+def _soft_mask() -> Clip:
+    """Where something is to be painted, white; and how the mask fades out around it."""
+    example, form = _example(), ModelFormat(frames=COUNT + 1, width=832, height=464)
+    holes = [hole for _, hole in warped_frames(example.image, example.masks, example.motion, form, grow=8)][:COUNT]
+    return [sized(np.maximum(hole, cv2.GaussianBlur(hole.astype(np.float32), (0, 0), 14))) for hole in holes]
 
 
 def _uncovered() -> Clip:
@@ -211,59 +177,79 @@ def _uncovered() -> Clip:
     example = _example()
     area = uncovered_area(example.renderer)[..., None]
     plate = example.renderer.plate / np.float32(255)
-    return [_sized(plate + area * 0.6 * (np.float32([1.0, 0.2, 0.6]) - plate))] * COUNT
+    return [sized(plate + area * 0.6 * (np.float32([1.0, 0.2, 0.6]) - plate))] * COUNT
 
 
 def _lines() -> Clip:
     example = _example()
     form = ModelFormat(frames=COUNT + 1, width=832, height=464)
-    return [_sized(lines) for lines in line_frames(extract_sketch(example.image), example.motion, form)][:COUNT]
+    return [sized(lines) for lines in line_frames(extract_sketch(example.image), example.motion, form)][:COUNT]
 
 
 def _tracks() -> Clip:
     example = _example()
     followed = tracks(example.motion, points=90, static_points=12)
-    return _every(draw_tracks(frame, followed, t) for t, frame in enumerate(example.frames()))
+    return evenly(draw_tracks(frame, followed, t) for t, frame in enumerate(example.frames()))
 
 
-def _loop() -> Clip:
-    """The ribbon, with an arrow that goes round once in the time of the loop."""
-    shown = _cut(_frames(), 0.2, 0.0, 0.5)
-    for number, picture in enumerate(shown):
-        centre, angle = (SIZE[0] - 62, SIZE[1] - 62), 360 * number / COUNT - 90
-        cv2.circle(picture, centre, 44, _INK, -1, cv2.LINE_AA)
-        cv2.ellipse(picture, centre, (28, 28), 0, angle, angle + 290, _LIGHT, 7, cv2.LINE_AA)
-        tip = np.deg2rad(angle + 290)
-        at = np.array(centre) + 28 * np.array([np.cos(tip), np.sin(tip)])
-        ahead, aside = np.array([-np.sin(tip), np.cos(tip)]), np.array([np.cos(tip), np.sin(tip)])
-        head = np.array([at + 18 * ahead, at + 13 * aside, at - 13 * aside])
-        cv2.fillPoly(picture, [np.rint(head).astype(np.int32)], _LIGHT, cv2.LINE_AA)
-    return shown
+def _dark_tracks() -> Clip:
+    """The points alone, as a model that follows them gets to see them."""
+    followed = tracks(_example().motion, points=90, static_points=12)
+    dark = np.full((720, 1280, 3), 18, dtype=np.uint8)
+    return evenly(draw_tracks(dark, followed, t) for t in range(len(_example())))
+
+
+def _closed() -> Clip:
+    """The same frame at both ends of what is between."""
+    end = [_frames()[0]] * COUNT
+    between = [cv2.GaussianBlur(picture, (0, 0), 5) for picture in _frames()]
+    return round_and_round(beside(end, between, end, same=True))
+
+
+@cache
+def _crude() -> list[tuple[NDArray[Any], NDArray[Any]]]:
+    """The crude animation and its mask."""
+    example, form = _example(), ModelFormat(frames=4 * COUNT + 1, width=640, height=352)
+    steps = time_to_move(example.image, [_mask(part) for part in PARTS], example.motion, form)
+    return [(step.frames[-1], step.mask) for step, _ in zip(steps, range(COUNT), strict=False)]
 
 
 def _repainted() -> Clip:
     """The crude animation with its mask in colour, and what comes of it."""
-    example, form = _example(), ModelFormat(frames=4 * COUNT + 1, width=640, height=352)
-    steps = time_to_move(example.image, [_mask(part) for part in PARTS], example.motion, form)
     tint = np.float32((1.0, 0.25, 0.2))
-    tinted = [step.frames[-1] + 0.5 * step.mask[..., None] * (tint - step.frames[-1]) for step in steps]
-    return _beside([_sized(picture) for picture in tinted[:COUNT]], _frames(), same=True)
+    tinted = [frame + 0.5 * mask[..., None] * (tint - frame) for frame, mask in _crude()]
+    return beside([sized(picture) for picture in tinted], _frames(), same=True)
+
+
+def _repainted_by_masks() -> Clip:
+    """The mask, the crude animation, and what comes of them."""
+    masks, crude = [sized(mask) for _, mask in _crude()], [sized(frame) for frame, _ in _crude()]
+    return beside(masks, crude, _frames(), same=True)
+
+
+def _noisy() -> Clip:
+    """The frames, the noise out of which a model draws them anew, and the frames."""
+    random = np.random.default_rng(0)
+    noise = [random.normal(128, 60, (SIZE[1] // 3, SIZE[0] // 3, 3)) for _ in range(COUNT)]
+    grains = [sized(np.clip(each, 0, 255).astype(np.uint8)) for each in noise]
+    between = [cv2.addWeighted(frame, 0.35, grain, 0.65, 0) for frame, grain in zip(_frames(), grains, strict=True)]
+    return beside(_frames(), between, _frames(), same=True)
 
 
 def _ends() -> Clip:
     """First frame, what is between, last frame."""
     first, last = [_frames()[0]] * COUNT, [_frames()[COUNT // 2]] * COUNT
     between = [cv2.GaussianBlur(picture, (0, 0), 5) for picture in _frames()]
-    return _beside(_cut(first, 0.15, 0, 0.8), between, last)
+    return beside(closer(first, 0.15, 0, 0.8), between, last)
 
 
 def _timeline() -> Clip:
     """The motion over a timeline with three keyframes, along which a mark goes."""
-    shown = _cut(_frames(), 0.2, 0.0, 0.72)
+    shown = closer(_frames(), 0.2, 0.0, 0.72)
     left, right, y = 60, SIZE[0] - 60, SIZE[1] - 40
     for number, picture in enumerate(shown):
-        cv2.rectangle(picture, (0, y - 34), (SIZE[0], SIZE[1]), _INK, -1)
-        cv2.line(picture, (left, y), (right, y), _LIGHT, 4, cv2.LINE_AA)
+        cv2.rectangle(picture, (0, y - 34), (SIZE[0], SIZE[1]), INK, -1)
+        cv2.line(picture, (left, y), (right, y), LIGHT, 4, cv2.LINE_AA)
         x = left + round((right - left) * number / max(1, COUNT - 1))
         cv2.circle(picture, (x, y), 9, (235, 64, 52), -1, cv2.LINE_AA)
         for key in (left, (left + right) // 2, right):
@@ -274,17 +260,17 @@ def _timeline() -> Clip:
 
 def _film() -> Clip:
     """Three frames on end, of which the middle one is new."""
-    clip, shown = _cut(_frames(), 0.25, 0.0, 0.62), []
+    clip, shown = closer(_frames(), 0.25, 0.0, 0.62), []
     for number in range(COUNT):
-        sheet = np.full((SIZE[1], SIZE[0], 3), _INK, dtype=np.uint8)
+        sheet = np.full((SIZE[1], SIZE[0], 3), INK, dtype=np.uint8)
         for place in range(3):
-            picture = _sized(clip[(number + place) % COUNT][:, 120:520], (196, 250))
+            picture = sized(clip[(number + place) % COUNT][:, 120:520], (196, 250))
             x, new = 13 + place * 209, (number + place) % 2 == 1
-            cv2.rectangle(sheet, (x - 5, 50), (x + 200, 309), (255, 176, 32) if new else _INK, -1)
+            cv2.rectangle(sheet, (x - 5, 50), (x + 200, 309), (255, 176, 32) if new else INK, -1)
             sheet[55:305, x : x + 196] = picture
             for hole in range(7):
                 for y in (18, 324):
-                    cv2.rectangle(sheet, (x + hole * 29, y), (x + hole * 29 + 14, y + 18), _LIGHT, -1)
+                    cv2.rectangle(sheet, (x + hole * 29, y), (x + hole * 29 + 14, y + 18), LIGHT, -1)
         shown.append(sheet)
     return shown
 
@@ -300,21 +286,9 @@ def _tiles() -> Clip:
         names = [layer.name for layer in own][:8]
         for number, name in enumerate(names):
             layer = next(each for each in artwork.layers if each.name == name)
-            _put(sheet, layer.pixels, (number % 4) * 160 + 8, (number // 4) * 180 + 8, 144, 164)
+            put(sheet, layer.pixels, (number % 4) * 160 + 8, (number // 4) * 180 + 8, 144, 164)
         shown.append(sheet)
     return shown
-
-
-def _put(sheet: Picture, pixels: NDArray[Any], x: int, y: int, width: int, height: int) -> None:
-    """A picture with transparency in a box, as large as goes in."""
-    pixels = (pixels // 257).astype(np.uint8) if pixels.dtype == np.uint16 else pixels
-    scale = min(width / pixels.shape[1], height / pixels.shape[0])
-    size = max(1, round(pixels.shape[1] * scale)), max(1, round(pixels.shape[0] * scale))
-    small = cv2.resize(pixels, size, interpolation=cv2.INTER_AREA).astype(np.float32)
-    left, top = x + (width - size[0]) // 2, y + (height - size[1]) // 2
-    place = sheet[top : top + size[1], left : left + size[0]]
-    alpha = small[..., 3:] / 255
-    place[:] = np.rint(place * (1 - alpha) + small[..., :3] * alpha)
 
 
 def _stack() -> Clip:
@@ -356,43 +330,43 @@ def _picked() -> Clip:
     for part, colour in zip(PARTS, ((235, 64, 52), (66, 135, 245), (250, 190, 40), (60, 200, 110)), strict=True):
         mask = _mask(part).astype(np.float32)[..., None]
         still += (np.float32(colour) - still) * 0.55 * mask / max(1.0, float(mask.max()))
-    picture = _sized(still.astype(np.uint8))
+    picture = sized(still.astype(np.uint8))
     for at in ((390, 130), (330, 230), (300, 55), (545, 125)):
-        cv2.circle(picture, at, 11, _LIGHT, -1, cv2.LINE_AA)
-        cv2.circle(picture, at, 7, _INK, -1, cv2.LINE_AA)
-    return _beside([picture] * COUNT, _frames(), same=True)
+        cv2.circle(picture, at, 11, LIGHT, -1, cv2.LINE_AA)
+        cv2.circle(picture, at, 7, INK, -1, cv2.LINE_AA)
+    return beside([picture] * COUNT, _frames(), same=True)
 
 
 THUMBNAILS: dict[str, Callable[[], Clip]] = {
     "quickstart": _frames,
     "animate_illustration": _picked,
     "scene_editor": lambda: _over(rig=True, strokes=True),
-    "wind_and_pins": lambda: _cut(_over(rig=True, wireframe=True), 0.28, 0.0, 0.5),
-    "seamless_loop": _loop,
+    "wind_and_pins": lambda: closer(_over(rig=True, wireframe=True), 0.28, 0.0, 0.5),
+    "seamless_loop": lambda: round_and_round(closer(_frames(), 0.2, 0.0, 0.5)),
     "contact": _contact,
     "paint_and_measure": _painted,
     "figure_strokes": _strokes,
-    "figure_stiffness": lambda: _grid([_gust(_hair(sway_frequency=rate)) for rate in (0.4, 0.8, 1.6, 3.2)]),
-    "every_step": lambda: _beside(_over(wireframe=True), _sketches(), _every(_example().flows()), _frames(), same=True),
-    "soft_inpaint": lambda: _cut(_beside(_frames(), _holes()[1]), 0.25, 0.0, 0.7),
-    "inpaint_plate": lambda: _cut(_beside(_uncovered(), _frames()), 0.25, 0.0, 0.7),
-    "render_from_animation": lambda: _beside(_over(wireframe=True), _frames()),
+    "figure_stiffness": _stiffness,
+    "every_step": lambda: beside(_over(wireframe=True), _sketches(), evenly(_example().flows()), _frames(), same=True),
+    "soft_inpaint": lambda: closer(beside(_frames(), _holes()[1]), 0.25, 0.0, 0.7),
+    "inpaint_plate": lambda: closer(beside(_uncovered(), _frames()), 0.25, 0.0, 0.7),
+    "render_from_animation": _noisy,
     "layers": _stack,
     "see_through": _tiles,
     "frame_interpolation": _film,
-    "wan_vace": lambda: _cut(_holes()[0], 0.25, 0.0, 0.7),
-    "wan_tracks": _tracks,
-    "differential_diffusion": lambda: _cut(_beside(_holes()[0], _holes()[1]), 0.25, 0.0, 0.7),
+    "wan_vace": lambda: closer(_holes()[0], 0.25, 0.0, 0.7),
+    "wan_tracks": lambda: closer(_tracks(), 0.3, 0.0, 0.65),
+    "differential_diffusion": lambda: beside(_holes()[0], _soft_mask(), same=True),
     "wan_lines": _lines,
     "wan_time_to_move": _repainted,
-    "wan_time_to_move_core": _repainted,
+    "wan_time_to_move_core": _repainted_by_masks,
     "wan_first_last_frame": _ends,
-    "wan_loop": lambda: _cut(_loop(), 0.3, 0.3, 0.7),
-    "ltx_lines": lambda: _beside(_lines(), _frames()),
-    "ltx_tracks": lambda: _cut(_tracks(), 0.3, 0.0, 0.65),
+    "wan_loop": _closed,
+    "ltx_lines": lambda: beside(_lines(), _frames()),
+    "ltx_tracks": lambda: beside(_dark_tracks(), _frames(), same=True),
     "anisora_inbetweens": _timeline,
-    "physanimator_paper": lambda: _beside(_sketches(), _frames()),
-    "paper_strict": lambda: _beside(_over(wireframe=True), _every(_example().flows()), _sketches(), same=True),
+    "physanimator_paper": lambda: beside(_sketches(), _frames()),
+    "paper_strict": lambda: beside(_over(wireframe=True), evenly(_example().flows()), _sketches(), same=True),
 }
 
 

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { along, areaOf, distanceToPath, fittingView, isInside, simplified, toPicture, toStage, zoomed } from "../../nodes/web/js/scene/geometry.js";
+import { along, areaOf, distanceToPath, fittingView, isInside, simplified, startingView, toPicture, toStage, zoomed } from "../../nodes/web/js/scene/geometry.js";
+import { workOf } from "../../nodes/web/js/scene/document.js";
 import { hitTest } from "../../nodes/web/js/scene/hit_testing.js";
 import { bitmapOf, brush, emptyBitmap, measured, regionOf, shifted } from "../../nodes/web/js/scene/masks.js";
 import { handlesOf, moved, verticesOf, withHandle, withVertex } from "../../nodes/web/js/scene/shapes.js";
@@ -141,4 +142,32 @@ test("painted areas are found where they are painted", () => {
   const document = scene({ paint: [{ stiffness: 4, region: regionOf(bitmap) }] });
   assert.deepEqual(hitTest(document, [500, 250], 4, null)?.reference, { list: "paint", index: 0 });
   assert.equal(hitTest(document, [600, 250], 4, null), null);
+});
+
+test("a long page begins with a piece of it, full across, around what was drawn and inside its ends", () => {
+  const stage = /** @type {const} */ ([600, 320, 10]);
+  const shown = (/** @type {any} */ view, /** @type {number} */ length, /** @type {"x" | "y"} */ axis, /** @type {number} */ room) =>
+    [-view[axis] / view.scale, (room - view[axis]) / view.scale].map((end) => Math.min(Math.max(end, 0), length));
+  const top = startingView(800, 6000, ...stage, [0, 0]);
+  assert.ok(Math.abs(800 * top.scale - 300) < 1e-9);
+  assert.equal(top.y, 10);
+  assert.ok(Math.abs(top.x - (600 - 300) / 2) < 1e-9);
+  const [from, to] = shown(startingView(800, 6000, ...stage, [400, 3000]), 6000, "y", 320);
+  assert.ok(from < 2700 && to > 3300 && Math.abs((from + to) / 2 - 3000) < 1e-6);
+  const foot = startingView(800, 6000, ...stage, [400, 6000]);
+  assert.ok(Math.abs(foot.y + 6000 * foot.scale - 310) < 1e-9);
+  const wide = startingView(6000, 800, ...stage, [6000, 0]);
+  assert.ok(Math.abs(800 * wide.scale - 300) < 1e-9);
+  assert.ok(Math.abs(wide.x + 6000 * wide.scale - 590) < 1e-9);
+  for (const size of /** @type {[number, number][]} */ ([[1280, 720], [720, 1280], [1000, 2000], [64, 64]])) {
+    assert.deepEqual(startingView(...size, ...stage, [0, 0]), fittingView(...size, ...stage));
+  }
+});
+
+test("the work is where something was drawn last", () => {
+  const document = { version: 2, width: 800, height: 6000 };
+  assert.deepEqual(workOf(document), [0, 0]);
+  assert.deepEqual(workOf({ ...document, strokes: [{ path: [[5, 900], [7, 950]] }] }), [5, 900]);
+  const points = [{ x: 1, y: 2 }, { x: 30, y: 4000, positive: false }];
+  assert.deepEqual(workOf({ ...document, strokes: [{ path: [[5, 900], [7, 950]] }], query_points: points }), [30, 4000]);
 });

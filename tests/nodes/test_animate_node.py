@@ -62,6 +62,20 @@ def test_what_is_picked_moves_and_what_is_not_stands_still(standin: Any, bars: s
     assert mask[40, 140].max() < 5
 
 
+@pytest.mark.parametrize(
+    ("size", "shown"), [((1280, 720), (960, 540)), ((60, 1200), (60, 1200)), ((9000, 16), (4096, 8))]
+)
+def test_of_long_pages_as_much_is_shown_as_can_be_seen(
+    standin: Any, size: tuple[int, int], shown: tuple[int, int]
+) -> None:
+    drawn = np.full((*size[::-1], 3), PAPER, np.uint8)
+    drawn[4:12, 10:40] = RED
+    Image.fromarray(drawn).save(standin.folder / "input" / "long.png")
+    outputs = standin.run(animate("long.png", [[20, 8, 1]], frames=2))
+    frame = next(iter(read_clip(standin.file(outputs["animate"]["images"][0]))))
+    assert frame.shape[1::-1] == shown
+
+
 def test_it_shows_a_small_video_and_makes_no_batch_that_nobody_takes(standin: Any, bars: str) -> None:
     shown = standin.run(animate(bars, [ON_RED], frames=5))["animate"]
     (saved,) = shown["images"]
@@ -125,6 +139,20 @@ def test_what_it_does_not_take_is_refused(standin: Any, bars: str, inputs: dict[
 def test_parts_on_the_same_pixels_have_the_names_that_the_node_shows(standin: Any, bars: str) -> None:
     told = standin.error_of(animate(bars, [[*ON_RED, 0], [*ON_RED[:2], 1, 2]]))
     assert told == "Part 1 and Part 3 must not be at the same pixel. Got: both at (60, 40)"
+
+
+def test_what_is_too_small_to_move_is_said_in_the_words_of_who_clicked_and_the_rest_moves(standin: Any) -> None:
+    drawn = np.full((120, 200, 3), PAPER, np.uint8)
+    drawn[26:100, 50:74], drawn[60, 150] = RED, BLUE
+    Image.fromarray(drawn).save(standin.folder / "input" / "dot.png")
+    dot = [150, 60, 1]
+    told = standin.error_of(animate("dot.png", [dot]))
+    assert "cut out hardly more than itself" in told
+    assert "mask" not in told
+    outputs = standin.run(seen(animate("dot.png", [dot, [*ON_RED, 1]])))
+    (mask,) = pictures(standin, outputs["masks"])
+    assert mask[60, 60].all()
+    assert not mask[60, 150].any()
 
 
 def test_a_file_is_named_by_its_place_in_the_host_s_folders(standin: Any) -> None:

@@ -7,10 +7,14 @@ from __future__ import annotations
 
 import ast
 import json
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
+from PIL import Image, ImageSequence
 
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMAS: dict[str, Any] = json.loads(Path(__file__).with_name("node_schemas.json").read_text(encoding="utf-8"))
@@ -108,6 +112,21 @@ def test_every_workflow_has_both_formats_and_a_thumbnail() -> None:
     assert NAMES
     assert sorted(path.stem for path in (ROOT / "workflows" / "api").glob("*.json")) == NAMES
     assert sorted(path.stem for path in (ROOT / "workflows").glob("*.jpg")) == NAMES
+
+
+@pytest.mark.parametrize("ending", ["jpg", "webp"])
+def test_no_two_thumbnails_look_alike(ending: str) -> None:
+    """Who looks through the templates tells them apart: averaged over time, at the size of a stamp [grey levels]."""
+    seen = {name: _stamp(ROOT / "workflows" / f"{name}.{ending}") for name in NAMES}
+    differences = {(one, two): np.abs(seen[one] - seen[two]).mean() for one, two in combinations(NAMES, 2)}
+    pair = min(differences, key=lambda each: differences[each])
+    assert differences[pair] > 6, f"{' and '.join(pair)} differ by {differences[pair]:.1f}"
+
+
+def _stamp(path: Path) -> NDArray[np.float64]:
+    with Image.open(path) as clip:
+        frames = [frame.convert("RGB").resize((32, 18), Image.Resampling.BOX) for frame in ImageSequence.Iterator(clip)]
+    return np.mean([np.asarray(frame, dtype=np.float64) for frame in frames], axis=0)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -106,6 +106,30 @@ def test_what_is_picked_is_simulated_as_the_node_does(bars: str) -> None:
     in_a_server(test)
 
 
+def test_what_is_too_small_to_move_is_said_once_and_the_rest_moves(standin: Any) -> None:
+    drawn = np.full((120, 200, 3), PAPER, np.uint8)
+    drawn[20:100, 50:74], drawn[60, 150] = RED, BLUE
+    Image.fromarray(drawn).save(standin.folder / "input" / "dot.png")
+    bar, dot = {"x": 60, "y": 40}, {"x": 150, "y": 60}
+
+    async def test(server: Served) -> None:
+        status, found = await pick(server, asked("dot.png", [dot], move=MOVE))
+        assert (status, len(found["cuts"]), mask_of(found["cuts"][0]).sum()) == (200, 1, 1)
+        assert "key" not in found
+        assert [
+            each.startswith("The point on the part cut out hardly more than itself") for each in found["advice"]
+        ] == [True]
+        status, found = await pick(server, asked("dot.png", [dot, bar | {"part": 1}], move=MOVE))
+        assert (status, len(found["cuts"]), len(found["scene"]["bodies"])) == (200, 2, 1)
+        assert sum("hardly more than itself" in each for each in found["advice"]) == 1
+        presets = [{}, {"material": {"preset": "cloth"}}]
+        body = asked("dot.png", [], move=MOVE) | {"points": document([dot, bar | {"part": 1}], bodies=presets)}
+        status, found = await pick(server, body)
+        assert [entry["material"]["name"] for entry in found["scene"]["bodies"]] == ["cloth"]
+
+    in_a_server(test)
+
+
 def test_the_example_needs_no_file_and_nothing_else_can_be_named(standin: Any, bars: str, tmp_path: Path) -> None:
     Image.new("RGB", (20, 20), "white").save(standin.folder / "outside.png")
     (standin.folder / "input" / "text.png").write_text("no picture")

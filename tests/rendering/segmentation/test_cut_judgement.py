@@ -83,6 +83,15 @@ def test_points_are_judged_as_they_are_read() -> None:
     assert "97 %" in sentence
 
 
+def test_what_is_too_small_for_a_mesh_is_always_said() -> None:
+    mask = np.zeros((32, 32), bool)
+    mask[4, 5:8] = True
+    (sentence,) = judge_cut(mask, [(6, 4)], [1])
+    assert sentence.startswith("The cut is too small to move, 3 px: put more points")
+    mask[5, 5] = True
+    assert judge_cut(mask, [(6, 4)], [1]) == []
+
+
 def test_a_part_of_a_few_pixels_in_a_tiny_picture_is_no_speck() -> None:
     mask = np.zeros((32, 32), bool)
     mask[4:7, 5:8] = True

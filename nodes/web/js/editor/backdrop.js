@@ -117,6 +117,17 @@ export class Backdrop {
     this.offerRun(/** @type {Error} */ (error).message);
   }
 
+  /** The server is there again: what could not be asked for is asked for now. */
+  reconnected() {
+    const { live, notes, picking } = this.editor;
+    live.client.warm = false;
+    if (!notes.shown.has("motion")) return;
+    this.trouble(null);
+    if (picking) return picking.renew();
+    live.asked = "";
+    this.editor.simulate();
+  }
+
   /** Fit a scene that has just been read to the picture that is there. */
   refit() {
     if (this.picture) this.fitTo(this.picture.naturalWidth, this.picture.naturalHeight);

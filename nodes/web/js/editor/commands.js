@@ -47,6 +47,8 @@ export class Commands {
       duplicate: () => this.#duplicate(),
       delete: () => this.#delete(),
       fit: () => stage.fit(),
+      "page-back": () => stage.turn(-1),
+      "page-on": () => stage.turn(1),
       "zoom-in": () => stage.zoom(ZOOM),
       "zoom-out": () => stage.zoom(1 / ZOOM),
       mesh: () => this.#flip("mesh"),
@@ -210,7 +212,7 @@ export class Commands {
     const { editor } = this;
     editor.dialog.append(editor.frame);
     editor.dialog.showModal();
-    editor.stage.fit();
+    editor.stage.moved();
     editor.stage.focus();
     editor.show();
   }
@@ -218,7 +220,7 @@ export class Commands {
   shrink() {
     const { editor } = this;
     editor.dialog.before(editor.frame);
-    editor.stage.fit();
+    editor.stage.moved();
     editor.show();
   }
 

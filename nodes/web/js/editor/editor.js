@@ -21,7 +21,7 @@
 import { say } from "../host/words.js";
 import { ACTIONS } from "../panels/toolbar.js";
 import { canonical } from "../scene/canonical.js";
-import { emptyDocument, itemAt, withItem, withValue } from "../scene/document.js";
+import { emptyDocument, itemAt, withItem, withValue, workOf } from "../scene/document.js";
 import { sideOf } from "../scene/items.js";
 import { withFoundHolds, withLostHolds } from "../scene/holds.js";
 import { inOrder, isAsRun, withNames } from "../scene/layers.js";
@@ -293,7 +293,7 @@ export class Editor {
 
   /** @param {SceneDocument} document */
   resize(document) {
-    if (this.stage.setSize(document)) this.brushRadius = Math.max(1, Math.round(sideOf(document) * BRUSH));
+    if (this.stage.setSize(document, workOf(document))) this.brushRadius = Math.max(1, Math.round(sideOf(document) * BRUSH));
   }
 
   /**
@@ -428,6 +428,7 @@ export class Editor {
       outline: this.chosenLayer ? live.outlineOf(this.chosenLayer.index) : live.outlineOfBody(this.#chosenBody),
     });
     live.draw(stage.view, stage.across, stage.down, this.shown.mesh);
+    stage.bars.show(stage.view, stage.size, stage.across, stage.down);
     this.#showStatus();
     if (this.options.moves) this.timeline.showPosition(live.playback);
     return more;

@@ -17,7 +17,7 @@ const PLAIN = {
   c: "region-circle", g: "region-polygon", b: "region-brush", f: "stiffness", e: "erase", t: "hold",
   Delete: "delete", Backspace: "delete", 0: "fit", "+": "zoom-in", "=": "zoom-in", "-": "zoom-out",
   m: "mesh", h: "items", i: "panel", x: "expand", "[": "brush-smaller", "]": "brush-larger",
-  ",": "frame-back", ".": "frame-on", Enter: "finish", Escape: "cancel",
+  PageUp: "page-back", PageDown: "page-on", ",": "frame-back", ".": "frame-on", Enter: "finish", Escape: "cancel",
   ArrowLeft: "left", ArrowRight: "right", ArrowUp: "up", ArrowDown: "down",
 };
 

@@ -22,7 +22,7 @@ export function layout(editor) {
   /** @type {HTMLElement} */
   const status = element("div", { className: "physanimator-status" }, [saidOf(groups), element("span")]);
   place.append(editor.notes.root);
-  for (const type of ["pointermove", "pointerleave"]) place.addEventListener(type, (event) => editor.notes.makeWay(/** @type {PointerEvent} */ (event)));
+  for (const type of ["pointermove", "pointerleave"]) place.addEventListener(type, (/** @type {Event} */ event) => editor.notes.makeWay(/** @type {PointerEvent} */ (event)));
   const inspector = new Inspector({
     change: (reference, changes, key) => editor.change(reference, changes, key),
     redrawRegion: (kind) => editor.commands.redrawRegion(kind),

@@ -23,7 +23,8 @@
 import { say } from "../host/words.js";
 import { element } from "../panels/elements.js";
 import { PartsStrip } from "../panels/parts_strip.js";
-import { Refusal } from "../preview/client.js";
+import { failed, Refusal, Unanswered } from "../preview/client.js";
+import { isLong } from "../scene/geometry.js";
 import { partCount, pointsOn, presetOf, withoutPart, withPartPreset } from "../scene/parts.js";
 import { partColour } from "../stage/colours.js";
 import { regionEdge, regionMask } from "../stage/tints.js";
@@ -40,6 +41,10 @@ const STYLE = `
 /* Older Vue canvases show a node's output below it whatever it says, and take films for pictures. */
 [data-node-id]:has(.physanimator-editor[data-picks="true"]) :is(.image-preview, .video-preview) { display: none; }
 .physanimator-result > * { width: 100%; height: 100%; object-fit: contain; }
+/* Long pages go on beyond the stage, as in the picture. */
+.physanimator-result[data-long] { display: block; overflow: auto; scrollbar-width: thin; }
+.physanimator-result[data-long="down"] > * { display: block; width: min(100%, 100cqh); height: auto; margin: 0 auto; }
+.physanimator-result[data-long="across"] > * { width: auto; height: min(100%, 100cqw); max-width: none; }
 .physanimator-editor[data-picks] .physanimator-dialog .physanimator-frame {
   grid-template: "toolbar toolbar toolbar" auto "tools parts corner" auto "tools stage stage" minmax(0, 1fr) "tools status status" auto "timeline timeline timeline" auto / auto minmax(0, 1fr) auto;
 }
@@ -87,7 +92,7 @@ export class Picking {
       { presets: options.presets, picture: options.choosePicture !== null },
     );
     /** @type {HTMLElement} */
-    this.result = element("div", { className: "physanimator-result", hidden: true, title: say("Click to go on picking"), onpointerdown: () => this.view(false) });
+    this.result = element("div", { className: "physanimator-result", hidden: true, title: say("Click to go on picking"), onclick: () => this.view(false) });
   }
 
   /** Put what is shown into the editor's parts of the page. */
@@ -154,6 +159,11 @@ export class Picking {
       ? element("video", { src: url, autoplay: true, loop: true, muted: true, playsInline: true })
       : element("img", { src: url, alt: say("The frames of the last run"), draggable: false });
     this.result.replaceChildren(shown);
+    const { width, height } = this.editor.document;
+    const { stage } = this.editor;
+    const long = isLong(width, height, stage.across, stage.down);
+    if (long) this.result.dataset.long = width > height ? "across" : "down";
+    else delete this.result.dataset.long;
     this.view(true);
   }
 
@@ -226,13 +236,20 @@ export class Picking {
     try {
       if (!again) {
         this.#take(await this.#post({ ...wanted, move: null }, mine));
+        editor.backdrop.trouble(null);
         if (wanted.move && !this.viewed) this.#tell(say("Preparing the motion…"));
       }
-      if (wanted.move && this.cuts?.length) await this.#move(await this.#post(wanted, mine), mine);
+      if (wanted.move && this.cuts?.length) {
+        const moving = await this.#post(wanted, mine);
+        // What is too small to move is cut all the same, and the advice says so.
+        if (moving.key) await this.#move(moving, mine);
+      }
       if (this.running === mine) this.#tell("");
     } catch (error) {
       if (this.running !== mine || mine.signal.aborted) return;
-      editor.notes.show("pick", /** @type {Error} */ (error).message, { kind: "error", closes: true });
+      this.#tell("");
+      if (error instanceof Unanswered) editor.backdrop.trouble(error);
+      else editor.notes.show("pick", /** @type {Error} */ (error).message, { kind: "error", closes: true });
     } finally {
       clearTimeout(telling);
     }
@@ -248,7 +265,7 @@ export class Picking {
       headers: { "Content-Type": "application/json" },
       body: JSON.stringify(body),
       signal: mine.signal,
-    });
+    }).catch(failed);
     const said = await answer.json().catch(() => null);
     if (this.running !== mine) throw new Refusal("", 0);
     if (!answer.ok) throw new Refusal(said?.error ?? say("The server answered {status}.", { status: `${answer.status} ${answer.statusText}` }), answer.status);

@@ -147,6 +147,8 @@ function follow(app, api, node, value, editor, kind) {
   };
   api.addEventListener(LAYERS, refused);
   api.addEventListener(PICTURE, pictured);
+  const reconnected = () => editor.backdrop.reconnected();
+  api.addEventListener("reconnected", reconnected);
   const ended = () => editor.backdrop.stopWaiting();
   for (const name of ENDS) api.addEventListener(name, ended);
   chain(node, "onRemoved", () => {
@@ -154,6 +156,7 @@ function follow(app, api, node, value, editor, kind) {
     for (const name of ENDS) api.removeEventListener(name, ended);
     api.removeEventListener(LAYERS, refused);
     api.removeEventListener(PICTURE, pictured);
+    api.removeEventListener("reconnected", reconnected);
     editor.release();
   });
   queueMicrotask(() => {

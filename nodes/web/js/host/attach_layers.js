@@ -88,7 +88,7 @@ export class NodeLayers {
       place: (layer, places) => this.#commit(withPlace(this.document, layer, places, layers()), layer.name),
     });
     this.note = element("div", { className: "physanimator-list-note", role: "status" });
-    this.run = element("button", { type: "button", "data-action": "run", title: say("Run the graph"), onclick: () => runNode(app, node) }, [say("Run")]);
+    this.run = element("button", { type: "button", "data-action": "run", title: say("Run this node"), onclick: () => runNode(app, node) }, [say("Run")]);
     const style = element("style", { textContent: STYLE });
     const line = element("div", { className: "physanimator-list-line" }, [this.note, this.run]);
     /** @type {HTMLElement} */

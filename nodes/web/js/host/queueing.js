@@ -2,7 +2,12 @@
  * Runs one node with all that it needs, and nothing else.
  */
 
+import { warn } from "./upload.js";
 import { holderOf } from "./upstream.js";
+import { say } from "./words.js";
+
+/** Mode of a node that runs, as LiteGraph numbers them; muted and bypassed ones have others. */
+const ON = 0;
 
 /**
  * The id under which the server knows a node: those of the subgraphs around it stand before its own.
@@ -22,13 +27,27 @@ export function executionId(node, rootGraph) {
 }
 
 /**
- * @param {any} app  the host's
  * @param {any} node
- * @returns {Promise<unknown>}
+ * @param {any} rootGraph
+ * @returns {boolean} whether the host leaves it out: it is muted or bypassed, or a subgraph around it is
  */
-export function runNode(app, node) {
+function isLeftOut(node, rootGraph) {
+  for (let each = node; each; each = each.graph === rootGraph ? null : holderOf(each.graph, rootGraph)) {
+    if ((each.mode ?? ON) !== ON) return true;
+  }
+  return false;
+}
+
+/**
+ * @param {any} app  the host's
+ * @param {any} node  one that may end a run; the host runs no others alone
+ * @returns {Promise<unknown>} false where nothing is queued
+ */
+export async function runNode(app, node) {
   const rootGraph = app.rootGraph ?? app.graph;
-  // A host runs a single node only where it is one that may end a run.
-  if (!node.constructor?.nodeData?.output_node) return app.queuePrompt(0, 1);
+  if (isLeftOut(node, rootGraph)) {
+    warn(app, say("It is muted or bypassed: switch it on to run it."), node.title);
+    return false;
+  }
   return app.queuePrompt(0, 1, [executionId(node, rootGraph)]);
 }

@@ -32,9 +32,11 @@ const STYLE = `
 .physanimator-editor .physanimator-part select { width: auto; max-width: 92px; height: 22px; border: 0; background: transparent; appearance: auto; cursor: pointer; }
 .physanimator-editor .physanimator-part select option { color: var(--physanimator-text); background: var(--physanimator-back); }
 .physanimator-editor .physanimator-parts > button { border: 1px solid var(--physanimator-rim); border-radius: 13px; padding: 0 10px; white-space: nowrap; }
+.physanimator-more { margin-left: 5px; }
 @container (max-width: 379px) {
   .physanimator-editor > .physanimator-frame .physanimator-parts { flex-wrap: nowrap; flex: 1 1 100%; min-width: 0; overflow-x: auto; scrollbar-width: none; }
-  .physanimator-editor > .physanimator-frame .physanimator-parts > button { flex: none; }
+  .physanimator-editor > .physanimator-frame .physanimator-parts > button { flex: none; position: sticky; right: 0; padding: 0; background: var(--physanimator-back); }
+  .physanimator-editor > .physanimator-frame .physanimator-more { display: none; }
 }
 .physanimator-parts-corner { display: flex; align-items: center; gap: 6px; margin-left: auto; padding: 0 4px; }
 .physanimator-editor .physanimator-parts-corner > button { border: 1px solid var(--physanimator-rim); padding: 0 10px; white-space: nowrap; }
@@ -54,13 +56,13 @@ export class PartsStrip {
     this.shown = "";
     this.current = 0;
     this.chips = element("span", { style: "display: contents" });
-    const more = { type: "button", "data-action": "new-part", title: say("The next clicks pick another part, with a mask and a material of its own (or hold Shift while you click)"), onclick: () => listener.more() };
+    const more = { type: "button", "data-action": "new-part", "aria-label": say("New part"), title: say("The next clicks pick another part, with a mask and a material of its own (or hold Shift while you click)"), onclick: () => listener.more() };
     const other = { type: "button", "data-action": "picture", title: say("Choose a picture from your computer, or drop or paste one here"), onclick: () => listener.picture() };
     const turn = (/** @type {boolean} */ result) => ({ type: "button", "data-action": result ? "view-result" : "view-picking", onclick: () => listener.view(result) });
     this.picking = element("button", { ...turn(false), title: say("The picture, to pick on, with the motion live") }, [say("Pick")]);
     this.result = element("button", { ...turn(true), title: say("The frames of the last run") }, [say("Result")]);
     this.view = element("span", { className: "physanimator-view", hidden: true }, [this.picking, this.result]);
-    this.more = element("button", more, [`+ ${say("New part")}`]);
+    this.more = element("button", more, ["+", element("span", { className: "physanimator-more" }, [say("New part")])]);
     const rows = [element("style", { textContent: STYLE }), this.chips, this.more];
     /** @type {HTMLElement} */
     this.root = element("div", { className: "physanimator-parts", role: "group", "aria-label": say("Parts") }, rows);

@@ -28,7 +28,7 @@ const USUAL = {
  * @returns {Scale | null} null where a slider says nothing
  */
 export function scaleOf(field, value, side) {
-  if (field.kind !== "number" || field.optional || !Number.isFinite(value)) return null;
+  if (field.kind !== "number" || !Number.isFinite(value)) return null;
   const bounds = usualBounds(field, side);
   if (!bounds) return null;
   const [low, high] = [Math.min(bounds[0], value), Math.max(bounds[1], value)];

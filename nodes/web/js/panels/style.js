@@ -39,6 +39,12 @@ export const STYLE = `
   background: repeating-conic-gradient(rgba(128, 128, 128, 0.16) 0% 25%, transparent 0% 50%) 0 0 / 20px 20px, var(--physanimator-field); }
 .physanimator-stage canvas { position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none; }
 .physanimator-editor input.physanimator-keys { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; padding: 0; border: 0; opacity: 0; touch-action: none; user-select: none; cursor: crosshair; }
+.physanimator-scroll { position: absolute; inset: auto 9px 0 0; height: 9px; touch-action: none; background: rgba(128, 128, 128, 0.18); }
+.physanimator-scroll[data-way="down"] { inset: 0 0 9px auto; width: 9px; height: auto; }
+.physanimator-scroll[hidden] { display: none; }
+.physanimator-handle { position: absolute; height: 100%; border-radius: 5px; border: 2px solid transparent; background: var(--physanimator-dim) padding-box; }
+.physanimator-scroll[data-way="down"] .physanimator-handle { width: 100%; }
+.physanimator-scroll:hover .physanimator-handle { background: var(--physanimator-text) padding-box; }
 .physanimator-stage:focus-within { box-shadow: inset 0 0 0 1px var(--physanimator-accent); }
 .physanimator-notes { position: absolute; inset: auto 8px 8px; display: flex; flex-direction: column; align-items: flex-start; gap: 4px; pointer-events: none; }
 .physanimator-note { max-width: 100%; padding: 4px 8px; border-radius: 5px; color: #fff; background: rgba(16, 18, 24, 0.86); overflow-wrap: anywhere; }
@@ -197,5 +203,7 @@ export const STYLE = `
   .physanimator-editor .physanimator-lane { height: 22px; }
   .physanimator-editor input.physanimator-slide { height: 24px; }
   .physanimator-edge { width: 20px; }
+  .physanimator-scroll { height: 18px; }
+  .physanimator-scroll[data-way="down"] { width: 18px; }
 }
 `;

@@ -25,6 +25,9 @@ export class Refusal extends Error {
   }
 }
 
+/** There was no answer at all. */
+export class Unanswered extends Error {}
+
 export class PreviewClient {
   /**
    * @param {object} options
@@ -162,6 +165,6 @@ async function refusal(answer) {
  * @param {Error} error
  * @returns {never}
  */
-function failed(error) {
-  throw error instanceof TypeError ? new Error(say("The server does not answer. Is ComfyUI still running?")) : error;
+export function failed(error) {
+  throw error instanceof TypeError ? new Unanswered(say("The server does not answer. Is ComfyUI still running?")) : error;
 }

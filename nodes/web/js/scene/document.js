@@ -151,6 +151,15 @@ export function anchorOf(item) {
   return item.position ?? (Number.isFinite(item.x) ? [item.x, item.y] : undefined);
 }
 
+/**
+ * @param {SceneDocument} document
+ * @returns {Point} where something was drawn last; the upper left corner where nothing is
+ */
+export function workOf(document) {
+  const last = allItems(document).at(-1)?.item;
+  return (last && (anchorOf(last) ?? last.path?.[0])) ?? [0, 0];
+}
+
 /** @param {SceneDocument} document whether anything has been drawn */
 export function hasItems(document) {
   return LISTS.some((list) => document[list]?.length);

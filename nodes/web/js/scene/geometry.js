@@ -6,6 +6,8 @@
  */
 
 const NEAREST = 64;
+/** So much larger than the whole picture a piece of it must be, for a page to be shown in pieces. */
+const LONG = 2.5;
 
 /**
  * @param {View} view
@@ -39,6 +41,47 @@ export function fittingView(width, height, across, down, margin = 8) {
   const room = [Math.max(across - 2 * margin, 1), Math.max(down - 2 * margin, 1)];
   const scale = Math.min(room[0] / width, room[1] / height);
   return { scale, x: (across - width * scale) / 2, y: (down - height * scale) / 2 };
+}
+
+/**
+ * @param {number} width  of the picture
+ * @param {number} height
+ * @param {number} across  of the stage
+ * @param {number} down
+ * @returns {boolean} whether of the whole picture hardly anything can be seen
+ */
+export function isLong(width, height, across, down) {
+  return Math.min(across, down) / Math.min(width, height) >= LONG * fittingView(width, height, across, down, 0).scale;
+}
+
+/**
+ * The view to begin with: the whole picture, or of a long page a piece in which something can be seen.
+ *
+ * @param {number} width  of the picture
+ * @param {number} height
+ * @param {number} across  of the stage
+ * @param {number} down
+ * @param {number} margin
+ * @param {Point} about  of the picture, which a piece of it shows
+ * @returns {View}
+ */
+export function startingView(width, height, across, down, margin, about) {
+  if (!isLong(width, height, across, down)) return fittingView(width, height, across, down, margin);
+  // A square over the whole of the shorter side.
+  const scale = Math.max(Math.min(across, down) - 2 * margin, 1) / Math.min(width, height);
+  return { scale, x: pannedTo(about[0], width * scale, across, scale, margin), y: pannedTo(about[1], height * scale, down, scale, margin) };
+}
+
+/**
+ * @param {number} about  what shall be in the middle, as far as the picture reaches [px of the picture]
+ * @param {number} length  of the picture on the stage
+ * @param {number} room  of the stage
+ * @param {number} scale
+ * @param {number} margin
+ */
+function pannedTo(about, length, room, scale, margin) {
+  if (length + 2 * margin <= room) return (room - length) / 2;
+  return Math.min(Math.max(room / 2 - about * scale, room - margin - length), margin);
 }
 
 /**

@@ -8,10 +8,13 @@
 import { say } from "../host/words.js";
 import { isUsed } from "../panels/elements.js";
 import { mark, PEN_UP } from "../preview/marks.js";
-import { fittingView, toPicture, zoomed } from "../scene/geometry.js";
+import { fittingView, startingView, toPicture, zoomed } from "../scene/geometry.js";
+import { ScrollBars } from "./scroll_bars.js";
 
 const MARGIN = 10;
 const WHEEL = 0.0015;
+/** What Page Up and Page Down go on by, in lengths of the stage. */
+const PAGE = 0.8;
 const MOST_PIXELS = 4096;
 
 /**
@@ -43,12 +46,17 @@ export class Stage {
     this.keys = document.createElement("input");
     Object.assign(this.keys, { className: "physanimator-keys", readOnly: true, inputMode: "none" });
     this.keys.setAttribute("aria-label", say("Picture"));
-    root.append(this.film, this.still, this.overlay, this.keys);
+    this.bars = new ScrollBars((dx, dy) => this.#scroll(dx, dy));
+    root.append(this.film, this.still, this.overlay, this.keys, ...this.bars.roots);
     /** @type {View} */
     this.view = { scale: 1, x: 0, y: 0 };
     /** Size of the stage [CSS px]; kept, because asking the page for it may make it lay everything out. */
     this.across = this.down = 0;
+    /** @type {Point} of the picture, around which a long page is shown */
+    this.about = [0, 0];
+    /** Whether the view follows the size of the stage, and whether it shows the whole of a long page then. */
     this.fitted = true;
+    this.whole = false;
     this.panning = false;
     this.panned = false;
     this.spaceHeld = false;
@@ -66,20 +74,57 @@ export class Stage {
 
   /**
    * @param {import("../scene/document.js").SceneDocument} size
+   * @param {Point} [about]  where the work is
    * @returns {boolean} whether it is another one
    */
-  setSize({ width, height }) {
+  setSize({ width, height }, about = [0, 0]) {
     if (width === this.size.width && height === this.size.height) return false;
     this.size = { width, height };
-    this.fit();
+    this.begin(about);
     return true;
   }
 
+  /** @param {Point} [about]  of the picture, which is shown of a long page; what is in the middle now if left out */
+  begin(about = this.across && this.down ? toPicture(this.view, [this.across / 2, this.down / 2]) : this.about) {
+    Object.assign(this, { fitted: true, whole: false });
+    this.about = about;
+    this.#measure();
+    if (!this.across || !this.down) return;
+    this.view = startingView(this.size.width, this.size.height, this.across, this.down, MARGIN, about);
+    this.listener.redraw();
+  }
+
   fit() {
-    this.fitted = true;
+    Object.assign(this, { fitted: true, whole: true });
     this.#measure();
     if (!this.across || !this.down) return;
     this.view = fittingView(this.size.width, this.size.height, this.across, this.down, MARGIN);
+    this.listener.redraw();
+  }
+
+  /** The picture is shown elsewhere, in another size. */
+  moved() {
+    if (this.whole) this.fit();
+    else this.begin();
+  }
+
+  /** @param {number} pages  to go on along the longer side of the picture */
+  turn(pages) {
+    const wide = this.size.width * this.down > this.size.height * this.across;
+    this.#scroll(wide ? pages * PAGE * this.across : 0, wide ? 0 : pages * PAGE * this.down);
+  }
+
+  /**
+   * @param {number} dx  on the stage [CSS px], to the right; no farther than the picture reaches
+   * @param {number} dy
+   */
+  #scroll(dx, dy) {
+    const { view, size } = this;
+    const x = scrolled(view.x, dx, size.width * view.scale, this.across);
+    const y = scrolled(view.y, dy, size.height * view.scale, this.down);
+    if (x === view.x && y === view.y) return;
+    this.view = { ...view, x, y };
+    this.fitted = false;
     this.listener.redraw();
   }
 
@@ -96,7 +141,8 @@ export class Stage {
 
   resized() {
     this.#measure();
-    if (this.fitted) this.fit();
+    if (this.fitted && this.whole) this.fit();
+    else if (this.fitted) this.begin(this.about);
     this.listener.redraw();
   }
 
@@ -245,12 +291,28 @@ export class Stage {
     event.preventDefault();
     event.stopPropagation();
     const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
+    const sideways = Math.abs(event.deltaX) > Math.abs(event.deltaY);
+    // With Shift some browsers turn the wheel sideways themselves.
+    if (event.shiftKey) return this.turn(((event.deltaX || event.deltaY) * lines) / (PAGE * Math.max(this.across, this.down, 1)));
+    if (sideways) return this.#scroll(event.deltaX * lines, 0);
     this.zoom(Math.exp(-event.deltaY * lines * WHEEL), this.place(event));
   }
 
   release() {
     this.observer.disconnect();
   }
+}
+
+/**
+ * @param {number} at  where the picture begins on the stage
+ * @param {number} by
+ * @param {number} length  of the picture
+ * @param {number} room  of the stage
+ * @returns {number} where it begins then, without leaving more of the stage empty than is
+ */
+function scrolled(at, by, length, room) {
+  const [least, most] = [Math.min(room - MARGIN - length, at, MARGIN), Math.max(MARGIN, at)];
+  return length <= room ? at : Math.min(Math.max(at - by, least), most);
 }
 
 /** @param {string} name */
