@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .example import EXAMPLE
 from .exit_status import main
-from .program import program
+from .quick_end import program
 
 __all__ = [
     "EXAMPLE",

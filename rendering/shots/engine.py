@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from ... import __version__
 from ...physics.errors import InvalidInputError
+from ...physics.kept_memory import keep_memory
 from ...physics.threads import chosen_threads, keep_to_threads
 from ..files import is_full
 from .cluster import GPU
 from .job import MOST_RUNS, Job, Outcome, as_now, perform, told_of
-from .memory import keep_memory
 from .shipping import Parcel, Returned, packed, perform_elsewhere, unpacked
 from .waiting_shots import WaitingShots
 

@@ -9,8 +9,8 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from ...physics.kept_memory import MEMORY_KEPT
 from ...physics.threads import thread_variables
-from .memory import MEMORY_KEPT
 
 __all__ = ["FORKS", "begin_fork_server"]
 

@@ -107,6 +107,8 @@ def test_the_process_waits_for_everybody_and_takes_nothing_apart() -> None:
         "from physanimator.rendering.command import program\n"
         "sys.argv = ['physanimator', *sys.argv[1:]]\n"
         "status = program()\n"
+        "from physanimator.physics.kept_memory import keep_memory\n"
+        "assert keep_memory.cache_info().currsize\n"
         "import atexit\natexit.register(lambda: print('last words', end=''))\n"
         "sys.exit(status)"
     )

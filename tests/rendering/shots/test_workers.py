@@ -90,7 +90,7 @@ def test_a_worker_of_dask_keeps_memory_once_it_has_a_shot(tmp_path: Path) -> Non
     asked = """
 import resource
 import numpy as np
-from physanimator.rendering.shots.memory import keep_memory
+from physanimator.physics.kept_memory import keep_memory
 
 def mapped():
     before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt

@@ -7,6 +7,7 @@ import os
 import sys
 from contextlib import suppress
 
+from ...physics.kept_memory import keep_memory
 from .exit_status import main
 
 __all__ = ["program"]
@@ -21,6 +22,7 @@ def program() -> int:
     Returns:
         The exit status, see :func:`~.exit_status.main`.
     """
+    keep_memory()
     ended: list[int] = []
     atexit.register(_leave, ended)  # what is registered first is called last
     ended.append(main())
