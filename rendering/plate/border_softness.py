@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from .flat_regions import FlatRegions
 from .flatness import nearest_of
 
-__all__ = ["border_widths", "most_unsure"]
+__all__ = ["border_widths", "carried", "most_unsure"]
 
 FloatImage = NDArray[np.float32]
 FloatArray = NDArray[np.float64]
@@ -87,7 +87,7 @@ def _softness(picture: FloatImage, hole: Mask, regions: FlatRegions, on_border: 
     if not told.any():
         return np.zeros(len(wanted[0]))
     known = known[0][told], known[1][told]
-    return _carried(soft[told], known, _pairs(regions, known), wanted, _pairs(regions, wanted))
+    return carried(soft[told], known, _pairs(regions, known), wanted, _pairs(regions, wanted))
 
 
 def _some(where: Mask) -> Places:
@@ -157,7 +157,7 @@ def _normals(regions: FlatRegions, at: Places) -> tuple[FloatArray, FloatArray]:
     return np.sin(angle), np.cos(angle)
 
 
-def _carried(
+def carried(
     soft: FloatArray, known: Places, known_pairs: NDArray[np.int32], wanted: Places, wanted_pairs: NDArray[np.int32]
 ) -> FloatArray:
     """Softness of the borders that are wanted, by distance from where the same two areas meet, shape [n].
