@@ -65,15 +65,15 @@ def border_widths(picture: FloatImage, hole: Mask, regions: FlatRegions) -> Floa
     soft[wanted] = _softness(picture, hole, regions, on_border, wanted)
     chosen = np.zeros(hole.shape, dtype=bool)
     chosen[wanted] = True
+    depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     soft = soft.ravel()[nearest_of(chosen)[1]]
-    width = np.hypot(soft, np.minimum(regions.unsure, np.maximum(most_unsure(hole), soft)))
+    width = np.hypot(soft, np.minimum(regions.unsure, np.maximum(most_unsure(depth), soft)))
     away = cv2.distanceTransform((~within).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     return np.where(hole & (away < _SEEN * width), width, 0).astype(np.float32)
 
 
-def most_unsure(hole: Mask) -> FloatImage:
-    """How unsure sharp borders may look in a hole [px], shape [h, w]."""
-    depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+def most_unsure(depth: FloatImage) -> FloatImage:
+    """How unsure sharp borders may look so deep in a hole [px], shape [h, w]."""
     return np.maximum(np.float32(_UNSURE), np.float32(_DEEP) * depth)
 
 

@@ -177,14 +177,19 @@ def _borders(labels: IntImage, count: int) -> tuple[IntImage, IntImage, FloatIma
     most, next_most = np.full((2, *labels.shape), -1, dtype=np.float32)
     first, second = np.zeros((2, *labels.shape), dtype=np.int32)
     for k in range(count):
-        share = cv2.GaussianBlur((labels == k).astype(np.float32), (0, 0), _ROUNDED)
-        wins, follows = share > most, share > next_most
-        second = np.where(wins, first, np.where(follows, k, second))
-        next_most = np.maximum(np.minimum(most, share), next_most)
-        first, most = np.where(wins, k, first), np.maximum(most, share)
+        own = labels == k
+        # The first two are compared with nothing; of the others only what they reach can change.
+        if k > 1 and not own.any():
+            continue
+        part = window_around(own, margin=int(8 * _ROUNDED)) if k > 1 else np.s_[:, :]
+        share = cv2.GaussianBlur(own[part].astype(np.float32), (0, 0), _ROUNDED)
+        wins, follows = share > most[part], share > next_most[part]
+        second[part] = np.where(wins, first[part], np.where(follows, k, second[part]))
+        next_most[part] = np.maximum(np.minimum(most[part], share), next_most[part])
+        first[part], most[part] = np.where(wins, k, first[part]), np.maximum(most[part], share)
     # Of a straight border the difference rises from zero by this much a pixel.
     slope = np.float32(2 / (_ROUNDED * np.sqrt(2 * np.pi)))
-    return first.astype(np.int32), second.astype(np.int32), (most - next_most) / slope
+    return first, second, (most - next_most) / slope
 
 
 def _seeds(picture: FloatImage, hole: Mask, flat: Mask, smooth: Mask, lines: Mask) -> IntImage | None:

@@ -76,7 +76,7 @@ def test_a_soft_border_of_unsure_course_stays_soft() -> None:
 
 
 def test_how_unsure_a_border_may_look_grows_with_the_depth_alone() -> None:
-    limit = most_unsure(np.hypot(X - 130, Y - 100) < 80)
+    limit = most_unsure(np.maximum(80 - np.hypot(X - 130, Y - 100), 0).astype(np.float32))
     assert limit[100, 52] < 2
     assert (np.diff(limit[100, 52:130]) >= 0).all()
     assert limit[100, 130] > 2 * limit[100, 52]
