@@ -41,8 +41,8 @@ _BESIDE = 0.2
 _DARKER = 0.15
 _ALL_ALONG = 0.8
 _SELDOM = 0.5
-# Areas are seen in narrow gaps where two thirds of what is around are flat: texture has each colour somewhere.
-_MOSTLY_FLAT = 1 / 3
+# Areas are seen in narrow gaps where three quarters of what is around are flat: texture has each colour somewhere.
+_MOSTLY_FLAT = 0.5
 # Areas are looked for within this of the hole [px].
 _MARGIN = 48
 
