@@ -30,7 +30,7 @@ _NEARLY = 0.02
 # What is too narrow to be seen to be flat is of an area within so many squares of this side [px] whose colour differs
 # by less than this, if it has so many pixels.
 _SQUARES, _SQUARE = 8, 4
-_SAME = 0.012
+_SAME = 0.008
 _SEEN = 12
 
 
