@@ -30,7 +30,7 @@ _NEARLY = 0.02
 # What is too narrow to be seen to be flat is of an area within so many squares of this side [px] whose colour differs
 # by less than this, if it has so many pixels.
 _SQUARES, _SQUARE = 8, 4
-_SAME = 0.012
+_SAME = 0.008
 _SEEN = 12
 
 
@@ -84,26 +84,26 @@ def wide_areas(picture: FloatImage, seeds: IntImage, labels: IntImage, hole: Mas
     return areas[labels] | ((labels == 0) & (cv2.dilate(rest, np.ones((5, 5), np.uint8)) > 0))
 
 
-def glimpses(picture: FloatImage, where: Mask, areas: IntImage, colours: FloatImage) -> IntImage:
-    """Which area narrow gaps show, by its colour, shape [h, w]; -1 where none.
+def glimpses(picture: FloatImage, where: Mask, areas: IntImage, known: tuple[FloatImage, IntImage]) -> IntImage:
+    """Which area narrow gaps show, by its colour: its number, shape [h, w]; 0 where none.
 
     Args:
         picture: RGB in 0 to 1, shape [h, w, 3].
         where: what is smooth beside the hole and not flat, shape [h, w].
-        areas: numbers of the areas where they are known, from 0, shape [h, w]; -1 elsewhere.
-        colours: of the areas, RGB, shape [k, 3].
+        areas: numbers of the areas where they are known, from 1, shape [h, w]; 0 elsewhere.
+        known: the colours of areas, RGB, shape [k, 3], and their numbers, shape [k].
     """
-    found = np.full(where.shape, -1, dtype=np.int32)
     row, column = np.nonzero(where)
     own, square = cv2.blur(picture, (3, 3))[row, column], (row // _SQUARE, column // _SQUARE)
     disc = np.ones((2 * _SQUARES + 1,) * 2, np.uint8)
-    best, least = np.zeros(len(own), dtype=np.int32), np.full(len(own), np.inf, dtype=np.float32)
-    for k, colour in enumerate(colours):
+    best, least = np.zeros(len(own), dtype=np.int32), np.full(len(own), _SAME, dtype=np.float32)
+    for colour, number in zip(*known, strict=True):
         apart = np.linalg.norm(own - colour, axis=1)
-        if (apart < _SAME).any():
-            near = cv2.dilate((areas[::_SQUARE, ::_SQUARE] == k).astype(np.uint8), disc) > 0
-            apart[~near[square]] = np.inf
-        best, least = np.where(apart < least, k, best), np.minimum(apart, least)
-    found[row, column] = np.where(least < _SAME, best, -1)
-    _, parts, stats, _ = cv2.connectedComponentsWithStats((found >= 0).astype(np.uint8), connectivity=4)
-    return np.where(stats[parts, cv2.CC_STAT_AREA] >= _SEEN, found, -1)
+        if (apart < least).any():
+            near = cv2.dilate((areas[::_SQUARE, ::_SQUARE] == number).astype(np.uint8), disc) > 0
+            nearer = near[square] & (apart < least)
+            best[nearer], least[nearer] = number, apart[nearer]
+    found = np.zeros(where.shape, dtype=np.int32)
+    found[row, column] = best
+    _, parts, stats, _ = cv2.connectedComponentsWithStats((found > 0).astype(np.uint8), connectivity=4)
+    return np.where(stats[parts, cv2.CC_STAT_AREA] >= _SEEN, found, 0)

@@ -99,7 +99,7 @@ def draw_outlines(
         RGB, shape [h, w, 3]; unchanged outside the hole.
     """
     depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    unsure = np.minimum(regions.unsure, most_unsure(hole))
+    unsure = np.minimum(regions.unsure, most_unsure(depth))
     around = _Surroundings(
         picture, *lines, hole, depth, contrast, regions.number, regions.second, regions.aside, unsure
     )

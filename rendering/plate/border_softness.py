@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from .flat_regions import FlatRegions
 from .flatness import nearest_of
 
-__all__ = ["border_widths", "most_unsure"]
+__all__ = ["border_widths", "carried", "most_unsure"]
 
 FloatImage = NDArray[np.float32]
 FloatArray = NDArray[np.float64]
@@ -65,15 +65,15 @@ def border_widths(picture: FloatImage, hole: Mask, regions: FlatRegions) -> Floa
     soft[wanted] = _softness(picture, hole, regions, on_border, wanted)
     chosen = np.zeros(hole.shape, dtype=bool)
     chosen[wanted] = True
+    depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     soft = soft.ravel()[nearest_of(chosen)[1]]
-    width = np.hypot(soft, np.minimum(regions.unsure, np.maximum(most_unsure(hole), soft)))
+    width = np.hypot(soft, np.minimum(regions.unsure, np.maximum(most_unsure(depth), soft)))
     away = cv2.distanceTransform((~within).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     return np.where(hole & (away < _SEEN * width), width, 0).astype(np.float32)
 
 
-def most_unsure(hole: Mask) -> FloatImage:
-    """How unsure sharp borders may look in a hole [px], shape [h, w]."""
-    depth = cv2.distanceTransform(hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+def most_unsure(depth: FloatImage) -> FloatImage:
+    """How unsure sharp borders may look so deep in a hole [px], shape [h, w]."""
     return np.maximum(np.float32(_UNSURE), np.float32(_DEEP) * depth)
 
 
@@ -87,7 +87,7 @@ def _softness(picture: FloatImage, hole: Mask, regions: FlatRegions, on_border: 
     if not told.any():
         return np.zeros(len(wanted[0]))
     known = known[0][told], known[1][told]
-    return _carried(soft[told], known, _pairs(regions, known), wanted, _pairs(regions, wanted))
+    return carried(soft[told], known, _pairs(regions, known), wanted, _pairs(regions, wanted))
 
 
 def _some(where: Mask) -> Places:
@@ -157,7 +157,7 @@ def _normals(regions: FlatRegions, at: Places) -> tuple[FloatArray, FloatArray]:
     return np.sin(angle), np.cos(angle)
 
 
-def _carried(
+def carried(
     soft: FloatArray, known: Places, known_pairs: NDArray[np.int32], wanted: Places, wanted_pairs: NDArray[np.int32]
 ) -> FloatArray:
     """Softness of the borders that are wanted, by distance from where the same two areas meet, shape [n].

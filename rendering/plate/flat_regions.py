@@ -41,8 +41,8 @@ _BESIDE = 0.2
 _DARKER = 0.15
 _ALL_ALONG = 0.8
 _SELDOM = 0.5
-# Areas are seen in narrow gaps where two thirds of what is around are flat: texture has each colour somewhere.
-_MOSTLY_FLAT = 1 / 3
+# Areas are seen in narrow gaps where three quarters of what is around are flat: texture has each colour somewhere.
+_MOSTLY_FLAT = 0.5
 # Areas are looked for within this of the hole [px].
 _MARGIN = 48
 
@@ -98,8 +98,7 @@ def flat_regions(picture: FloatImage, hole: Mask, flat: FlatSurroundings, lines:
     """
     window = window_around(hole | lines, margin=_MARGIN)
     plain = flat.smooth & (flat.share > _MOSTLY_FLAT)
-    known = (each[window] for each in (picture, hole, flat.flat, plain, lines))
-    near = _regions(*known)
+    near = _regions(picture[window], hole[window], flat.flat[window], plain[window], lines[window])
     if near is None:
         return None
     return FlatRegions(
@@ -159,8 +158,8 @@ def _enclosed(picture: FloatImage, rim: Mask, labels: IntImage, nearest: IntImag
     lightness = over_channels(picture) / np.float32(3)
     there = np.divmod(nearest[row, column], rim.shape[1])
     lined = np.zeros(len(row), dtype=bool)
-    for share in (0.0, 0.25, 0.5, 0.75):
-        on_way = (np.rint(a + share * (b - a)).astype(np.int64) for a, b in zip((row, column), there, strict=True))
+    for part in (0.0, 0.25, 0.5, 0.75):
+        on_way = (np.rint(a + part * (b - a)).astype(np.int64) for a, b in zip((row, column), there, strict=True))
         lined |= lightness[tuple(on_way)] < lightness[there] - np.float32(_DARKER)
     own = labels[row, column]
     lined &= own > 0
@@ -178,14 +177,19 @@ def _borders(labels: IntImage, count: int) -> tuple[IntImage, IntImage, FloatIma
     most, next_most = np.full((2, *labels.shape), -1, dtype=np.float32)
     first, second = np.zeros((2, *labels.shape), dtype=np.int32)
     for k in range(count):
-        share = cv2.GaussianBlur((labels == k).astype(np.float32), (0, 0), _ROUNDED)
-        wins, follows = share > most, share > next_most
-        second = np.where(wins, first, np.where(follows, k, second))
-        next_most = np.maximum(np.minimum(most, share), next_most)
-        first, most = np.where(wins, k, first), np.maximum(most, share)
+        own = labels == k
+        # The first two are compared with nothing; of the others only what they reach can change.
+        if k > 1 and not own.any():
+            continue
+        part = window_around(own, margin=int(8 * _ROUNDED)) if k > 1 else np.s_[:, :]
+        share = cv2.GaussianBlur(own[part].astype(np.float32), (0, 0), _ROUNDED)
+        wins, follows = share > most[part], share > next_most[part]
+        second[part] = np.where(wins, first[part], np.where(follows, k, second[part]))
+        next_most[part] = np.maximum(np.minimum(most[part], share), next_most[part])
+        first[part], most[part] = np.where(wins, k, first[part]), np.maximum(most[part], share)
     # Of a straight border the difference rises from zero by this much a pixel.
     slope = np.float32(2 / (_ROUNDED * np.sqrt(2 * np.pi)))
-    return first.astype(np.int32), second.astype(np.int32), (most - next_most) / slope
+    return first, second, (most - next_most) / slope
 
 
 def _seeds(picture: FloatImage, hole: Mask, flat: Mask, smooth: Mask, lines: Mask) -> IntImage | None:
@@ -203,23 +207,22 @@ def _seeds(picture: FloatImage, hole: Mask, flat: Mask, smooth: Mask, lines: Mas
     sums = [np.bincount(own, weights=plane[flat], minlength=count)[chosen] for plane in cv2.split(picture)]
     colours = (np.stack(sums, axis=1) / np.bincount(own, minlength=count)[chosen, None]).astype(np.float32)
     merged = _merged(colours)
-    numbers, positions = np.zeros(count, dtype=np.int32), np.full(count, -1, dtype=np.int32)
-    numbers[chosen], positions[chosen] = merged + 1, np.arange(len(chosen))
+    numbers = np.zeros(count, dtype=np.int32)
+    numbers[chosen] = merged + 1
     areas = numbers[parts]
-    beside = (
-        smooth
-        & ~flat
-        & (cv2.distanceTransform((~(hole | lines)).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5) <= _TOUCH)
-    )
-    seen = glimpses(picture, beside, np.where(flat, positions[parts], -1), colours)
-    if (seen >= 0).any():
-        areas = np.where(seen >= 0, merged[seen] + 1, areas)
-        away = cv2.distanceTransform((~(flat | (seen >= 0))).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    seen = glimpses(picture, smooth & ~flat & _near(hole | lines), np.where(flat, areas, 0), (colours, merged + 1))
+    if seen.any():
+        areas = np.where(seen > 0, seen, areas)
+        away = cv2.distanceTransform((~(flat | (seen > 0))).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     seeds = np.where(hole | lines | ((away > 0) & (away <= _LINE)), -1, areas)
     if lines.any():
         apart = np.linalg.norm(picture[lines][:, None] - colours, axis=2)
         seeds[lines] = np.where(apart.min(axis=1) < _BESIDE, merged[apart.argmin(axis=1)] + 1, -1)
     return seeds.astype(np.int32)
+
+
+def _near(where: Mask) -> Mask:
+    return cv2.distanceTransform((~where).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5) <= np.float32(_TOUCH)
 
 
 def _merged(colours: FloatImage) -> IntImage:

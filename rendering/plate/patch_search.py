@@ -30,7 +30,7 @@ _SWEEPS = 2
 # Weight of a deviation from the smooth guide's colour beside that of the patch's own pixels.
 _GUIDE_WEIGHT = 0.1
 # Cost of a match of the other kind.
-_OTHER_KIND = 2.0
+_OTHER_KIND = 0.1
 # Cost of a match's squared distance [1/px^2] beside the patch's squared colour difference (colours in 0 to 1).
 _NEARNESS = 1e-4
 # The trust in a patch fades by this factor for each pixel that it lies deeper in the hole.
