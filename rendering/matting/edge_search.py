@@ -36,6 +36,7 @@ _BEST = 3
 _ALIKE = 0.08
 # And with so many of all of a side; colours that differ by less are then the same.
 _ANYWHERE, _ROUGHLY = 256, np.float32(0.04)
+_PLACES = 32.0 ** np.arange(4)
 # So many pixels are compared at once: what is read then stays in the processor's cache.
 _AT_ONCE = 8192
 # A colour of neither side is more often the part's, whose outline is drawn, than the background's.
@@ -142,14 +143,17 @@ def _likely(image: FloatImage, asked: Mask, core: Mask, outside: Mask, *, elsewh
         asked: the pixels, shape [h, w].
         core: what is the part's for sure, shape [h, w].
         outside: what is not, shape [h, w].
-        elsewhere: where neither side has a colour near by, look farther off, see ``_wide_and_strange``.
+        elsewhere: a colour that neither side has near by is the rest's if that has more of it farther off, see
+            ``_wide_and_strange``; it need not be the part's if the part has more.
     """
     if not (asked.any() and core.any() and outside.any()):
         return np.full(int(asked.sum()), _HALF, dtype=np.float32)
     part, rest = explained(image, asked, core), explained(image, asked, outside)
     if elsewhere and (strange := _wide_and_strange(asked, part + rest)).any():
         colours = image[asked][strange]
-        part[strange], rest[strange] = (_found_anywhere(colours, image[side]) for side in (core, outside))
+        of_part, of_rest = (_share_alike(colours, image, side) for side in (core, outside))
+        more = np.maximum(of_rest - of_part, 0) / np.maximum(of_rest + of_part, np.float32(1e-6))
+        rest[strange] = np.where(of_rest > _BEST / _ANYWHERE, more, 0)
     return (part + _OUTLINE) / (part + rest + _OUTLINE + _STRANGE)
 
 
@@ -164,13 +168,15 @@ def _wide_and_strange(asked: Mask, known: FloatImage) -> Mask:
     return cv2.morphologyEx(strange, cv2.MORPH_OPEN, disc(WIDEST_LINE // 2 + 1))[asked] > 0
 
 
-def _found_anywhere(colours: FloatImage, side: FloatImage) -> FloatImage:
-    """How well the colours of all of one side explain some colours, 0 to 1, shape [n]."""
-    samples = side[np.random.default_rng(0).integers(len(side), size=_ANYWHERE)]
-    _, first, same = np.unique(np.rint(colours / _ROUGHLY), axis=0, return_index=True, return_inverse=True)
-    away = np.square(colours[first, None] - samples[None]).sum(axis=2)
-    best = np.partition(away, _BEST - 1, axis=1)[:, :_BEST]
-    return np.asarray(np.exp(-best / (2 * _ALIKE**2)).mean(axis=1), dtype=np.float32)[same.ravel()]
+def _share_alike(colours: FloatImage, image: FloatImage, side: Mask) -> FloatImage:
+    """The share of all of one side's colours that are like each of some colours, shape [n]."""
+    known = np.flatnonzero(side)
+    samples = image.reshape(-1, image.shape[2])[known[np.random.default_rng(0).integers(len(known), size=_ANYWHERE)]]
+    number = np.rint(colours / _ROUGHLY) @ _PLACES[: image.shape[2]]
+    _, first, same = np.unique(number, return_index=True, return_inverse=True)
+    asked = colours[first]
+    away = (asked * asked).sum(axis=1)[:, None] + (samples * samples).sum(axis=1) - 2 * asked @ samples.T
+    return np.asarray(np.exp(away / np.float32(-2 * _ALIKE**2)).mean(axis=1), dtype=np.float32)[same]
 
 
 def _depth(shape: Mask) -> FloatImage:

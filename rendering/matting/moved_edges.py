@@ -87,7 +87,8 @@ def searched(
     better |= _closed(shape & ~edge.inside, shape, given)
     ends = leading_away(shape, edge.inside)
     if exact and ends.any():
-        better |= ends & _better_ended(image, shape, edge.inside)
+        window = window_around(ends, margin=_MARGIN)
+        better[window] |= ends[window] & _better_ended(image[window], shape[window], edge.inside[window])
     moved = changed & better & (agreed > _HALF)
     # Changes as thin as one pixel are left to the matting.
     thick = cv2.morphologyEx(moved.astype(np.uint8), cv2.MORPH_OPEN, np.ones((2, 2), np.uint8)) > 0

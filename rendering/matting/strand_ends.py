@@ -79,6 +79,12 @@ def leading_away(shape: Mask, given: Mask) -> Mask:
 
 def narrow_strands(shape: Mask, beyond: Mask) -> Mask:
     """What of ``beyond`` lies where a shape is narrow, in pieces much longer than they are wide, shape [h, w]."""
+    # A line of single pixels counts as two pixels wide.
+    _, labels, boxes, _ = cv2.connectedComponentsWithStats(beyond.astype(np.uint8), connectivity=8)
+    large = boxes[:, cv2.CC_STAT_AREA] > _LONG * 2**2
+    large[0] = False
+    if not large.any():
+        return np.zeros_like(shape)
     strands = beyond & ~(cv2.morphologyEx(shape.astype(np.uint8), cv2.MORPH_OPEN, disc(WIDEST_LINE)) > 0)
     _, labels, boxes, _ = cv2.connectedComponentsWithStats(strands.astype(np.uint8), connectivity=8)
     depth, width = cv2.distanceTransform(strands.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5), np.zeros(len(boxes))
