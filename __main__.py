@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sys
 
-from .rendering.command import main
+from .rendering.command import main, program
 
 __all__ = ["main"]
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(program())

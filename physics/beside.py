@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextvars import copy_context
 from types import TracebackType
@@ -106,9 +106,17 @@ class Beside(Generic[T]):
             self._error = error
 
 
-def side_by_side(function: Callable[..., T], *arguments: Iterable[Any]) -> Iterator[T]:
+def side_by_side(
+    function: Callable[..., T], *arguments: Iterable[Any], work: Sequence[float] | None = None
+) -> Iterator[T]:
     """What a function returns for each of several arguments, as ``map`` gives it, computed on all cores
     that this process may use.
+
+    Args:
+        function: is called by several threads at once.
+        arguments: as ``map`` takes them.
+        work: about how long each call takes, in any unit: the longest begins first, so that no core waits for it at
+            the end. None where they take about as long.
 
     Raises:
         BaseException: the first in the order of the arguments that the function has raised; what has not begun is
@@ -126,8 +134,10 @@ def side_by_side(function: Callable[..., T], *arguments: Iterable[Any]) -> Itera
         return
     pool = ThreadPoolExecutor(threads, thread_name_prefix="physanimator-beside")
     try:
-        for each in [pool.submit(copy_context().run, function, *each) for each in calls]:
-            yield _awaited(each)
+        order = sorted(range(len(calls)), key=lambda number: 0.0 if work is None else -work[number])
+        begun = {number: pool.submit(copy_context().run, function, *calls[number]) for number in order}
+        for number in range(len(calls)):
+            yield _awaited(begun[number])
     finally:
         pool.shutdown(cancel_futures=True)
 

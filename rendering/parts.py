@@ -187,7 +187,8 @@ def parts_of_picture(
         mesh = _meshed(mask, spacing, name, seen)
         return mesh, () if seen is None else open_edges(seen, mask, elsewhere=elsewhere)
 
-    for mesh, edges in side_by_side(made, masks, names, _elsewhere(masks, cover)):
+    shown = [float(mask.sum()) for mask in masks]
+    for mesh, edges in side_by_side(made, masks, names, _elsewhere(masks, cover), work=shown):
         meshes.append(mesh)
         ending.append(edges)
         report(len(meshes), count)

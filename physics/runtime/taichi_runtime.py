@@ -37,6 +37,7 @@ __all__ = [
     "begin_aside",
     "compiled",
     "compiles_here",
+    "end",
     "is_beside",
     "keep_compiled",
     "launch",
@@ -170,7 +171,7 @@ class _TaichiThread:
         with self._starting:
             if self._thread is None:
                 self._process = os.getpid()
-                atexit.register(self._finish)
+                atexit.register(self.end)
                 self._thread = threading.Thread(target=self._work, name="physanimator-taichi", daemon=True)
                 self._thread.start()
         if self._process != os.getpid():
@@ -189,7 +190,7 @@ class _TaichiThread:
                 job.execute()
             del job  # the arrays of a finished job must not live until the next one
 
-    def _finish(self) -> None:
+    def end(self) -> None:
         """At the end of the process, close our program: only then does Taichi keep the compiled kernels on disk."""
         if self._process == os.getpid():
             if self._begins:  # for nothing, as bad input has been refused meanwhile
@@ -350,6 +351,11 @@ def keep_compiled() -> bool:
     between two jobs; the next one reads its kernels from disk, which takes half a second.
     """
     return run(_taichi_thread.keep_compiled, _goes_aside.get())
+
+
+def end() -> None:
+    """End the program, which writes the kernels that it has compiled to disk; nothing more can be launched then."""
+    _taichi_thread.end()
 
 
 def read_anew() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from typing import IO, Any
+from typing import IO, Any, NoReturn
 
 from ..errors import PhysAnimatorError
 from . import taichi_runtime
@@ -14,8 +14,11 @@ from .worker_pipe import receive, send
 __all__ = ["serve"]
 
 
-def serve() -> None:
-    """Answer messages until the standard input is closed."""
+def serve() -> NoReturn:
+    """Answer messages until the standard input is closed, and end the process.
+
+    When its kernels are kept, nothing in it is of use any more; to take all its modules apart would take far longer.
+    """
     incoming, outgoing = _pipes()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C is the other process's to understand
     taichi_runtime.own_this_process()
@@ -25,7 +28,8 @@ def serve() -> None:
         while True:
             send(outgoing, _answer(receive(incoming), constants))
     except (EOFError, OSError):
-        return
+        taichi_runtime.end()
+        os._exit(0)
 
 
 def _pipes() -> tuple[IO[bytes], IO[bytes]]:

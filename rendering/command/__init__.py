@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from .example import EXAMPLE
 from .exit_status import main
+from .program import program
 
 __all__ = [
     "EXAMPLE",
     "main",
+    "program",
 ]

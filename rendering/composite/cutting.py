@@ -8,12 +8,14 @@ picture B beneath it.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ...physics.beside import side_by_side
 from ...physics.errors import InvalidInputError
 from ...physics.mesh import PixelBox, TriangleMesh, triangle_ids
 from ..matting import fitting_plate, in_levels, mixed_rim, regular_mask, soft_alpha, with_outline
@@ -54,7 +56,8 @@ def take_apart(
         The plate, equal to the picture wherever no body is; and a layer for each body, from back to front.
     """
     masks = [regular_mask(picture, mask) for mask in masks]
-    supports, rounded = [with_outline(picture, mask) for mask in masks], in_levels(picture)
+    supports = list(side_by_side(partial(with_outline, picture), masks))
+    rounded = in_levels(picture)
     if plate is None:
         unknown = [each | mixed_rim(mask, each) for mask, each in zip(masks, supports, strict=True)]
         plate = _without(picture, np.logical_or.reduce(unknown))

@@ -28,6 +28,8 @@ _OUTLINED = 0.45
 # An outline is darker than what lies beyond by this, in the mean along the edge.
 _TOLERANCE = 0.055
 _SPECK = 20
+# What decides whether an edge is hard lies within this, where a blur of 5 px ends [px].
+_RIM_MARGIN = 24
 # Of colours in 255 levels, those that stay within a little less than half a level of each other round to the same.
 _ROUNDING = 0.49 / 255
 _LEVEL_ERROR = 1e-3
@@ -81,8 +83,12 @@ def mixed_rim(mask: FloatImage, support: Mask) -> Mask:
         mask: soft mask in 0 to 1, shape [h, w].
         support: where the part is, from ``with_outline``; shape [h, w].
     """
-    inside = mask > FAINT
-    return grown(inside, SQUARE) & ~support & hard_edge(mask, inside)
+    rim, inside = np.zeros(mask.shape, dtype=bool), mask > FAINT
+    if inside.any():
+        window = window_around(inside, margin=_RIM_MARGIN)
+        there = inside[window]
+        rim[window] = grown(there, SQUARE) & ~support[window] & hard_edge(mask[window], there)
+    return rim
 
 
 def soft_alpha(image: FloatImage, plate: FloatImage, mask: FloatImage, support: Mask) -> FloatImage:

@@ -90,6 +90,19 @@ def test_results_side_by_side_keep_their_order() -> None:
     assert list(side_by_side(slow_first, range(6))) == [0, 1, 4, 9, 16, 25]
 
 
+def test_the_longest_begins_first_side_by_side() -> None:
+    begun = []
+
+    def last(number: int) -> int:
+        begun.append(number)
+        time.sleep(0.02)
+        return number
+
+    assert list(side_by_side(last, range(6), work=[1, 2, 9, 3, 8, 4])) == [0, 1, 2, 3, 4, 5]
+    assert set(begun[:2]) == {2, 4}
+    assert set(begun[-2:]) == {0, 1}
+
+
 def test_the_first_error_side_by_side_leaves_out_the_rest() -> None:
     begun = []
 

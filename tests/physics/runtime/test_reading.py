@@ -41,6 +41,7 @@ def nested() -> Callable[[int], int]:
 
 @pytest.fixture(scope="module")
 def reader() -> Any:
+    taichi_runtime.run(taichi_runtime.compiled, vars)  # who imports Taichi first has it for the process
     from taichi.lang import kernel_impl
 
     return kernel_impl

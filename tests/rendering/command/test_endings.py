@@ -41,7 +41,7 @@ def contents(folder: Path) -> dict[str, bytes]:
 def run(*arguments: str, **options: object) -> subprocess.Popen[bytes]:
     script = (
         f"import runpy, sys; runpy.run_path({str(ROOT / 'tests' / 'conftest.py')!r})\n"
-        "from physanimator.rendering.command import main\nsys.exit(main(sys.argv[1:]))"
+        "from physanimator.rendering.command import program\nsys.exit(program())"
     )
     return subprocess.Popen([sys.executable, "-c", script, *arguments], **options)  # type: ignore[call-overload]
 
@@ -94,6 +94,29 @@ def test_what_cannot_be_printed_is_told() -> None:
         said = done.communicate()[1].decode()
     assert done.returncode == 1
     assert said.splitlines() == ["physanimator: No space left on device"]
+
+
+def test_the_process_waits_for_everybody_and_takes_nothing_apart() -> None:
+    script = (
+        f"import runpy; runpy.run_path({str(ROOT / 'tests' / 'conftest.py')!r})\n"
+        "import sys, threading, time\n"
+        "class Module:\n    def __del__(self):\n        print('taken apart')\n"
+        "kept = Module()\n"
+        "def late():\n    time.sleep(0.5)\n    print('thread')\n"
+        "threading.Thread(target=late).start()\n"
+        "from physanimator.rendering.command import program\n"
+        "sys.argv = ['physanimator', *sys.argv[1:]]\n"
+        "status = program()\n"
+        "import atexit\natexit.register(lambda: print('last words', end=''))\n"
+        "sys.exit(status)"
+    )
+    done = subprocess.run([sys.executable, "-c", script, "schema"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.endswith("}\nthread\nlast words")
+    missing = [sys.executable, "-c", script, "animate", "none.png", "-o", "a.mp4"]
+    done = subprocess.run(missing, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stdout.endswith("thread\nlast words")
 
 
 class _Narrow(io.TextIOWrapper):
