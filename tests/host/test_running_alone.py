@@ -30,6 +30,8 @@ _LAYERS = """
 _COUNTED = """
 () => {
   window.queued = 0;
+  if (window.counting) return;
+  window.counting = true;
   const { api } = app;
   const post = api.queuePrompt;
   api.queuePrompt = (...given) => {
