@@ -192,7 +192,9 @@ def test_console_script(wheel: Path, tmp_path: Path) -> None:
     entry = next(line.split(" = ")[1] for line in said.splitlines() if line.startswith("physanimator = "))
     module, function = entry.split(":")
     code = f"import sys; from {module} import {function}; sys.exit({function}())"
-    run = subprocess.run([sys.executable, "-c", code, "--version"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    run = subprocess.run(
+        [sys.executable, "-c", code, "--version"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
     assert run.returncode == 0, run.stderr
     assert run.stdout == f"physanimator {physanimator.__version__}\n"
 
