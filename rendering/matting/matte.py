@@ -28,6 +28,8 @@ _OUTLINED = 0.45
 # An outline is darker than what lies beyond by this, in the mean along the edge.
 _TOLERANCE = 0.055
 _SPECK = 20
+# Of a gap that is nowhere deeper, outlines are all that is seen [px].
+_LEAST_DEPTH = 2
 # What decides whether an edge is hard lies within this, where a blur of 5 px ends [px].
 _RIM_MARGIN = 24
 _HALF = 0.5
@@ -41,7 +43,7 @@ def with_outline(image: FloatImage, mask: FloatImage, *, reach: int = 5) -> Mask
     """Where a part is, its drawn outline included.
 
     An outline is what runs along a hard edge of the mask, hangs together with it and is darker than what lies
-    beyond ``reach``; a mask whose edge is soft has been drawn or cut with care, and ends where the part does, unless
+    beyond ``reach``, or in gaps narrower than that than what is in their middle; a mask whose edge is soft has been drawn or cut with care, and ends where the part does, unless
     such an outline runs along about half of it: then the mask has been made smaller or blurred afterwards.
     The pixels are compared one pixel of distance after the other, in the mean along the edge, so that the
     background's own texture cancels; the difference must exceed how much those beyond differ among themselves.
@@ -60,7 +62,7 @@ def with_outline(image: FloatImage, mask: FloatImage, *, reach: int = 5) -> Mask
     window = window_around(support, margin=4 * reach)
     inside, lightness = support[window], image[window] @ _LUMINANCE
     distance = cv2.distanceTransform((~inside).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    beyond = (distance > reach) & (distance <= 2 * reach)
+    beyond = (distance > reach) & (distance <= 2 * reach) | _middle_of_gaps(distance, reach)
     reference, known = mean_near(lightness, beyond)
     spread = np.sqrt(np.maximum(mean_near(lightness * lightness, beyond)[0] - reference * reference, 0))
     outline = np.zeros_like(inside)
@@ -73,6 +75,17 @@ def with_outline(image: FloatImage, mask: FloatImage, *, reach: int = 5) -> Mask
         joined = _joined(inside, outline & hard_edge(mask[window], inside), reach)
     support[window] = joined
     return support
+
+
+def _middle_of_gaps(distance: FloatImage, reach: int) -> Mask:
+    """The middle of gaps in which nothing is farther from the part than an outline may lie, shape [h, w].
+
+    Args:
+        distance: of each pixel from the part [px], shape [h, w].
+        reach: how far an outline may lie outside the part [px].
+    """
+    deepest = cv2.dilate(distance, np.ones((2 * reach + 3,) * 2, np.uint8))
+    return (deepest <= reach) & (deepest >= _LEAST_DEPTH) & (distance > deepest - 1)
 
 
 def mixed_rim(mask: FloatImage, support: Mask) -> Mask:
