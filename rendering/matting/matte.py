@@ -15,6 +15,7 @@ from ..pictures import window_around
 from .line_fill import filled_behind_lines
 from .mask_edges import FAINT, LEAST_CONTRAST, SOLID, SQUARE, WIDE, grown, hard_edge, inner_colour, mean_near
 from .measured_alpha import measured_alpha
+from .outline_colour import coloured_outline
 from .raised_alpha import INEXPLICABLE, raised_alpha
 from .solved_alpha import solved_alpha
 
@@ -28,6 +29,8 @@ _OUTLINED = 0.45
 # An outline is darker than what lies beyond by this, in the mean along the edge.
 _TOLERANCE = 0.055
 _SPECK = 20
+# Where an outline runs along more of a part's edge, what is left is where there is none.
+_WHOLE = 0.97
 # Of a gap that is nowhere deeper, outlines are all that is seen [px].
 _LEAST_DEPTH = 2
 # What decides whether an edge is hard lies within this, where a blur of 5 px ends [px].
@@ -72,9 +75,35 @@ def with_outline(image: FloatImage, mask: FloatImage, *, reach: int = 5) -> Mask
     joined = _joined(inside, outline, reach)
     rim = grown(inside, SQUARE) & ~inside
     if (joined & rim).sum() < _OUTLINED * rim.sum():
-        joined = _joined(inside, outline & hard_edge(mask[window], inside), reach)
+        outline &= hard_edge(mask[window], inside)
+        joined = _joined(inside, outline, reach)
+    inked = _hidden_outline(image[window], mask[window], inside, rim & ~joined, reach=reach)
+    if inked.any():
+        joined = _joined(inside, outline | inked, reach)
     support[window] = joined
     return support
+
+
+def _hidden_outline(image: FloatImage, mask: FloatImage, inside: Mask, rest: Mask, *, reach: int) -> Mask:
+    """Where an outline that is seen along most of a part goes on in front of what is as dark or as varied as it.
+
+    A mask that has been made smaller has such an outline within it here and leaves it outside there.
+
+    Args:
+        image: RGB in 0 to 1, shape [h, w, 3].
+        mask: soft mask in 0 to 1, shape [h, w].
+        inside: where that shows something of the part, shape [h, w].
+        rest: the pixels next to it along which no outline has been found, shape [h, w].
+        reach: how far an outline may lie outside the mask [px].
+    """
+    edge = inside & grown(~inside, SQUARE)
+    lined = edge & ((inner_colour(image, inside) - image) @ _LUMINANCE > _TOLERANCE)
+    bare = rest & hard_edge(mask, inside) & ~grown(lined, SQUARE)
+    share = float(bare.sum()) / max(1, int((grown(inside, SQUARE) & ~inside).sum()))
+    if not 1 - _WHOLE < share <= 1 - _OUTLINED:
+        return np.zeros_like(inside)
+    near = grown(bare, np.ones((2 * reach + 1,) * 2, np.uint8))
+    return coloured_outline(image, inside, reach=reach, as_dark=False) & near
 
 
 def _middle_of_gaps(distance: FloatImage, reach: int) -> Mask:

@@ -16,7 +16,7 @@ FloatImage = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
 
-def coloured_outline(image: FloatImage, shape: Mask, *, reach: int) -> Mask:
+def coloured_outline(image: FloatImage, shape: Mask, *, reach: int, as_dark: bool = True) -> Mask:
     """What runs along a part and is rather of its outline's colour than of the colour beyond, where both are as dark.
 
     A line as wide as the reach is no outline, but something else of that colour.
@@ -36,8 +36,9 @@ def coloured_outline(image: FloatImage, shape: Mask, *, reach: int) -> Mask:
     # A line's own colour is where it differs most from what is behind: its rim is mixed.
     strength = np.where(line, np.linalg.norm(image - beyond, axis=2), 0).astype(np.float32)
     ink = _nearest(image, line & (strength >= cv2.dilate(strength, SQUARE)))
-    as_dark = (beyond - ink) @ LUMINANCE < TOLERANCE
-    telling = as_dark & (np.linalg.norm(ink - beyond, axis=2) > LEAST_CONTRAST) & _nearer(image, ink, beyond)
+    telling = (np.linalg.norm(ink - beyond, axis=2) > LEAST_CONTRAST) & _nearer(image, ink, beyond)
+    if as_dark:
+        telling &= (beyond - ink) @ LUMINANCE < TOLERANCE
     rings = [(distance > step) & (distance <= step + 1) for step in range(reach)]
     means = [_near(image, ring) for ring in rings]
     telling &= ~_nearer(means[-1], ink, beyond)
