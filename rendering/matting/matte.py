@@ -46,10 +46,12 @@ def with_outline(image: FloatImage, mask: FloatImage, *, reach: int = 5) -> Mask
     """Where a part is, its drawn outline included.
 
     An outline is what runs along a hard edge of the mask, hangs together with it and is darker than what lies
-    beyond ``reach``, or in gaps narrower than that than what is in their middle; a mask whose edge is soft has been drawn or cut with care, and ends where the part does, unless
-    such an outline runs along about half of it: then the mask has been made smaller or blurred afterwards.
+    beyond ``reach``, or, in gaps narrower than that, than what is in their middle. A mask whose edge is soft has been
+    drawn or cut with care, and ends where the part does, unless such an outline runs along about half of it: then the
+    mask has been made smaller or blurred afterwards.
     The pixels are compared one pixel of distance after the other, in the mean along the edge, so that the
     background's own texture cancels; the difference must exceed how much those beyond differ among themselves.
+    Where an outline is seen along most of a part, in the mask or beside it, its ink's colour tells the rest.
 
     Args:
         image: RGB in 0 to 1, shape [h, w, 3].
