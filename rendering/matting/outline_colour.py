@@ -1,4 +1,4 @@
-"""The outline of a part where what is behind is as dark as its ink: the ink's colour tells it there."""
+"""The outline of a part where what is behind is as dark as its ink, or as varied: the ink's colour tells it there."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Mask = NDArray[np.bool_]
 
 
 def coloured_outline(image: FloatImage, shape: Mask, *, reach: int, as_dark: bool = True) -> Mask:
-    """What runs along a part and is rather of its outline's colour than of the colour beyond, where both are as dark.
+    """What runs along a part and is rather of its outline's colour than of the colour beyond.
 
     A line as wide as the reach is no outline, but something else of that colour.
 
@@ -25,6 +25,7 @@ def coloured_outline(image: FloatImage, shape: Mask, *, reach: int, as_dark: boo
         image: RGB in 0 to 1, shape [h, w, 3], or with further channels.
         shape: the part, shape [h, w].
         reach: how far an outline may lie outside [px].
+        as_dark: only where what lies beyond is as dark as the ink.
 
     Returns:
         Pixels outside of the part, shape [h, w]; none if the part has no outline.
