@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
@@ -25,9 +24,6 @@ from .apron import ApronedMesh, canvas_of, usual_reach
 from .beyond_border import on_canvas
 from .layer import Layer
 from .still_layers import StillLayer, still_layer
-
-if TYPE_CHECKING:
-    pass
 
 __all__ = ["aproned", "picture_beneath", "take_apart"]
 
