@@ -5,38 +5,18 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
+from drawn_shapes import FINE, coverage, filled, grained, over
 from physanimator.rendering.matting import regular_mask, regularisation
 from physanimator.rendering.matting.outline_colour import coloured_outline
 from physanimator.rendering.matting.strand_ends import strand_ends
 
-HEIGHT, WIDTH, FINE = 200, 180, 4
+HEIGHT, WIDTH = SIZE = (200, 180)
 SKY, RED = (0.6, 0.75, 0.9), (0.55, 0.2, 0.45)
 # The ink is seen by its hue only in front of the wood.
 WOOD, INK = (0.32, 0.05, 0.02), (0.2, 0.08, 0.2)
 TIP = [(50, 20), (130, 20), (120, 90), (105, 150), (95, 170), (80, 110), (60, 80)]
 
 Mask = np.ndarray
-
-
-def coverage(fine: np.ndarray) -> Mask:
-    return cv2.resize(fine.astype(np.float32), (WIDTH, HEIGHT), interpolation=cv2.INTER_AREA)
-
-
-def filled(*polygons: list[tuple[float, float]]) -> np.ndarray:
-    fine = np.zeros((HEIGHT * FINE, WIDTH * FINE), np.uint8)
-    for points in polygons:
-        cv2.fillPoly(fine, [np.rint(np.float32(points) * FINE).astype(np.int32)], 1)
-    return fine
-
-
-def grained(colour: tuple[float, ...]) -> np.ndarray:
-    random = np.random.default_rng(0)
-    spots = cv2.GaussianBlur(random.normal(0, 1, (HEIGHT, WIDTH, 3)).astype(np.float32), (0, 0), 2) * 0.05
-    return np.clip(np.float32(colour) + spots, 0, 1).astype(np.float32)
-
-
-def over(picture: np.ndarray, colour: tuple[float, ...], alpha: Mask) -> np.ndarray:
-    return np.asarray(picture + alpha[..., None] * (np.float32(colour) - picture), np.float32)
 
 
 def rough(alpha: Mask, cut: int) -> Mask:
@@ -51,17 +31,17 @@ def rough(alpha: Mask, cut: int) -> Mask:
 @pytest.mark.parametrize("lost", [14, 24])
 def test_an_end_is_found_that_a_rough_mask_has_cut_off(lost: int) -> None:
     """Further from the mask than its edge may be wrong: nothing but the end of the part divides the two."""
-    alpha = coverage(filled(TIP))
+    alpha = coverage(filled(SIZE, TIP))
     end = (alpha > 0.9) & (np.arange(HEIGHT)[:, None] > 170 - lost)
-    found = regular_mask(over(grained(SKY), RED, alpha), rough(alpha, 170 - lost)) > 0.5
+    found = regular_mask(over(grained(SIZE, SKY), RED, alpha), rough(alpha, 170 - lost)) > 0.5
     assert found[end].mean() > 0.95
     assert not found[alpha < 0.02].any()
 
 
 def test_a_careful_mask_may_end_within_one_colour() -> None:
-    alpha = coverage(filled(TIP))
+    alpha = coverage(filled(SIZE, TIP))
     mask = np.where(np.arange(HEIGHT)[:, None] < 150, alpha, np.float32(0))
-    assert not (regular_mask(over(grained(SKY), RED, alpha), mask) > 0.5)[152:].any()
+    assert not (regular_mask(over(grained(SIZE, SKY), RED, alpha), mask) > 0.5)[152:].any()
 
 
 def outlined(fine: np.ndarray, width: float = 2) -> Mask:
@@ -70,9 +50,9 @@ def outlined(fine: np.ndarray, width: float = 2) -> Mask:
 
 def test_an_outline_is_found_by_its_colour_in_front_of_what_is_as_dark() -> None:
     """By its lightness only beside the wood, in front of the sky."""
-    fine = filled([(20, 60), (160, 60), (160, 90), (20, 90)])
+    fine = filled(SIZE, [(20, 60), (160, 60), (160, 90), (20, 90)])
     wooden = np.abs(np.arange(WIDTH) - 110) < 25
-    behind = np.where(wooden[None, :, None], grained(WOOD), grained(SKY))
+    behind = np.where(wooden[None, :, None], grained(SIZE, WOOD), grained(SIZE, SKY))
     picture = over(over(behind, INK, outlined(fine)), RED, coverage(fine))
     shape, along = coverage(fine) > 0.5, np.abs(np.arange(WIDTH) - 110) < 15
     found = coloured_outline(picture, shape, reach=5)
@@ -82,9 +62,9 @@ def test_an_outline_is_found_by_its_colour_in_front_of_what_is_as_dark() -> None
 
 
 def test_no_outline_is_found_beside_something_wide_of_its_colour() -> None:
-    fine = filled([(20, 60), (160, 60), (160, 90), (20, 90)])
-    behind = np.where((np.abs(np.arange(WIDTH) - 110) < 25)[None, :, None], grained(WOOD), grained(SKY))
-    ground = coverage(filled([(0, 90), (180, 90), (180, 96), (0, 96)]))
+    fine = filled(SIZE, [(20, 60), (160, 60), (160, 90), (20, 90)])
+    behind = np.where((np.abs(np.arange(WIDTH) - 110) < 25)[None, :, None], grained(SIZE, WOOD), grained(SIZE, SKY))
+    ground = coverage(filled(SIZE, [(0, 90), (180, 90), (180, 96), (0, 96)]))
     picture = over(over(over(behind, INK, outlined(fine)), INK, ground), RED, coverage(fine))
     below = (np.arange(HEIGHT)[:, None] > 92) & (np.abs(np.arange(WIDTH) - 110) < 15)
     assert not coloured_outline(picture, coverage(fine) > 0.5, reach=5)[below].any()
@@ -92,10 +72,12 @@ def test_no_outline_is_found_beside_something_wide_of_its_colour() -> None:
 
 def tapering(*, bend: float = 0) -> tuple[np.ndarray, Mask, Mask]:
     """A strand that fades into another colour as it tapers, what of it is known, and its end, which may be bent."""
-    strand = filled([(20, 67), (100, 68), (100, 72), (20, 73)])
-    end = filled([(99, 68), (140, 69 + bend), (140, 71 + bend), (99, 72)])
+    strand = filled(SIZE, [(20, 67), (100, 68), (100, 72), (20, 73)])
+    end = filled(SIZE, [(99, 68), (140, 69 + bend), (140, 71 + bend), (99, 72)])
     fade = np.clip((np.arange(WIDTH) - 90) / 50, 0, 1).astype(np.float32)
-    picture = over(over(grained(SKY), RED, coverage(strand | end)), (0.3, 0.3, 0.7), coverage(strand | end) * fade)
+    picture = over(
+        over(grained(SIZE, SKY), RED, coverage(strand | end)), (0.3, 0.3, 0.7), coverage(strand | end) * fade
+    )
     known = coverage(strand) > 0.5
     return picture, known, (coverage(end) > 0.6) & ~known
 
@@ -114,7 +96,7 @@ def test_a_line_that_leaves_a_strand_in_another_direction_is_not_its_end() -> No
 
 def test_a_line_that_goes_on_from_something_wide_is_no_strands_end() -> None:
     picture, known, _ = tapering()
-    wide = known | (coverage(filled([(20, 30), (100, 30), (100, 110), (20, 110)])) > 0.5)
+    wide = known | (coverage(filled(SIZE, [(20, 30), (100, 30), (100, 110), (20, 110)])) > 0.5)
     assert not strand_ends(picture, wide, wide).any()
 
 
@@ -133,7 +115,7 @@ def test_a_part_at_the_border_of_the_picture_is_looked_at_once(monkeypatch: pyte
         return made(image, mask)
 
     monkeypatch.setattr(regularisation, "_REGULAR", counted)
-    alpha = coverage(filled([(70, 120), (110, 120), (110, 200), (70, 200)]))
-    found = regular_mask(over(grained(SKY), RED, alpha), shrunk(alpha))
+    alpha = coverage(filled(SIZE, [(70, 120), (110, 120), (110, 200), (70, 200)]))
+    found = regular_mask(over(grained(SIZE, SKY), RED, alpha), shrunk(alpha))
     assert found[-1].max() == 1
     assert len(looked) == 1

@@ -5,20 +5,13 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
+from drawn_shapes import FINE, coverage, over
 from physanimator.rendering.matting import with_outline
 
-SIZE, FINE = 160, 4
+SIZE = 160
 SKY, SKIN, INK = (0.85, 0.9, 1.0), (0.95, 0.8, 0.7), (0.3, 0.08, 0.3)
 # Seen behind the lower half: in the mean as light as the ink, in other colours.
 SHADE = (0.05, 0.25, 0.05)
-
-
-def coverage(fine: np.ndarray) -> np.ndarray:
-    return cv2.resize(fine.astype(np.float32), (SIZE, SIZE), interpolation=cv2.INTER_AREA)
-
-
-def over(picture: np.ndarray, colour: tuple[float, ...], alpha: np.ndarray) -> np.ndarray:
-    return np.asarray(picture + alpha[..., None] * (np.float32(colour) - picture), np.float32)
 
 
 def drawn(fine: np.ndarray, behind: np.ndarray, line: float = 2.5) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

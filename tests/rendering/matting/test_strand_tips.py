@@ -5,12 +5,13 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
+from drawn_shapes import FINE, coverage, filled, grained, over
 from physanimator.rendering.matting import moved_edges, regular_mask, soft_alpha
 from physanimator.rendering.matting.mask_edges import edge_strength
 from physanimator.rendering.matting.mask_forms import edge_of
 from physanimator.rendering.matting.strand_ends import coloured_ends, leading_away
 
-HEIGHT, WIDTH, FINE = 200, 260, 4
+HEIGHT, WIDTH = SIZE = (200, 260)
 WOOD, INK, PINK, SKY, HAIR = (0.3, 0.05, 0.02), (0.25, 0.1, 0.3), (0.7, 0.25, 0.5), (0.6, 0.75, 0.9), (0.55, 0.3, 0.2)
 BODY = [(20, 30), (80, 20), (90, 90), (70, 150), (25, 140)]
 # From the body to the right, narrower all the way to its end.
@@ -19,29 +20,8 @@ STRAND = [(75, 64), (120, 66), (170, 83), (222, 113), (221, 115), (168, 87), (12
 Mask = np.ndarray
 
 
-def coverage(fine: np.ndarray) -> Mask:
-    return cv2.resize(fine.astype(np.float32), (WIDTH, HEIGHT), interpolation=cv2.INTER_AREA)
-
-
-def filled(*polygons: list[tuple[int, int]]) -> np.ndarray:
-    fine = np.zeros((HEIGHT * FINE, WIDTH * FINE), np.uint8)
-    for points in polygons:
-        cv2.fillPoly(fine, [np.int32(points) * FINE], 1)
-    return fine
-
-
 def outlined(fine: np.ndarray, width: float = 1.5) -> Mask:
     return coverage(cv2.distanceTransform(1 - fine, cv2.DIST_L2, cv2.DIST_MASK_PRECISE) <= width * FINE)
-
-
-def grained(colour: tuple[float, ...]) -> np.ndarray:
-    random = np.random.default_rng(0)
-    spots = cv2.GaussianBlur(random.normal(0, 1, (HEIGHT, WIDTH, 3)).astype(np.float32), (0, 0), 2) * 0.05
-    return np.clip(np.float32(colour) + spots, 0, 1).astype(np.float32)
-
-
-def over(picture: np.ndarray, colour: tuple[float, ...], alpha: Mask) -> np.ndarray:
-    return np.asarray(picture + alpha[..., None] * (np.float32(colour) - picture), np.float32)
 
 
 def disc(radius: int) -> np.ndarray:
@@ -50,8 +30,8 @@ def disc(radius: int) -> np.ndarray:
 
 def drawn() -> tuple[np.ndarray, Mask]:
     """A body with a strand, outlined, in front of something dark; and where both are."""
-    fine = filled(BODY, STRAND)
-    return over(over(grained(WOOD), INK, outlined(fine)), PINK, coverage(fine)), outlined(fine)
+    fine = filled(SIZE, BODY, STRAND)
+    return over(over(grained(SIZE, WOOD), INK, outlined(fine)), PINK, coverage(fine)), outlined(fine)
 
 
 @pytest.mark.parametrize(("cut", "stops"), [(160, 175), (194, WIDTH)])
@@ -60,7 +40,7 @@ def test_a_walk_that_stops_along_a_strand_is_continued_in_its_colours(
 ) -> None:
     """To the end that the colours show, though the mask's edges on either side of its cut are as strong."""
     picture, truth = drawn()
-    whole = coverage(filled(STRAND, BODY)) > 0.5
+    whole = coverage(filled(SIZE, STRAND, BODY)) > 0.5
     mask, walked = whole & (np.arange(WIDTH) < cut), whole & (np.arange(WIDTH) < stops)
     likely = np.where(whole, np.float32(0.97), np.float32(0.03))
     monkeypatch.setattr(moved_edges, "found_shape", lambda *_: (walked, likely))
@@ -71,17 +51,17 @@ def test_a_walk_that_stops_along_a_strand_is_continued_in_its_colours(
 
 
 def test_ends_go_on_from_strands_that_a_mask_has_and_from_no_others() -> None:
-    fine = filled(STRAND, BODY)
+    fine = filled(SIZE, STRAND, BODY)
     whole = coverage(fine) > 0.5
     known = whole & (np.arange(WIDTH) < 160)
     beyond = whole & ~known
     assert coloured_ends(known, whole, known)[beyond].mean() > 0.95
-    body = coverage(filled(BODY)) > 0.5
+    body = coverage(filled(SIZE, BODY)) > 0.5
     assert not coloured_ends(known, whole, body).any()
 
 
 def test_what_lies_along_a_mask_does_not_lead_away_from_it() -> None:
-    whole = coverage(filled(STRAND, BODY)) > 0.5
+    whole = coverage(filled(SIZE, STRAND, BODY)) > 0.5
     assert not leading_away(cv2.dilate(whole.astype(np.uint8), disc(3)) > 0, whole).any()
     known = whole & (np.arange(WIDTH) < 190)
     assert leading_away(whole, known)[whole & ~known].mean() > 0.95
@@ -89,9 +69,9 @@ def test_what_lies_along_a_mask_does_not_lead_away_from_it() -> None:
 
 def test_edges_that_two_shapes_share_do_not_count() -> None:
     """The cut across a strand is within one colour, and its sides are not."""
-    whole = coverage(filled([(20, 90), (220, 90), (220, 98), (20, 98)])) > 0.5
+    whole = coverage(filled(SIZE, [(20, 90), (220, 90), (220, 98), (20, 98)])) > 0.5
     cut = whole & (np.arange(WIDTH) < 150)
-    picture = over(grained(SKY), PINK, whole.astype(np.float32))
+    picture = over(grained(SIZE, SKY), PINK, whole.astype(np.float32))
     at = (94, 150)
     assert edge_strength(picture, cut)[at] > 0.1
     assert edge_strength(picture, cut, apart_from=whole)[at] < 0.02
@@ -100,9 +80,9 @@ def test_edges_that_two_shapes_share_do_not_count() -> None:
 
 def test_what_is_seen_through_a_gap_that_a_mask_has_closed_is_no_part_of_it() -> None:
     """Beyond the gap lies something else, and the sky is seen elsewhere only."""
-    ribbon = filled([(40, 60), (210, 50), (210, 80), (40, 90)])
-    hair = filled([(0, 106), (260, 98), (260, 200), (0, 200)])
-    picture = over(over(grained(SKY), INK, outlined(hair)), HAIR, coverage(hair))
+    ribbon = filled(SIZE, [(40, 60), (210, 50), (210, 80), (40, 90)])
+    hair = filled(SIZE, [(0, 106), (260, 98), (260, 200), (0, 200)])
+    picture = over(over(grained(SIZE, SKY), INK, outlined(hair)), HAIR, coverage(hair))
     picture = over(over(picture, INK, outlined(ribbon)), (0.95, 0.75, 0.2), coverage(ribbon))
     mask = cv2.dilate((outlined(ribbon) > 0.5).astype(np.float32), disc(9))
     gap = (outlined(ribbon, 2.5) < 0.02) & (outlined(hair, 2.5) < 0.02) & (np.arange(HEIGHT)[:, None] > 70) & (mask > 0)
