@@ -97,6 +97,9 @@ def _hidden_outline(image: FloatImage, mask: FloatImage, inside: Mask, rest: Mas
         inside: where that shows something of the part, shape [h, w].
         rest: the pixels next to it along which no outline has been found, shape [h, w].
         reach: how far an outline may lie outside the mask [px].
+
+    Returns:
+        Pixels of the outline outside the mask, shape [h, w].
     """
     edge = inside & grown(~inside, SQUARE)
     lined = edge & ((inner_colour(image, inside) - image) @ _LUMINANCE > _TOLERANCE)

@@ -17,26 +17,35 @@ from physanimator.physics import process_end
 from physanimator.physics.errors import Cancelled
 """
 
+# Whoever does some work when the process ends.
+WORKING = """\
+def work():
+    try:
+        with process_end.working():
+            begun.set()
+            some()
+    except Cancelled as error:
+        print(error, flush=True)
+begun = threading.Event()
+threading.Thread(target=work, daemon=True).start()
+begun.wait()
+"""
+
 
 def ended(code: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, "-c", START + code], capture_output=True, text=True, timeout=60, check=False)
 
 
 def test_the_end_waits_for_work_and_tells_it_to_stop() -> None:
-    done = ended("""\
-def work():
-    try:
-        with process_end.working():
-            begun.set()
-            for _ in range(1000):
-                time.sleep(0.02)
-                process_end.stop_at_end()
-    except Cancelled as error:
-        print(error, flush=True)
-begun = threading.Event()
-threading.Thread(target=work, daemon=True).start()
-begun.wait()
-""")
+    done = ended(
+        """\
+def some():
+    for _ in range(1000):
+        time.sleep(0.02)
+        process_end.stop_at_end()
+"""
+        + WORKING
+    )
     assert (done.returncode, done.stdout, done.stderr) == (0, "the process is ending\n", "")
 
 
@@ -83,22 +92,17 @@ time.sleep({seconds})
 
 @pytest.mark.skipif(os.name == "nt", reason="os.kill ends the process on Windows")
 def test_ctrl_c_does_not_tear_the_end_apart() -> None:
-    done = ended("""\
+    done = ended(
+        """\
 import os, signal
-def work():
-    try:
-        with process_end.working():
-            begun.set()
-            time.sleep(0.3)
-            os.kill(os.getpid(), signal.SIGINT)
-            time.sleep(0.3)
-            process_end.stop_at_end()
-    except Cancelled as error:
-        print(error, flush=True)
-begun = threading.Event()
-threading.Thread(target=work, daemon=True).start()
-begun.wait()
-""")
+def some():
+    time.sleep(0.3)
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(0.3)
+    process_end.stop_at_end()
+"""
+        + WORKING
+    )
     assert (done.returncode, done.stdout, done.stderr) == (0, "the process is ending\n", "")
 
 

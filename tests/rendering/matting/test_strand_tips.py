@@ -50,6 +50,21 @@ def test_a_walk_that_stops_along_a_strand_is_continued_in_its_colours(
     assert not found[truth < 0.02].any()
 
 
+@pytest.mark.parametrize(("wood", "cut"), [(195, 190), (205, 202)])
+def test_a_tip_is_judged_by_its_cut_and_not_by_the_edges_beside_it(
+    wood: int, cut: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Before the cut the strand stands out against the sky, and its tip little against the wood."""
+    fine = filled(SIZE, BODY, STRAND)
+    behind = np.where((np.arange(WIDTH) < wood)[None, :, None], grained(SIZE, SKY), grained(SIZE, WOOD))
+    whole = coverage(fine) > 0.5
+    given = (whole & (np.arange(WIDTH) < cut)).astype(np.float32)
+    likely = np.where(whole, np.float32(0.97), np.float32(0.03))
+    monkeypatch.setattr(moved_edges, "found_shape", lambda *_: (whole, likely))
+    _, moved = moved_edges.searched(over(behind, PINK, coverage(fine)), given, edge_of(given), reach=10)
+    assert moved[whole & (given == 0)].mean() > 0.9
+
+
 def test_ends_go_on_from_strands_that_a_mask_has_and_from_no_others() -> None:
     fine = filled(SIZE, STRAND, BODY)
     whole = coverage(fine) > 0.5
